@@ -1,0 +1,33 @@
+#include "core/base/result.h"
+
+namespace farhorizon {
+
+const char* ErrorCodeName(ErrorCode code) {
+  switch (code) {
+    case ErrorCode::kInvalidArgument:
+      return "invalid-argument";
+    case ErrorCode::kNotFound:
+      return "not-found";
+    case ErrorCode::kUnsupportedData:
+      return "unsupported-data";
+    case ErrorCode::kResourceExhausted:
+      return "resource-exhausted";
+    case ErrorCode::kCancelled:
+      return "cancelled";
+    case ErrorCode::kIo:
+      return "io";
+  }
+  return "unknown";
+}
+
+Error Error::Within(const std::string& where) && {
+  return {code, where + ": " + message, std::move(kind)};
+}
+
+void Check(bool holds, const char* what, std::source_location where) {
+  if (holds) return;
+  throw InternalError(std::string(where.file_name()) + ":" + std::to_string(where.line()) + ": " +
+                      what);
+}
+
+}  // namespace farhorizon

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/base/progress.h"
+#include "core/base/result.h"
+#include "core/horizon/skyline.h"
+#include "core/terrain/terrain.h"
+
+namespace farhorizon {
+
+/// An edge of the terrain that lies on the distant horizon of some horizontal line of sight, with one
+/// such line. witness.t runs from a to b.
+struct HorizonEdge {
+  Edge edge;
+  Witness witness;
+};
+
+/// What the sweep met, for report.json.
+struct HorizonStatistics {
+  std::int64_t terrain_edges = 0;
+  std::int64_t candidates = 0;    ///< edges that the culls left to be decided
+  std::int64_t peaks = 0;         ///< local maxima, a level top counting once for each of its posts
+  std::int64_t clusters_max = 0;  ///< most merged hulls that were apart at any level
+  std::int64_t births = 0;        ///< peaks outside every merged hull
+  std::int64_t merges = 0;        ///< merges of two clusters
+  PredicateCounts predicates;
+};
+
+/// The level at which each post disappears inside a merged hull, and in which one: a bound from below
+/// on the height of the visual hull, good for a quick and certain "hidden".
+class HullForest {
+ public:
+  /// True only if every line of sight that crosses the segment between posts u and w meets ground at
+  /// or above it: the segment may stand in any mesh without raising the skyline. False: not known.
+  [[nodiscard]] bool Hides(VertexId u, std::int32_t height_u, VertexId w,
+                           std::int32_t height_w) const;
+
+  std::vector<std::int32_t> covered_level;  ///< per post; kNoHeight where never
+  std::vector<std::int32_t> cluster;        ///< per post: node of the forest it was covered by; -1
+  std::vector<std::int32_t> parent;         ///< per node: the node it merged into; -1 at a root
+  std::vector<std::int32_t> merge_level;    ///< per node: the level at which it did
+};
+
+struct Horizon {
+  std::vector<HorizonEdge> edges;  ///< by rising (a, b)
+  HorizonStatistics statistics;
+  HullForest hulls;
+};
+
+/// The edges of `terrain` that lie on the distant horizon for at least one line of sight: creases that
+/// attain the greatest height over the line on a set of lines with non-empty interior.
+///
+/// Exact for every terrain; the same for any `threads`.
+/// Errors: kCancelled when the watch says stop.
+/// Cost: about O(n log n) on real terrain; a few hundred bytes a candidate, some 20 a post.
+Result<Horizon> FindHorizon(const Terrain& terrain, int threads, const Watch& watch);
+
+/// The greatest height of the terrain over the plan line through `witness` on `edge` is at the witness:
+/// a check from the heights alone, independent of how the witness was found. Exact.
+/// Cost: O(columns + rows).
+bool WitnessHolds(const Terrain& terrain, Edge edge, const Witness& witness);
+
+}  // namespace farhorizon

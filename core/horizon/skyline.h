@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/terrain/terrain.h"
+
+namespace farhorizon {
+
+/// A straight piece of ground in exact coordinates: columns, rows, heights in quanta.
+struct Segment {
+  Point3i a;
+  Point3i b;
+};
+
+/// A line of sight that touches a segment and nowhere meets higher ground.
+/// t: 0 at a, 1 at b; a dyadic number, exact in double. direction: columns and rows, integers.
+struct Witness {
+  double t = 0;
+  std::int32_t dc = 0;
+  std::int32_t dr = 0;
+};
+
+/// What level ground does to the sight along it.
+enum class Ties {
+  kPass,   ///< a line of sight may run on at the height of level ground (definition D2)
+  kBlock,  ///< ground of equal height hides (whether a segment would raise the skyline)
+};
+
+/// Counts of exact decisions, by the rung that made them.
+struct PredicateCounts {
+  std::int64_t filtered = 0;
+  std::int64_t exact = 0;
+  std::int64_t tied = 0;
+};
+
+/// A set of segments that hide what lies behind them: the skyline of a terrain, a mesh, a network.
+///
+/// H(l), the greatest height of the segments over a plan line l, is all that is ever asked of it. The
+/// set may change; ids are handed out by Insert and are never used again.
+/// Properties: every answer is exact. Limits: |x|, |y| <= 2^16, |z| < 2^30.
+/// Threads: any number may ask at once while nobody inserts or erases.
+class Skyline {
+ public:
+  /// columns, rows: the extent of the plan that segments will lie in.
+  Skyline(std::int32_t columns, std::int32_t rows);
+  ~Skyline();
+  Skyline(Skyline&&) noexcept;
+  Skyline& operator=(Skyline&&) noexcept;
+
+  using Id = std::int32_t;
+  Id Insert(const Segment& segment);
+  void Erase(Id id);
+  [[nodiscard]] std::int64_t size() const;
+
+  /// A line of sight that touches `segment` and meets nothing of the set above (kPass) or at or above
+  /// (kBlock) it, on a set of lines with non-empty interior; nullopt if there is none. `except` names
+  /// one member to look through, usually the segment itself.
+  /// blockers: where not null and the answer is nullopt, receives ids that hide all of it, unsorted.
+  /// Cost: about the segments in sight.
+  [[nodiscard]] std::optional<Witness> FindSight(const Segment& segment, Ties ties,
+                                                 std::optional<Id> except = std::nullopt,
+                                                 std::vector<Id>* blockers = nullptr,
+                                                 PredicateCounts* counts = nullptr) const;
+
+ private:
+  struct Index;
+  std::unique_ptr<Index> index_;
+};
+
+}  // namespace farhorizon

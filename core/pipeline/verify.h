@@ -1,0 +1,24 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/base/progress.h"
+#include "core/base/result.h"
+
+namespace farhorizon {
+
+/// One claim of the artifacts, measured again.
+struct ClaimCheck {
+  bool holds = false;
+  std::string claim;  ///< what was claimed and what was found, on one line
+};
+
+/// Measures every claim that `directory` makes about `dem` again, from the files alone.
+/// Errors: where a file is missing or cannot be read at all.
+Result<std::vector<ClaimCheck>> VerifyArtifacts(const std::filesystem::path& dem,
+                                                const std::filesystem::path& directory,
+                                                const Watch& watch);
+
+}  // namespace farhorizon

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "core/base/progress.h"
+#include "core/base/result.h"
+#include "core/horizon/horizon.h"
+#include "core/terrain/mesh.h"
+#include "core/terrain/terrain.h"
+
+namespace farhorizon {
+
+/// Greatest and root mean square of an error, metres.
+struct ErrorMeasure {
+  double max_m = 0;
+  double rms_m = 0;
+};
+
+/// How far a mesh is from its DEM, in the frame of the grid.
+struct MeshError {
+  ErrorMeasure vertical;    ///< |height of the DEM - height of the mesh| at the posts
+  ErrorMeasure silhouette;  ///< max: an upper bound, certified; rms: over lines drawn uniformly
+  double displacement = 0;  ///< greatest distance of a vertex from its post, columns or rows
+};
+
+/// Measures `mesh`, whose point i stands for post `posts[i]`, against the terrain.
+///
+/// The silhouette bound is a proof: no edge of the mesh lowered by it is in sight over the terrain, no
+/// horizon edge lowered by it is in sight over the mesh (exact, on the posts), plus what the vertices'
+/// distance from their posts can do. `asked_m` is where the search for the least bound begins.
+/// Errors: kUnsupportedData where the mesh has a hole, a flipped triangle or a vertex away from its
+///   post by more than half a cell; kCancelled.
+Result<MeshError> MeasureMeshError(const Terrain& terrain, const Horizon& horizon,
+                                   const GridMesh& mesh, const std::vector<VertexId>& posts,
+                                   double asked_m, const Watch& watch);
+
+}  // namespace farhorizon

@@ -1,0 +1,30 @@
+#include "core/base/result.h"
+
+#include <gtest/gtest.h>
+
+namespace farhorizon {
+namespace {
+
+TEST(Result, CarriesEitherTheValueOrTheError) {
+  Result<int> value = 7;
+  ASSERT_TRUE(value);
+  EXPECT_EQ(*value, 7);
+  Result<int> failure = Error{ErrorCode::kIo, "disk gone"};
+  EXPECT_FALSE(failure);
+  EXPECT_EQ(failure.error().message, "disk gone");
+}
+
+TEST(Result, ReadingTheValueOfAFailureIsOurBug) {
+  Result<int> failure = Error{ErrorCode::kIo, "disk gone"};
+  EXPECT_THROW(*failure, InternalError);
+}
+
+TEST(Error, WithinPutsTheStepInFront) {
+  Error error{ErrorCode::kIo, "file is empty", "empty"};
+  const Error outer = std::move(error).Within("read DEM");
+  EXPECT_EQ(outer.message, "read DEM: file is empty");
+  EXPECT_EQ(outer.kind, "empty");
+}
+
+}  // namespace
+}  // namespace farhorizon
