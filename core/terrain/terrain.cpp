@@ -1,0 +1,180 @@
+#include "core/terrain/terrain.h"
+
+#include <algorithm>
+
+namespace farhorizon {
+namespace {
+
+struct Offset {
+  std::int32_t column;
+  std::int32_t row;
+};
+
+// Clockwise in the picture (rows downwards), starting east: successive offsets are the corners that a
+// walk around the post's four cells passes.
+constexpr std::array<Offset, 8> kAround = {
+    {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}}};
+
+}  // namespace
+
+Result<Terrain> Terrain::Build(const Dem& dem) {
+  Check(dem.columns >= 1 && dem.rows >= 1 &&
+            dem.heights.size() ==
+                static_cast<std::size_t>(dem.columns) * static_cast<std::size_t>(dem.rows),
+        "a DEM has a height for each of its posts");
+  const Terrain terrain(dem);
+  for (std::int32_t row = 0; row + 1 < dem.rows; ++row) {
+    for (std::int32_t column = 0; column + 1 < dem.columns; ++column) {
+      if (terrain.Cell(column, row).count > 0) return terrain;
+    }
+  }
+  return Error{ErrorCode::kUnsupportedData,
+               "no three neighbouring posts have data, so there is no surface; check the nodata "
+               "value",
+               "no-surface"};
+}
+
+bool Terrain::Has(std::int32_t column, std::int32_t row) const {
+  return column >= 0 && column < dem_->columns && row >= 0 && row < dem_->rows &&
+         dem_->HasData(row * dem_->columns + column);
+}
+
+Terrain::CellTriangles Terrain::Cell(std::int32_t column, std::int32_t row) const {
+  const VertexId nw = row * dem_->columns + column;
+  const VertexId ne = nw + 1;
+  const VertexId sw = nw + dem_->columns;
+  const VertexId se = sw + 1;
+  const bool has_nw = dem_->HasData(nw);
+  const bool has_ne = dem_->HasData(ne);
+  const bool has_sw = dem_->HasData(sw);
+  const bool has_se = dem_->HasData(se);
+  CellTriangles cell;
+  const auto add = [&cell](VertexId a, VertexId b, VertexId c) {
+    cell.triangles[static_cast<std::size_t>(cell.count++)] = {a, b, c};
+  };
+  if (has_nw && has_se) {
+    if (has_ne) add(nw, se, ne);
+    if (has_sw) add(nw, sw, se);
+  } else if (has_ne && has_sw) {
+    if (has_nw) add(nw, sw, ne);
+    if (has_se) add(ne, sw, se);
+  }
+  return cell;
+}
+
+Terrain::Faces Terrain::FacesOf(Edge edge) const {
+  Faces faces;
+  const std::int32_t column = dem_->Column(edge.a);
+  const std::int32_t row = dem_->Row(edge.a);
+  // An edge lies in the one or two cells that have both its posts as corners.
+  for (std::int32_t r = std::max(row - 1, 0); r <= std::min(row, dem_->rows - 2); ++r) {
+    for (std::int32_t c = std::max(column - 1, 0); c <= std::min(column, dem_->columns - 2); ++c) {
+      const CellTriangles cell = Cell(c, r);
+      for (int i = 0; i < cell.count; ++i) {
+        const Triangle& t = cell.triangles[static_cast<std::size_t>(i)];
+        for (std::size_t k = 0; k < 3; ++k) {
+          const VertexId from = t[k];
+          const VertexId to = t[(k + 1) % 3];
+          // Triangles run counter-clockwise, so their third post is on the left of each side.
+          if (from == edge.a && to == edge.b) faces.left = t[(k + 2) % 3];
+          if (from == edge.b && to == edge.a) faces.right = t[(k + 2) % 3];
+        }
+      }
+    }
+  }
+  return faces;
+}
+
+Terrain::Neighbours Terrain::NeighboursOf(VertexId v) const {
+  Neighbours neighbours;
+  if (!dem_->HasData(v)) return neighbours;
+  const std::int32_t column = dem_->Column(v);
+  const std::int32_t row = dem_->Row(v);
+  std::array<bool, 8> present{};
+  for (std::size_t i = 0; i < 8; ++i) {
+    present[i] = Has(column + kAround[i].column, row + kAround[i].row);
+  }
+  std::array<bool, 8> joined{};
+  // Each cell around the post has two straight corners and one across. The diagonal from the first
+  // corner to the last runs through the post in the south-east and the north-west cell.
+  for (std::size_t straight = 0; straight < 8; straight += 2) {
+    const std::size_t across = straight + 1;
+    const std::size_t next = (straight + 2) % 8;
+    const bool split_here = across == 1 || across == 5;
+    if (present[straight] && present[next] && (!present[across] || !split_here)) {
+      // One triangle with both straight corners: the fourth post is missing or cut off.
+      joined[straight] = joined[next] = true;
+    }
+    if (!present[across]) continue;
+    if (split_here) {
+      joined[straight] = joined[straight] || present[straight];
+      joined[next] = joined[next] || present[next];
+      joined[across] = joined[across] || present[straight] || present[next];
+    } else if (present[straight] != present[next]) {
+      // The post, one straight corner and the one across: a triangle only where the other is missing.
+      joined[across] = true;
+      joined[present[straight] ? straight : next] = true;
+    }
+  }
+  for (std::size_t i = 0; i < 8; ++i) {
+    if (joined[i]) {
+      neighbours.posts[static_cast<std::size_t>(neighbours.count++)] =
+          v + kAround[i].row * dem_->columns + kAround[i].column;
+    }
+  }
+  return neighbours;
+}
+
+std::vector<Edge> Terrain::Edges() const {
+  std::vector<Edge> edges;
+  edges.reserve(static_cast<std::size_t>(post_count()) * 3);
+  for (VertexId v = 0; v < post_count(); ++v) {
+    const std::size_t first = edges.size();
+    for (const VertexId n : NeighboursOf(v)) {
+      if (n > v) edges.push_back({v, n});
+    }
+    std::sort(edges.begin() + static_cast<std::ptrdiff_t>(first), edges.end());
+  }
+  return edges;
+}
+
+std::int64_t Terrain::CountEdges() const {
+  std::int64_t twice = 0;
+  for (VertexId v = 0; v < post_count(); ++v) twice += NeighboursOf(v).count;
+  return twice / 2;
+}
+
+std::vector<Triangle> Terrain::Triangles() const {
+  std::vector<Triangle> triangles;
+  for (std::int32_t row = 0; row + 1 < dem_->rows; ++row) {
+    for (std::int32_t column = 0; column + 1 < dem_->columns; ++column) {
+      const CellTriangles cell = Cell(column, row);
+      for (int i = 0; i < cell.count; ++i) {
+        triangles.push_back(cell.triangles[static_cast<std::size_t>(i)]);
+      }
+    }
+  }
+  return triangles;
+}
+
+int Convexity(Point3i a, Point3i b, Point3i c, Point3i d) {
+  // Heights of c and d over the sloped line field: d is below the plane abc, seen from above with c on
+  // either side, exactly if the determinant and the plan orientation of abc agree.
+  const std::int64_t bx = b.x - a.x;
+  const std::int64_t by = b.y - a.y;
+  const std::int64_t bz = std::int64_t{b.z} - a.z;
+  const std::int64_t cx = c.x - a.x;
+  const std::int64_t cy = c.y - a.y;
+  const std::int64_t cz = std::int64_t{c.z} - a.z;
+  const std::int64_t dx = d.x - a.x;
+  const std::int64_t dy = d.y - a.y;
+  const std::int64_t dz = std::int64_t{d.z} - a.z;
+  const std::int64_t plan = bx * cy - by * cx;
+  // det = plan * (dz - height of the plane abc at d); products stay below 2^63 for neighbouring posts.
+  const std::int64_t det =
+      dx * (by * cz - bz * cy) - dy * (bx * cz - bz * cx) + dz * (bx * cy - by * cx);
+  if (det == 0 || plan == 0) return 0;
+  return ((det > 0) == (plan > 0)) ? -1 : 1;
+}
+
+}  // namespace farhorizon
