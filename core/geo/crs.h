@@ -38,7 +38,8 @@ class GlobeTransform {
   [[nodiscard]] Result<std::vector<Geodetic>> ToGeodetic(const std::vector<MapPoint>& points) const;
   [[nodiscard]] Result<std::vector<Ecef>> ToEcef(const std::vector<Geodetic>& points) const;
   [[nodiscard]] Result<std::vector<Geodetic>> FromEcef(const std::vector<Ecef>& points) const;
-  [[nodiscard]] Result<std::vector<MapPoint>> FromGeodetic(const std::vector<Geodetic>& points) const;
+  [[nodiscard]] Result<std::vector<MapPoint>> FromGeodetic(
+      const std::vector<Geodetic>& points) const;
 
   /// "EPSG:4326" where the reference system has a code, else its name.
   [[nodiscard]] std::string Name() const;

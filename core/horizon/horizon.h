@@ -10,8 +10,8 @@
 
 namespace farhorizon {
 
-/// An edge of the terrain that lies on the distant horizon of some horizontal line of sight, with one
-/// such line. witness.t runs from a to b.
+/// An edge of the terrain that lies on the distant horizon of some horizontal line of sight, with
+/// one such line. witness.t runs from a to b.
 struct HorizonEdge {
   Edge edge;
   Witness witness;
@@ -28,12 +28,13 @@ struct HorizonStatistics {
   PredicateCounts predicates;
 };
 
-/// The level at which each post disappears inside a merged hull, and in which one: a bound from below
-/// on the height of the visual hull, good for a quick and certain "hidden".
+/// The level at which each post disappears inside a merged hull, and in which one: a bound from
+/// below on the height of the visual hull, good for a quick and certain "hidden".
 class HullForest {
  public:
-  /// True only if every line of sight that crosses the segment between posts u and w meets ground at
-  /// or above it: the segment may stand in any mesh without raising the skyline. False: not known.
+  /// True only if every line of sight that crosses the segment between posts u and w meets ground
+  /// at or above it: the segment may stand in any mesh without raising the skyline. False: not
+  /// known.
   [[nodiscard]] bool Hides(VertexId u, std::int32_t height_u, VertexId w,
                            std::int32_t height_w) const;
 
@@ -49,17 +50,17 @@ struct Horizon {
   HullForest hulls;
 };
 
-/// The edges of `terrain` that lie on the distant horizon for at least one line of sight: creases that
-/// attain the greatest height over the line on a set of lines with non-empty interior.
+/// The edges of `terrain` that lie on the distant horizon for at least one line of sight: creases
+/// that attain the greatest height over the line on a set of lines with non-empty interior.
 ///
 /// Exact for every terrain; the same for any `threads`.
 /// Errors: kCancelled when the watch says stop.
 /// Cost: about O(n log n) on real terrain; a few hundred bytes a candidate, some 20 a post.
 Result<Horizon> FindHorizon(const Terrain& terrain, int threads, const Watch& watch);
 
-/// The greatest height of the terrain over the plan line through `witness` on `edge` is at the witness:
-/// a check from the heights alone, independent of how the witness was found. Exact.
-/// Cost: O(columns + rows).
+/// The greatest height of the terrain over the plan line through `witness` on `edge` is at the
+/// witness: a check from the heights alone, independent of how the witness was found. Exact. Cost:
+/// O(columns + rows).
 bool WitnessHolds(const Terrain& terrain, Edge edge, const Witness& witness);
 
 }  // namespace farhorizon

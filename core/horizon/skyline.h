@@ -38,10 +38,10 @@ struct PredicateCounts {
 
 /// A set of segments that hide what lies behind them: the skyline of a terrain, a mesh, a network.
 ///
-/// H(l), the greatest height of the segments over a plan line l, is all that is ever asked of it. The
-/// set may change; ids are handed out by Insert and are never used again.
-/// Properties: every answer is exact. Limits: |x|, |y| <= 2^16, |z| < 2^30.
-/// Threads: any number may ask at once while nobody inserts or erases.
+/// H(l), the greatest height of the segments over a plan line l, is all that is ever asked of it.
+/// The set may change; ids are handed out by Insert and are never used again. Properties: every
+/// answer is exact. Limits: |x|, |y| <= 2^16, |z| < 2^30. Threads: any number may ask at once while
+/// nobody inserts or erases.
 class Skyline {
  public:
   /// columns, rows: the extent of the plan that segments will lie in.
@@ -55,11 +55,11 @@ class Skyline {
   void Erase(Id id);
   [[nodiscard]] std::int64_t size() const;
 
-  /// A line of sight that touches `segment` and meets nothing of the set above (kPass) or at or above
-  /// (kBlock) it, on a set of lines with non-empty interior; nullopt if there is none. `except` names
-  /// one member to look through, usually the segment itself.
-  /// blockers: where not null and the answer is nullopt, receives ids that hide all of it, unsorted.
-  /// Cost: about the segments in sight.
+  /// A line of sight that touches `segment` and meets nothing of the set above (kPass) or at or
+  /// above (kBlock) it, on a set of lines with non-empty interior; nullopt if there is none.
+  /// `except` names one member to look through, usually the segment itself. blockers: where not
+  /// null and the answer is nullopt, receives ids that hide all of it, unsorted. Cost: about the
+  /// segments in sight.
   [[nodiscard]] std::optional<Witness> FindSight(const Segment& segment, Ties ties,
                                                  std::optional<Id> except = std::nullopt,
                                                  std::vector<Id>* blockers = nullptr,

@@ -13,8 +13,8 @@ namespace farhorizon {
 /// What a raster may be before it is read, and what the caller says in the file's stead.
 struct DemReadOptions {
   std::int64_t max_posts = 64'000'000;
-  std::optional<std::string> crs;   ///< overrides the file's
-  std::optional<double> nodata;     ///< overrides or adds to the file's
+  std::optional<std::string> crs;  ///< overrides the file's
+  std::optional<double> nodata;    ///< overrides or adds to the file's
 };
 
 /// Reads the one band of a raster (GTiff, AAIGrid, SRTMHGT, DTED, USGSDEM, ENVI) as a DEM.

@@ -14,13 +14,14 @@ namespace farhorizon {
 /// turned to glTF's y up by the root node.
 ///
 /// decoded: what `draco` decodes to, in its own order; accessors' counts, min and max are its.
-/// horizon_edges: pairs of positions in `decoded` (vertex indices) that are horizon edges, flagged as
-/// silhouette edges in EXT_mesh_primitive_edge_visibility.
-std::vector<std::uint8_t> WriteGlb(const std::vector<std::uint8_t>& draco, const LocalMesh& decoded,
-                                   const std::vector<std::pair<std::uint32_t, std::uint32_t>>&
-                                       horizon_edges);
+/// horizon_edges: pairs of positions in `decoded` (vertex indices) that are horizon edges, flagged
+/// as silhouette edges in EXT_mesh_primitive_edge_visibility.
+std::vector<std::uint8_t> WriteGlb(
+    const std::vector<std::uint8_t>& draco, const LocalMesh& decoded,
+    const std::vector<std::pair<std::uint32_t, std::uint32_t>>& horizon_edges);
 
-/// The Draco bitstream inside a GLB that WriteGlb made, with the accessors' claims, for verification.
+/// The Draco bitstream inside a GLB that WriteGlb made, with the accessors' claims, for
+/// verification.
 struct GlbContents {
   std::vector<std::uint8_t> draco;
   std::int64_t vertex_count = 0;

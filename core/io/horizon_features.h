@@ -21,10 +21,12 @@ struct HorizonFeature {
   std::optional<int> level_kept;  ///< unset where no levels were built, or none keeps it
 };
 
-/// horizon.geojson: an RFC 7946 FeatureCollection, a LineString a feature, one feature a line of text.
+/// horizon.geojson: an RFC 7946 FeatureCollection, a LineString a feature, one feature a line of
+/// text.
 std::string WriteHorizonGeoJson(const std::vector<HorizonFeature>& features);
 
-/// Reads back what WriteHorizonGeoJson wrote. Errors: kUnsupportedData, with the feature and the cause.
+/// Reads back what WriteHorizonGeoJson wrote. Errors: kUnsupportedData, with the feature and the
+/// cause.
 Result<std::vector<HorizonFeature>> ReadHorizonGeoJson(const std::string& text);
 
 /// FlatGeobuf or GeoPackage, by the ending of `path` (".fgb", ".gpkg"), through OGR.

@@ -24,9 +24,9 @@ struct TilesetLevel {
   double geometric_error_m = 0;
 };
 
-/// tileset.json (3D Tiles 1.1): explicit tiling, REPLACE, a tile for each level, coarsest at the root.
-/// levels: level 0 (finest) first. root_error_m: the error of drawing nothing, about the tile's size.
-/// transform: local frame to ECEF, column-major.
+/// tileset.json (3D Tiles 1.1): explicit tiling, REPLACE, a tile for each level, coarsest at the
+/// root. levels: level 0 (finest) first. root_error_m: the error of drawing nothing, about the
+/// tile's size. transform: local frame to ECEF, column-major.
 std::string WriteTileset(const std::vector<TilesetLevel>& levels, const BoundingRegion& region,
                          double root_error_m, const std::array<double, 16>& transform);
 

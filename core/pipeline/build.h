@@ -28,18 +28,19 @@ struct BuildOptions {
 /// Seconds by stage, for the log.
 using Timings = std::map<std::string, double>;
 
-/// DEM in, artifacts out: reads `dem`, finds its horizon, builds and encodes the levels, measures them on
-/// what was encoded, and leaves tileset.json, lodN.glb, lodN.drc, horizon.geojson, report.json and
-/// manifest.json in `directory` (made if missing). Nothing is left behind on failure.
-/// Same input and options, same bytes.
+/// DEM in, artifacts out: reads `dem`, finds its horizon, builds and encodes the levels, measures
+/// them on what was encoded, and leaves tileset.json, lodN.glb, lodN.drc, horizon.geojson,
+/// report.json and manifest.json in `directory` (made if missing). Nothing is left behind on
+/// failure. Same input and options, same bytes.
 Status BuildArtifacts(const std::filesystem::path& dem, const std::filesystem::path& directory,
                       const BuildOptions& options, const Watch& watch, Timings* timings = nullptr);
 
-/// Checks options by themselves. Errors: kInvalidArgument, naming the option, its value and its range.
+/// Checks options by themselves. Errors: kInvalidArgument, naming the option, its value and its
+/// range.
 Status CheckOptions(const BuildOptions& options);
 
-/// Reads options from a job's parameters: flat names as in interface.md ("maxError"), values as text.
-/// Errors: kInvalidArgument, kind "unknown-parameter" or "invalid-parameter".
+/// Reads options from a job's parameters: flat names as in interface.md ("maxError"), values as
+/// text. Errors: kInvalidArgument, kind "unknown-parameter" or "invalid-parameter".
 Result<BuildOptions> ParseOptions(const std::map<std::string, std::string>& parameters);
 
 }  // namespace farhorizon

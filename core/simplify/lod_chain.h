@@ -28,10 +28,9 @@ struct Lod {
 /// A chain of meshes of falling detail, level 0 the finest; one for each budget.
 ///
 /// Vertices are posts of the DEM; the outline of the terrain stays as it is in plan, its heights
-/// simplified by a rule that sees only the outline's own. Each level keeps only horizon edges that the
-/// finer one keeps; where the silhouette budget is 0 it keeps all of them and H is exactly the DEM's.
-/// Requires: budgets do not fall from level to level.
-/// Errors: kCancelled.
+/// simplified by a rule that sees only the outline's own. Each level keeps only horizon edges that
+/// the finer one keeps; where the silhouette budget is 0 it keeps all of them and H is exactly the
+/// DEM's. Requires: budgets do not fall from level to level. Errors: kCancelled.
 Result<std::vector<Lod>> BuildLodChain(const Terrain& terrain, const Horizon& horizon,
                                        const std::vector<LevelBudget>& budgets, const Watch& watch);
 

@@ -23,10 +23,11 @@ struct MeshError {
 
 /// Measures `mesh`, whose point i stands for post `posts[i]`, against the terrain.
 ///
-/// The silhouette bound is a proof: no edge of the mesh lowered by it is in sight over the terrain, no
-/// horizon edge lowered by it is in sight over the mesh (exact, on the posts), plus what the vertices'
-/// distance from their posts can do. `asked_m` is where the search for the least bound begins.
-/// Errors: kUnsupportedData where the mesh has a hole, a flipped triangle or a vertex away from its
+/// The silhouette bound is a proof: no edge of the mesh lowered by it is in sight over the terrain,
+/// no horizon edge lowered by it is in sight over the mesh (exact, on the posts), plus what the
+/// vertices' distance from their posts can do. `asked_m` is where the search for the least bound
+/// begins. Errors: kUnsupportedData where the mesh has a hole, a flipped triangle or a vertex away
+/// from its
 ///   post by more than half a cell; kCancelled.
 Result<MeshError> MeasureMeshError(const Terrain& terrain, const Horizon& horizon,
                                    const GridMesh& mesh, const std::vector<VertexId>& posts,

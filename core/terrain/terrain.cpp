@@ -10,8 +10,8 @@ struct Offset {
   std::int32_t row;
 };
 
-// Clockwise in the picture (rows downwards), starting east: successive offsets are the corners that a
-// walk around the post's four cells passes.
+// Clockwise in the picture (rows downwards), starting east: successive offsets are the corners that
+// a walk around the post's four cells passes.
 constexpr std::array<Offset, 8> kAround = {
     {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}}};
 
@@ -111,7 +111,8 @@ Terrain::Neighbours Terrain::NeighboursOf(VertexId v) const {
       joined[next] = joined[next] || present[next];
       joined[across] = joined[across] || present[straight] || present[next];
     } else if (present[straight] != present[next]) {
-      // The post, one straight corner and the one across: a triangle only where the other is missing.
+      // The post, one straight corner and the one across: a triangle only where the other is
+      // missing.
       joined[across] = true;
       joined[present[straight] ? straight : next] = true;
     }
@@ -158,8 +159,8 @@ std::vector<Triangle> Terrain::Triangles() const {
 }
 
 int Convexity(Point3i a, Point3i b, Point3i c, Point3i d) {
-  // Heights of c and d over the sloped line field: d is below the plane abc, seen from above with c on
-  // either side, exactly if the determinant and the plan orientation of abc agree.
+  // Heights of c and d over the sloped line field: d is below the plane abc, seen from above with c
+  // on either side, exactly if the determinant and the plan orientation of abc agree.
   const std::int64_t bx = b.x - a.x;
   const std::int64_t by = b.y - a.y;
   const std::int64_t bz = std::int64_t{b.z} - a.z;
@@ -170,7 +171,8 @@ int Convexity(Point3i a, Point3i b, Point3i c, Point3i d) {
   const std::int64_t dy = d.y - a.y;
   const std::int64_t dz = std::int64_t{d.z} - a.z;
   const std::int64_t plan = bx * cy - by * cx;
-  // det = plan * (dz - height of the plane abc at d); products stay below 2^63 for neighbouring posts.
+  // det = plan * (dz - height of the plane abc at d); products stay below 2^63 for neighbouring
+  // posts.
   const std::int64_t det =
       dx * (by * cz - bz * cy) - dy * (bx * cz - bz * cx) + dz * (bx * cy - by * cx);
   if (det == 0 || plan == 0) return 0;

@@ -77,8 +77,8 @@ class Terrain {
   const Dem* dem_;
 };
 
-/// Above the line through the other diagonal (1), in one plane with it (0) or below it (-1): whether
-/// the edge from a to b is a ridge between the faces whose third posts are c and d.
+/// Above the line through the other diagonal (1), in one plane with it (0) or below it (-1):
+/// whether the edge from a to b is a ridge between the faces whose third posts are c and d.
 /// Requires: c and d on opposite sides of ab in plan. Exact.
 int Convexity(Point3i a, Point3i b, Point3i c, Point3i d);
 

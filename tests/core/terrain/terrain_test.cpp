@@ -38,8 +38,7 @@ std::map<std::pair<VertexId, VertexId>, VertexId> SidesOfTriangles(const Terrain
 TEST(Terrain, ACellOfFourPostsIsSplitFromItsFirstCornerToItsLast) {
   const Dem dem = MakeDem(2, 2, {0, 0, 0, 0});
   const Terrain terrain = *Terrain::Build(dem);
-  EXPECT_EQ(terrain.Edges(),
-            (std::vector<Edge>{{0, 1}, {0, 2}, {0, 3}, {1, 3}, {2, 3}}));
+  EXPECT_EQ(terrain.Edges(), (std::vector<Edge>{{0, 1}, {0, 2}, {0, 3}, {1, 3}, {2, 3}}));
 }
 
 TEST(Terrain, ACellWithOnePostMissingKeepsTheTriangleOfTheOtherThree) {

@@ -1,0 +1,112 @@
+// The exact set of edges on the distant horizon, definition D2 of [Archambault05]'s problem:
+// creases that attain the greatest height over a line of sight on an open set of lines. The sweep
+// (hull_sweep.h) leaves candidates, which contain every horizon edge and so make the same skyline
+// as the whole terrain; each is then sighted over the others, exactly (skyline.h).
+#include "core/horizon/horizon.h"
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <optional>
+#include <thread>
+
+#include "core/horizon/hull_sweep.h"
+
+namespace farhorizon {
+namespace {
+
+constexpr std::size_t kBatch = 256;  // candidates between two looks at the stop token
+
+// Decides candidates batch by batch; every thread writes to the slots of its own batches.
+class Decider {
+ public:
+  Decider(const Terrain& terrain, const std::vector<Edge>& candidates, const Watch& watch)
+      : terrain_(terrain),
+        candidates_(candidates),
+        watch_(watch),
+        skyline_(terrain.dem().columns, terrain.dem().rows),
+        witnesses_(candidates.size()) {
+    for (const Edge edge : candidates) {
+      skyline_.Insert({terrain.Point(edge.a), terrain.Point(edge.b)});
+    }
+  }
+
+  /// False where the watch said stop.
+  bool Run(int threads, PredicateCounts& counts) {
+    std::vector<PredicateCounts> per_thread(static_cast<std::size_t>(std::max(threads, 1)));
+    std::vector<std::exception_ptr> failures(per_thread.size());
+    {
+      std::vector<std::jthread> helpers;
+      for (std::size_t i = 1; i < per_thread.size(); ++i) {
+        helpers.emplace_back([this, i, &per_thread, &failures] {
+          try {
+            Work(per_thread[i], false);
+          } catch (...) {
+            failures[i] = std::current_exception();
+          }
+        });
+      }
+      Work(per_thread[0], true);
+    }
+    for (const std::exception_ptr& failure : failures) {
+      if (failure) std::rethrow_exception(failure);
+    }
+    for (const PredicateCounts& c : per_thread) {
+      counts.filtered += c.filtered;
+      counts.exact += c.exact;
+      counts.tied += c.tied;
+    }
+    return !watch_.StopRequested();
+  }
+
+  [[nodiscard]] std::vector<HorizonEdge> Edges() const {
+    std::vector<HorizonEdge> edges;
+    for (std::size_t i = 0; i < candidates_.size(); ++i) {
+      if (witnesses_[i]) edges.push_back({candidates_[i], *witnesses_[i]});
+    }
+    return edges;
+  }
+
+ private:
+  void Work(PredicateCounts& counts, bool reports) {
+    while (!watch_.StopRequested()) {
+      const std::size_t begin = next_.fetch_add(kBatch);
+      if (begin >= candidates_.size()) return;
+      const std::size_t end = std::min(begin + kBatch, candidates_.size());
+      for (std::size_t i = begin; i < end; ++i) {
+        const Edge edge = candidates_[i];
+        witnesses_[i] =
+            skyline_.FindSight({terrain_.Point(edge.a), terrain_.Point(edge.b)}, Ties::kPass,
+                               static_cast<Skyline::Id>(i), nullptr, &counts);
+      }
+      if (reports) {
+        watch_.Report("decide", static_cast<double>(end) / static_cast<double>(candidates_.size()));
+      }
+    }
+  }
+
+  const Terrain& terrain_;
+  const std::vector<Edge>& candidates_;
+  const Watch& watch_;
+  Skyline skyline_;
+  std::vector<std::optional<Witness>> witnesses_;
+  std::atomic<std::size_t> next_{0};
+};
+
+}  // namespace
+
+Result<Horizon> FindHorizon(const Terrain& terrain, int threads, const Watch& watch) {
+  Result<HullSweep> sweep = SweepHulls(terrain, watch);
+  if (!sweep) return std::move(sweep.error());
+  Horizon horizon;
+  horizon.statistics = sweep->statistics;
+  horizon.hulls = std::move(sweep->hulls);
+  Decider decider(terrain, sweep->candidates, watch);
+  if (!decider.Run(threads, horizon.statistics.predicates)) {
+    return Error{ErrorCode::kCancelled, "stopped while deciding horizon edges"};
+  }
+  horizon.edges = decider.Edges();
+  return horizon;
+}
+
+}  // namespace farhorizon

@@ -1,0 +1,232 @@
+// What can be seen from one point p = e(t) of a segment e, among obstacles.
+// An obstacle f hides the lines through p that meet the part of f above p: an arc of directions,
+// from the direction of f's lower end, or of the point where f rises through p's height, to that of
+// its upper end. The union of the arcs is gathered near to far; boxes that lie in directions
+// already hidden are skipped.
+#include "core/horizon/sight_sample.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "core/base/result.h"
+
+namespace farhorizon {
+namespace {
+
+MovingVector ToPoint(const Sighted& e, const Point3i& v) {
+  return {v.x - e.low.x, v.y - e.low.y, e.low.x - e.high.x, e.low.y - e.high.y};
+}
+
+// Towards the point of low -> high at the height of e(t), times the rise of low -> high.
+MovingVector ToSlice(const Sighted& e, const Point3i& low, const Point3i& high) {
+  const std::int64_t rise = std::int64_t{high.z} - low.z;
+  const std::int64_t below = std::int64_t{e.low.z} - low.z;
+  const std::int64_t climb = std::int64_t{e.high.z} - e.low.z;
+  const std::int64_t run_x = high.x - low.x;
+  const std::int64_t run_y = high.y - low.y;
+  return {(low.x - e.low.x) * rise + run_x * below, (low.y - e.low.y) * rise + run_y * below,
+          (e.low.x - e.high.x) * rise + run_x * climb, (e.low.y - e.high.y) * rise + run_y * climb};
+}
+
+// The key of direction.h in plain floating point, for pruning.
+double Key(double x, double y) {
+  if (y < 0 || (y == 0 && x < 0)) {
+    x = -x;
+    y = -y;
+  }
+  return 1 - x / (std::abs(x) + y);
+}
+
+double SquaredDistance(const SegmentIndex::Node& node, double x, double y) {
+  const double dx = std::max({node.min_x - x, 0.0, x - node.max_x});
+  const double dy = std::max({node.min_y - y, 0.0, y - node.max_y});
+  return dx * dx + dy * dy;
+}
+
+}  // namespace
+
+Quadratic Cross(const MovingVector& a, const MovingVector& b) {
+  return {Int128{a.ax} * b.ay - Int128{a.ay} * b.ax,
+          Int128{a.ax} * b.by - Int128{a.ay} * b.bx + Int128{a.bx} * b.ay - Int128{a.by} * b.ax,
+          Int128{a.bx} * b.by - Int128{a.by} * b.bx};
+}
+
+Quadratic Dot(const MovingVector& a, const MovingVector& b) {
+  return {Int128{a.ax} * b.ax + Int128{a.ay} * b.ay,
+          Int128{a.ax} * b.bx + Int128{a.ay} * b.by + Int128{a.bx} * b.ax + Int128{a.by} * b.ay,
+          Int128{a.bx} * b.bx + Int128{a.by} * b.by};
+}
+
+SightSample::SightSample(const SegmentIndex& index, const Sighted& sighted,
+                         std::optional<std::int32_t> except, PredicateCounts* counts)
+    : index_(index), sighted_(sighted), except_(except), counts_(counts) {}
+
+SightSample::Outcome SightSample::Look(Dyadic t) {
+  t_ = t;
+  const double where = t.ToDouble();
+  x_ = sighted_.low.x + (sighted_.high.x - sighted_.low.x) * where;
+  y_ = sighted_.low.y + (sighted_.high.y - sighted_.low.y) * where;
+  z_ = sighted_.low.z + (static_cast<double>(sighted_.high.z) - sighted_.low.z) * where;
+  scaled_z_ = (Int128{sighted_.low.z} << t.k) + (Int128{sighted_.high.z} - sighted_.low.z) * t.n;
+  const bool level_hides = sighted_.IsLevel() && sighted_.ties == Ties::kBlock;
+  least_top_ = static_cast<std::int64_t>(scaled_z_ >> t.k) + (level_hides ? 0 : 1);
+  cover_ = DirectionCover();
+  arcs_.clear();
+  outcome_ = Outcome::kHidden;
+
+  struct Pending {
+    SegmentIndex::Place place;
+    double distance;
+  };
+  std::array<Pending, 128> stack;
+  std::size_t depth = 0;
+  stack[depth++] = {index_.Root(), 0};
+  while (depth > 0) {
+    const SegmentIndex::Place place = stack[--depth].place;
+    const SegmentIndex::Node& node = index_.At(place);
+    if (node.top < least_top_ || SurelyHidden(node)) continue;
+    if (!Visit(node)) return outcome_;
+    if (place.level == 0) continue;
+    const std::size_t base = depth;
+    for (std::int32_t child = 0; child < 4; ++child) {
+      const SegmentIndex::Place below{place.level - 1, 2 * place.x + (child & 1),
+                                      2 * place.y + (child >> 1)};
+      if (!index_.Exists(below)) continue;
+      const SegmentIndex::Node& node_below = index_.At(below);
+      if (node_below.top < least_top_) continue;
+      stack[depth++] = {below, SquaredDistance(node_below, x_, y_)};
+    }
+    // The nearest child last, so that it is the next.
+    std::sort(stack.begin() + static_cast<std::ptrdiff_t>(base),
+              stack.begin() + static_cast<std::ptrdiff_t>(depth),
+              [](const Pending& a, const Pending& b) { return a.distance > b.distance; });
+  }
+  const std::optional<DirectionCover::Gap> gap = cover_.WidestGap();
+  Check(gap.has_value(), "a complete cover ends the search");
+  const Vector along{sighted_.high.x - sighted_.low.x, sighted_.high.y - sighted_.low.y};
+  sight_ = SimplestBetween(gap->from, gap->to, along);
+  return Outcome::kSight;
+}
+
+bool SightSample::Visit(const SegmentIndex::Node& node) {
+  for (std::int32_t id = node.first; id >= 0;) {
+    const SegmentIndex::Item& item = index_.item(id);
+    if (item.alive && item.high.z >= least_top_ && id != except_ && !SurelyHidden(item)) {
+      if (!Meet(id)) return false;
+    }
+    id = item.next;
+  }
+  return true;
+}
+
+bool SightSample::Meet(std::int32_t id) {
+  const SegmentIndex::Item& item = index_.item(id);
+  if (item.high.z == least_top_ && (Int128{item.high.z} << t_.k) == scaled_z_ &&
+      item.low.z != item.high.z) {
+    return true;  // only its upper end is at the height of level ground
+  }
+  Arc arc;
+  arc.obstacle = id;
+  arc.sliced = (Int128{item.low.z} << t_.k) < scaled_z_;
+  arc.from = arc.sliced ? ToSlice(sighted_, item.low, item.high) : ToPoint(sighted_, item.low);
+  arc.to = ToPoint(sighted_, item.high);
+  Vector from = arc.from.At(t_);
+  Vector to = arc.to.At(t_);
+  if (arc.sliced && arc.from.IsZero()) {
+    // The obstacle lies along the segment itself, at its height: it hides it where ties do.
+    if (sighted_.ties == Ties::kPass) return true;
+    arcs_.assign(1, arc);
+    outcome_ = Outcome::kEnclosed;
+    return false;
+  }
+  if (from.IsZero() || to.IsZero()) {
+    outcome_ = Outcome::kAmbiguous;
+    return false;
+  }
+  const int turn = CrossSign(from, to);
+  if (turn == 0) return MeetCollinear(arc, from, to);
+  if (turn < 0) {
+    std::swap(arc.from, arc.to);
+    std::swap(from, to);
+  }
+  arc.from_direction = MakeDirection(from);
+  arc.to_direction = MakeDirection(to);
+  arc.crosses_start = arc.from_direction.turned != arc.to_direction.turned;
+  arcs_.push_back(arc);
+  cover_.Add(arc.from_direction, arc.to_direction, arc.crosses_start, counts_);
+  return !cover_.IsComplete();
+}
+
+bool SightSample::MeetCollinear(const Arc& arc, const Vector& from, const Vector& to) {
+  if (DotSign(from, to) > 0) {
+    // Seen end on: one direction, which no sight may take.
+    const Direction direction = MakeDirection(from);
+    cover_.Add(direction, direction, false, counts_);
+    return true;
+  }
+  if (Cross(arc.from, arc.to).IsZero()) {
+    arcs_.assign(1, arc);
+    outcome_ = Outcome::kEnclosed;
+  } else {
+    outcome_ = Outcome::kAmbiguous;
+  }
+  return false;
+}
+
+bool SightSample::SurelyHidden(const SegmentIndex::Node& node) const {
+  const double center_x = 0.5 * (node.min_x + static_cast<double>(node.max_x)) - x_;
+  const double center_y = 0.5 * (node.min_y + static_cast<double>(node.max_y)) - y_;
+  const std::array<std::array<double, 2>, 4> corners = {{{node.min_x - x_, node.min_y - y_},
+                                                         {node.max_x - x_, node.min_y - y_},
+                                                         {node.max_x - x_, node.max_y - y_},
+                                                         {node.min_x - x_, node.max_y - y_}}};
+  double least = 0;
+  double most = 0;
+  std::size_t first = 0;
+  std::size_t last = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double cross = center_x * corners[i][1] - center_y * corners[i][0];
+    const double dot = center_x * corners[i][0] + center_y * corners[i][1];
+    const double tangent = cross / dot;
+    // Boxes around the point, or close beside it, look too wide to be judged by their corners.
+    if (!(dot > 0) || std::abs(tangent) > 1e3) return false;
+    if (i == 0 || tangent < least) {
+      least = tangent;
+      first = i;
+    }
+    if (i == 0 || tangent > most) {
+      most = tangent;
+      last = i;
+    }
+  }
+  return cover_.SurelyCovers(Key(corners[first][0], corners[first][1]),
+                             Key(corners[last][0], corners[last][1]));
+}
+
+bool SightSample::SurelyHidden(const SegmentIndex::Item& item) const {
+  double low_x = item.low.x - x_;
+  double low_y = item.low.y - y_;
+  double high_x = item.high.x - x_;
+  double high_y = item.high.y - y_;
+  if (item.low.z < z_) {
+    const double share = (z_ - item.low.z) / (static_cast<double>(item.high.z) - item.low.z);
+    low_x += share * (high_x - low_x);
+    low_y += share * (high_y - low_y);
+  }
+  // What is nearer than this is looked at exactly: the cover's margin counts on the distance.
+  constexpr double kNear = 0.05;
+  const double cross = low_x * high_y - low_y * high_x;
+  if (std::max(std::abs(low_x), std::abs(low_y)) < kNear ||
+      std::max(std::abs(high_x), std::abs(high_y)) < kNear || std::abs(cross) < 1e-6) {
+    return false;
+  }
+  if (cross < 0) {
+    std::swap(low_x, high_x);
+    std::swap(low_y, high_y);
+  }
+  return cover_.SurelyCovers(Key(low_x, low_y), Key(high_x, high_y));
+}
+
+}  // namespace farhorizon
