@@ -1,0 +1,118 @@
+#!/usr/bin/env bash
+# Who may include whom: reads every #include of core/ and service/ and fails on any other arrow than
+# those drawn in README "Where things are".
+#   tests/tools/check_layers.sh [ROOT]       default: the tree this script stands in
+set -euo pipefail
+export LC_ALL=C
+cd "${1:-"$(dirname "${BASH_SOURCE[0]}")/../.."}"
+
+# Our own headers: what each folder may include beside itself.
+declare -A may=(
+  [core/base]=""
+  [core/exact]="core/base"
+  [core/terrain]="core/base core/exact"
+  [core/horizon]="core/base core/exact core/terrain"
+  [core/simplify]="core/base core/exact core/terrain core/horizon"
+  [core/geo]="core/base"
+  [core/io]="core/base core/terrain core/horizon core/geo"
+  [core/pipeline]="core/base core/terrain core/horizon core/simplify core/geo core/io"
+  # The service's own root: configuration and the wrapper header of Asio. main.cpp is below.
+  [service]="core/base"
+  [service/worker]="core/base core/io core/pipeline service"
+  [service/jobs]="core/base core/io core/pipeline service service/worker"
+  [service/handlers]="core/base core/io core/pipeline service service/jobs"
+  [service/http]="core/base service service/handlers"
+  [service/viewer]=""
+  [service/cli]="core/base core/io core/pipeline service service/worker service/jobs service/handlers service/http"
+  [service/main.cpp]="core/base service service/cli"
+)
+
+# Foreign headers: a pattern of what stands in the angle brackets @ the files that may include it.
+# The first row that matches decides; a header with a dot or a slash that is in no row is an offence,
+# so that a new dependency has to be entered here.
+foreign=(
+  '(gdal|ogr|cpl_|vrt) @ ^core/io/[^/]+\.cpp$ ^service/jobs/[a-z_0-9]*object_store\.cpp$'
+  'draco/ @ ^core/io/[^/]+\.cpp$'
+  'proj(\.h$|/) @ ^core/geo/[^/]+\.cpp$'
+  'boost/multiprecision/ @ ^core/exact/'
+  'boost/ @ ^service/asio\.h$ ^service/(http|worker|cli)/'
+  'sqlite3 @ ^service/jobs/[a-z_0-9]+\.cpp$'
+  'libpq @ ^service/jobs/[a-z_0-9]+\.cpp$'
+  'nlohmann/ @ ^core/(io|pipeline)/[^/]+\.cpp$ ^service/[a-z_0-9]+\.(h|cpp)$ ^service/(handlers|jobs|worker|cli)/'
+  'openssl/ @ ^core/io/[^/]+\.cpp$ ^service/(jobs|handlers|worker)/[^/]+\.cpp$'
+  'CLI/ @ ^service/(main\.cpp$|cli/)'
+  # The system's own: files in core/io, processes and sockets in service.
+  '((sys|netinet|arpa|linux)/)?[a-z_0-9]+\.h$ @ ^core/io/[^/]+\.cpp$ ^service/'
+)
+# Databases hide behind one interface: each is seen by one file alone.
+single=('sqlite3' 'libpq')
+
+bad=0
+offence() {
+  echo "$1: $2" >&2
+  bad=1
+}
+
+# The row of `may` that a path belongs to: main.cpp by itself, else its folder.
+folder_of() {
+  local path=$1
+  if [[ $path == service/main.cpp ]]; then
+    echo "$path"
+  elif [[ $path =~ ^(core|service)/[^/]+/ ]]; then
+    path=${BASH_REMATCH[0]}
+    echo "${path%/}"
+  else
+    echo "${path%%/*}"
+  fi
+}
+
+check_own() { # PLACE FILE TARGET
+  local from to
+  from=$(folder_of "$2")
+  to=$(folder_of "$3")
+  if [[ ! $3 =~ ^(core|service)/ ]]; then
+    offence "$1" "includes \"$3\": name it from the root, and only core/ and service/"
+  elif [[ ! -v may[$from] ]]; then
+    offence "$1" "folder $from has no row in check_layers.sh"
+  elif [[ $to != "$from" && " ${may[$from]} " != *" $to "* ]]; then
+    offence "$1" "$from may not include $to ($3)"
+  fi
+}
+
+check_foreign() { # PLACE FILE TARGET
+  [[ $3 == *[./]* ]] || return 0 # the standard library
+  local row files file
+  for row in "${foreign[@]}"; do
+    [[ $3 =~ ^(${row% @ *}) ]] || continue
+    files=${row#* @ }
+    for file in $files; do
+      [[ $2 =~ $file ]] && return
+    done
+    offence "$1" "<$3> may not be included here, only in $files"
+    return
+  done
+  offence "$1" "<$3> is in no row of check_layers.sh"
+}
+
+count=0
+include='^([^:]+):([0-9]+):[[:space:]]*#[[:space:]]*include[[:space:]]*([<"])([^>"]+)[>"]'
+while IFS= read -r line; do
+  [[ $line =~ $include ]] || continue
+  file=${BASH_REMATCH[1]} place=${BASH_REMATCH[1]}:${BASH_REMATCH[2]}
+  target=${BASH_REMATCH[4]}
+  count=$((count + 1))
+  if [[ ${BASH_REMATCH[3]} == '"' ]]; then
+    check_own "$place" "$file" "$target"
+  else
+    check_foreign "$place" "$file" "$target"
+  fi
+done < <(grep -rnE --include='*.h' --include='*.cpp' '^[[:space:]]*#[[:space:]]*include' core service)
+
+for header in "${single[@]}"; do
+  mapfile -t users < <(grep -rlE --include='*.h' --include='*.cpp' "#include <$header" service || true)
+  ((${#users[@]} <= 1)) || offence "${users[1]}" "<$header…> already belongs to ${users[0]} alone"
+done
+
+((count)) || offence "$PWD" "no #include found: is this the root of the tree?"
+((bad)) || echo "check_layers: $count includes, every one along an arrow"
+exit "$bad"
