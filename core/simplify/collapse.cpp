@@ -1,0 +1,157 @@
+#include "core/simplify/collapse.h"
+
+#include <algorithm>
+
+namespace farhorizon {
+namespace {
+
+// No star grows past this: the cost of a collapse grows with the square of its sides.
+constexpr std::int32_t kMostSides = 48;
+constexpr std::int64_t kStepsBetweenChecks = 4096;
+
+std::uint64_t Pair(VertexId p, VertexId q) {
+  return (static_cast<std::uint64_t>(p) << 32) | static_cast<std::uint32_t>(q);
+}
+
+std::uint64_t UnorderedPair(VertexId p, VertexId q) { return p < q ? Pair(p, q) : Pair(q, p); }
+
+}  // namespace
+
+Collapser::Collapser(const Terrain& terrain)
+    : terrain_(&terrain),
+      surface_(terrain),
+      coverage_(terrain.post_count(), surface_.triangle_id_end()),
+      star_(terrain) {
+  const auto posts = static_cast<std::size_t>(terrain.post_count());
+  pinched_.assign(posts, false);
+  queued_.assign(posts, false);
+  stale_.assign(posts, false);
+  has_refusal_.assign(posts, false);
+  target_.assign(posts, -1);
+  for (VertexId v = 0; v < terrain.post_count(); ++v) {
+    if (!surface_.IsVertex(v)) continue;
+    star_.Gather(surface_, coverage_, v);
+    // One fan has as many neighbours as triangles, or one more at the border.
+    pinched_[static_cast<std::size_t>(v)] = star_.neighbours().size() > star_.sides().size() + 1;
+  }
+}
+
+void Collapser::Enqueue(double cost, VertexId v) {
+  queued_[static_cast<std::size_t>(v)] = true;
+  queue_.push_back({cost, v});
+  std::push_heap(queue_.begin(), queue_.end(), Later);
+}
+
+Collapser::Entry Collapser::Dequeue() {
+  std::pop_heap(queue_.begin(), queue_.end(), Later);
+  const Entry entry = queue_.back();
+  queue_.pop_back();
+  queued_[static_cast<std::size_t>(entry.v)] = false;
+  return entry;
+}
+
+void Collapser::Start(const CollapseRules& rules) {
+  queue_.clear();
+  std::fill(queued_.begin(), queued_.end(), false);
+  std::fill(has_refusal_.begin(), has_refusal_.end(), false);
+  refused_edges_.clear();
+  refused_moves_.clear();
+  for (VertexId v = 0; v < terrain_->post_count(); ++v) {
+    const auto at = static_cast<std::size_t>(v);
+    if (surface_.IsVertex(v) && rules.may_leave[at] && !pinched_[at]) Rate(rules, v);
+  }
+}
+
+void Collapser::Refuse(std::unordered_set<std::uint64_t>& set, VertexId p, VertexId q) {
+  set.insert(&set == &refused_edges_ ? UnorderedPair(p, q) : Pair(p, q));
+  has_refusal_[static_cast<std::size_t>(p)] = true;
+  has_refusal_[static_cast<std::size_t>(q)] = true;
+}
+
+bool Collapser::Refused(VertexId v, VertexId b) const {
+  if (!has_refusal_[static_cast<std::size_t>(b)]) return false;
+  if (refused_moves_.count(Pair(v, b)) > 0) return true;
+  return std::any_of(star_.neighbours().begin(), star_.neighbours().end(), [this, b](VertexId n) {
+    return has_refusal_[static_cast<std::size_t>(n)] &&
+           refused_edges_.count(UnorderedPair(b, n)) > 0;
+  });
+}
+
+void Collapser::Rate(const CollapseRules& rules, VertexId v) {
+  stale_[static_cast<std::size_t>(v)] = false;
+  star_.Gather(surface_, coverage_, v);
+  const auto sides = static_cast<std::int32_t>(star_.sides().size());
+  double best = Star::kNever;
+  for (const VertexId b : star_.neighbours()) {
+    if (rules.may_move && !rules.may_move(v, b)) continue;
+    if (Refused(v, b)) continue;
+    const double cost = star_.CostOfCollapse(b, rules.limits, best);
+    if (cost >= best) continue;
+    if (surface_.CountTrianglesOf(b) + sides > kMostSides) continue;
+    best = cost;
+    target_[static_cast<std::size_t>(v)] = b;
+  }
+  if (best < Star::kNever) Enqueue(best, v);
+}
+
+bool Collapser::TryCollapse(const CollapseRules& rules, VertexId v) {
+  const VertexId b = target_[static_cast<std::size_t>(v)];
+  star_.Gather(surface_, coverage_, v);
+  others_.clear();
+  star_.NewNeighbours(b, others_);
+  if (rules.may_stand) {
+    bool all = true;
+    for (const VertexId n : others_) {
+      if (rules.may_stand(b, n)) continue;
+      Refuse(refused_edges_, b, n);
+      all = false;
+    }
+    if (!all) return false;
+  }
+  Check(star_.CostOfCollapse(b, rules.limits, Star::kNever) < Star::kNever,
+        "a rated collapse is allowed");
+  if (rules.move_ridges && !rules.move_ridges(v, b)) {
+    Refuse(refused_moves_, v, b);
+    return false;
+  }
+  star_.HandOver(b, coverage_);
+  surface_.Collapse(v, b);
+  return true;
+}
+
+void Collapser::TouchAround() {
+  for (const VertexId n : star_.neighbours()) {
+    stale_[static_cast<std::size_t>(n)] = true;
+    // What was not allowed may be now; its turn is no earlier than what has just been done.
+    if (!queued_[static_cast<std::size_t>(n)]) Enqueue(floor_, n);
+  }
+}
+
+Status Collapser::Run(const CollapseRules& rules, const Watch& watch,
+                      const std::function<void(double)>& report) {
+  Start(rules);
+  floor_ = 0;
+  const std::int64_t triangles_before = surface_.triangle_count();
+  std::int64_t steps = 0;
+  while (!queue_.empty()) {
+    if (steps++ % kStepsBetweenChecks == 0) {
+      if (watch.StopRequested()) return Error{ErrorCode::kCancelled, "stopped while simplifying"};
+      if (report) {
+        report(1.0 - static_cast<double>(surface_.triangle_count()) /
+                         static_cast<double>(triangles_before));
+      }
+    }
+    const Entry entry = Dequeue();
+    const auto at = static_cast<std::size_t>(entry.v);
+    if (!rules.may_leave[at] || pinched_[at]) continue;
+    if (stale_[at] || !TryCollapse(rules, entry.v)) {
+      Rate(rules, entry.v);
+      continue;
+    }
+    floor_ = entry.cost;
+    TouchAround();
+  }
+  return Done{};
+}
+
+}  // namespace farhorizon
