@@ -32,11 +32,10 @@ struct HorizonStatistics {
 /// below on the height of the visual hull, good for a quick and certain "hidden".
 class HullForest {
  public:
-  /// True only if every line of sight that crosses the segment between posts u and w meets ground
-  /// at or above it: the segment may stand in any mesh without raising the skyline. False: not
-  /// known.
-  [[nodiscard]] bool Hides(VertexId u, std::int32_t height_u, VertexId w,
-                           std::int32_t height_w) const;
+  /// True only if every line of sight that crosses the segment between posts u and w meets ground at
+  /// or above `level`: at the segment's greatest height, the segment may stand in any mesh without
+  /// raising the skyline. False: not known.
+  [[nodiscard]] bool Hides(VertexId u, VertexId w, std::int32_t level) const;
 
   std::vector<std::int32_t> covered_level;  ///< per post; kNoHeight where never
   std::vector<std::int32_t> cluster;        ///< per post: node of the forest it was covered by; -1

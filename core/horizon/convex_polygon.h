@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace farhorizon {
+
+/// A post in the plan.
+struct Point2i {
+  std::int32_t x = 0;
+  std::int32_t y = 0;
+  friend auto operator<=>(const Point2i&, const Point2i&) = default;
+};
+
+/// A convex polygon with corners at posts, counter-clockwise, no three in line; a point or a segment
+/// where it has one corner or two. Closed: its border is part of it. Exact.
+class ConvexPolygon {
+ public:
+  ConvexPolygon() = default;
+  explicit ConvexPolygon(Point2i point);
+  /// The convex hull of `points` (reordered). Cost: O(n log n).
+  static ConvexPolygon HullOf(std::vector<Point2i>& points);
+
+  [[nodiscard]] const std::vector<Point2i>& corners() const { return corners_; }
+  [[nodiscard]] bool Contains(Point2i p) const;
+  /// Whether the two have a point in common. Cost: O(n m), after a look at the boxes.
+  [[nodiscard]] bool Meets(const ConvexPolygon& other) const;
+
+  /// Calls visit(row, first column, last column) for each row that has posts in the polygon.
+  void ForEachRow(const std::function<void(std::int32_t, std::int32_t, std::int32_t)>& visit) const;
+
+ private:
+  void FindBox();
+
+  std::vector<Point2i> corners_;
+  Point2i least_;
+  Point2i most_;
+};
+
+}  // namespace farhorizon
