@@ -101,6 +101,15 @@ bool ConvexPolygon::Meets(const ConvexPolygon& other) const {
   return false;
 }
 
+ConvexPolygon::Silhouette ConvexPolygon::SilhouetteFrom(Point2i eye) const {
+  Silhouette seen{corners_.front(), corners_.front()};
+  for (const Point2i p : corners_) {
+    if (Cross(eye, seen.right, p) < 0) seen.right = p;
+    if (Cross(eye, seen.left, p) > 0) seen.left = p;
+  }
+  return seen;
+}
+
 void ConvexPolygon::ForEachRow(
     const std::function<void(std::int32_t, std::int32_t, std::int32_t)>& visit) const {
   struct Span {

@@ -27,6 +27,14 @@ class ConvexPolygon {
   /// Whether the two have a point in common. Cost: O(n m), after a look at the boxes.
   [[nodiscard]] bool Meets(const ConvexPolygon& other) const;
 
+  /// The corners between which the polygon is seen from `eye`: all of it is to the left of, or on, the ray
+  /// to `right`, and to the right of the one to `left`. Requires: two corners, `eye` outside.
+  struct Silhouette {
+    Point2i right;
+    Point2i left;
+  };
+  [[nodiscard]] Silhouette SilhouetteFrom(Point2i eye) const;
+
   /// Calls visit(row, first column, last column) for each row that has posts in the polygon.
   void ForEachRow(const std::function<void(std::int32_t, std::int32_t, std::int32_t)>& visit) const;
 

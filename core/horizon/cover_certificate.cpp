@@ -39,14 +39,13 @@ Quadratic Negated(const Quadratic& q) { return {-q.c0, -q.c1, -q.c2}; }
 
 // Heights: the point at t is not above the obstacle's top, and not past its lower end on the side
 // that the arc was made for.
-void KeepHeights(const Sighted& e, const SegmentIndex::Item& item, bool sliced,
-                 RangeNarrower& narrower) {
+void KeepHeights(const Sighted& e, const Arc& arc, RangeNarrower& narrower) {
   const Int128 climb = Int128{e.high.z} - e.low.z;
-  narrower.Keep({Int128{item.high.z} - e.low.z, -climb, 0});
-  if (sliced) {
-    narrower.Keep({Int128{e.low.z} - item.low.z, climb, 0});
+  narrower.Keep({Int128{arc.high_z} - e.low.z, -climb, 0});
+  if (arc.sliced) {
+    narrower.Keep({Int128{e.low.z} - arc.low_z, climb, 0});
   } else {
-    narrower.Keep({Int128{item.low.z} - e.low.z, -climb, 0});
+    narrower.Keep({Int128{arc.low_z} - e.low.z, -climb, 0});
   }
 }
 
@@ -119,8 +118,8 @@ void KeepChain(const std::vector<const Arc*>& chain, RangeNarrower& narrower) {
 
 }  // namespace
 
-HiddenRange RangeOfCover(const SegmentIndex& index, const Sighted& sighted,
-                         const SightSample& sample, SightSample::Outcome outcome, Dyadic t,
+HiddenRange RangeOfCover(const Sighted& sighted, const SightSample& sample,
+                         SightSample::Outcome outcome, Dyadic t,
                          std::vector<std::int32_t>* blockers, PredicateCounts* counts) {
   RangeNarrower narrower(t);
   if (outcome == SightSample::Outcome::kAmbiguous) {
@@ -128,15 +127,15 @@ HiddenRange RangeOfCover(const SegmentIndex& index, const Sighted& sighted,
   }
   if (outcome == SightSample::Outcome::kEnclosed) {
     const Arc& arc = sample.arcs().front();
-    KeepHeights(sighted, index.item(arc.obstacle), arc.sliced, narrower);
+    KeepHeights(sighted, arc, narrower);
     if (!arc.from.IsZero()) narrower.Keep(Negated(Dot(arc.from, arc.to)));
-    if (blockers != nullptr) blockers->push_back(arc.obstacle);
+    if (blockers != nullptr && arc.obstacle != kScreen) blockers->push_back(arc.obstacle);
     return narrower.range();
   }
   const std::vector<const Arc*> chain = Thin(sample.arcs(), counts);
   for (const Arc* arc : chain) {
-    KeepHeights(sighted, index.item(arc->obstacle), arc->sliced, narrower);
-    if (blockers != nullptr) blockers->push_back(arc->obstacle);
+    KeepHeights(sighted, *arc, narrower);
+    if (blockers != nullptr && arc->obstacle != kScreen) blockers->push_back(arc->obstacle);
   }
   KeepChain(chain, narrower);
   return narrower.range();

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "core/exact/quadratic.h"
-#include "core/horizon/segment_index.h"
 #include "core/horizon/sight_sample.h"
 
 namespace farhorizon {
@@ -20,9 +19,9 @@ struct HiddenRange {
 /// The arcs that `sample` found complete at t are thinned to a chain around the half turn; the
 /// chain holds as long as each arc turns the right way, each begins before the one before it ends,
 /// and each obstacle goes on rising through or above the point: signs of quadratics in t. Exact.
-/// blockers: where not null, the obstacles of the chain are appended.
-HiddenRange RangeOfCover(const SegmentIndex& index, const Sighted& sighted,
-                         const SightSample& sample, SightSample::Outcome outcome, Dyadic t,
+/// blockers: where not null, the obstacles of the chain, but for screens, are appended.
+HiddenRange RangeOfCover(const Sighted& sighted, const SightSample& sample,
+                         SightSample::Outcome outcome, Dyadic t,
                          std::vector<std::int32_t>* blockers, PredicateCounts* counts);
 
 }  // namespace farhorizon

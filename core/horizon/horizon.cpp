@@ -8,6 +8,7 @@
 #include <atomic>
 #include <exception>
 #include <optional>
+#include <span>
 #include <thread>
 
 #include "core/horizon/hull_sweep.h"
@@ -20,14 +21,15 @@ constexpr std::size_t kBatch = 256;  // candidates between two looks at the stop
 // Decides candidates batch by batch; every thread writes to the slots of its own batches.
 class Decider {
  public:
-  Decider(const Terrain& terrain, const std::vector<Edge>& candidates, const Watch& watch)
+  Decider(const Terrain& terrain, const HullSweep& sweep, const Watch& watch)
       : terrain_(terrain),
-        candidates_(candidates),
+        candidates_(sweep.candidates),
+        screens_(sweep.screens),
         watch_(watch),
         skyline_(terrain.dem().columns, terrain.dem().rows),
-        witnesses_(candidates.size()) {
-    for (const Edge edge : candidates) {
-      skyline_.Insert({terrain.Point(edge.a), terrain.Point(edge.b)});
+        witnesses_(sweep.candidates.size()) {
+    for (const Candidate& candidate : candidates_) {
+      skyline_.Insert({terrain.Point(candidate.edge.a), terrain.Point(candidate.edge.b)});
     }
   }
 
@@ -62,7 +64,7 @@ class Decider {
   [[nodiscard]] std::vector<HorizonEdge> Edges() const {
     std::vector<HorizonEdge> edges;
     for (std::size_t i = 0; i < candidates_.size(); ++i) {
-      if (witnesses_[i]) edges.push_back({candidates_[i], *witnesses_[i]});
+      if (witnesses_[i]) edges.push_back({candidates_[i].edge, *witnesses_[i]});
     }
     return edges;
   }
@@ -74,10 +76,11 @@ class Decider {
       if (begin >= candidates_.size()) return;
       const std::size_t end = std::min(begin + kBatch, candidates_.size());
       for (std::size_t i = begin; i < end; ++i) {
-        const Edge edge = candidates_[i];
+        const Candidate& c = candidates_[i];
         witnesses_[i] =
-            skyline_.FindSight({terrain_.Point(edge.a), terrain_.Point(edge.b)}, Ties::kPass,
-                               static_cast<Skyline::Id>(i), nullptr, &counts);
+            skyline_.FindSight({terrain_.Point(c.edge.a), terrain_.Point(c.edge.b)}, Ties::kPass,
+                               static_cast<Skyline::Id>(i), nullptr, &counts,
+                               screens_.subspan(c.first_screen, c.screen_count));
       }
       if (reports) {
         watch_.Report("decide", static_cast<double>(end) / static_cast<double>(candidates_.size()));
@@ -86,7 +89,8 @@ class Decider {
   }
 
   const Terrain& terrain_;
-  const std::vector<Edge>& candidates_;
+  const std::vector<Candidate>& candidates_;
+  std::span<const Segment> screens_;
   const Watch& watch_;
   Skyline skyline_;
   std::vector<std::optional<Witness>> witnesses_;
@@ -101,7 +105,7 @@ Result<Horizon> FindHorizon(const Terrain& terrain, int threads, const Watch& wa
   Horizon horizon;
   horizon.statistics = sweep->statistics;
   horizon.hulls = std::move(sweep->hulls);
-  Decider decider(terrain, sweep->candidates, watch);
+  Decider decider(terrain, *sweep, watch);
   if (!decider.Run(threads, horizon.statistics.predicates)) {
     return Error{ErrorCode::kCancelled, "stopped while deciding horizon edges"};
   }

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/horizon/convex_polygon.h"
+#include "core/horizon/screens.h"
 
 namespace farhorizon {
 namespace {
@@ -50,6 +51,22 @@ class Sweeper {
     std::int32_t cluster = met.front();
     for (std::size_t i = 1; i < met.size(); ++i) cluster = Merge(cluster, met[i]);
     if (around < 0) Enlarge(cluster, PointOf(v));
+  }
+
+  [[nodiscard]] bool IsLevel(VertexId v, VertexId n) const { return Height(v) == Height(n); }
+
+  // Adds, for the edge from v down to w, what the hulls look like from w: a screen for each, between the
+  // corners of its silhouette, as long as it shows beside those that look wider.
+  void AppendScreens(VertexId v, VertexId w) {
+    silhouettes_.clear();
+    const Point2i eye = PointOf(w);
+    for (const std::int32_t node : apart_) {
+      const ConvexPolygon& polygon = polygons_[static_cast<std::size_t>(node)];
+      if (polygon.corners().size() > 1 && !polygon.Contains(eye)) {
+        silhouettes_.push_back(polygon.SilhouetteFrom(eye));
+      }
+    }
+    SelectScreens(eye, Height(v), silhouettes_, result_.screens);
   }
 
  private:
@@ -161,6 +178,7 @@ class Sweeper {
   std::vector<std::int32_t> apart_;           // nodes that are roots
   std::vector<std::int32_t> next_uncovered_;  // per row, columns + 1: union-find to the right
   std::vector<std::int32_t> met_;
+  std::vector<ConvexPolygon::Silhouette> silhouettes_;
 };
 
 std::vector<VertexId> FromSummitDown(const Terrain& terrain) {
@@ -177,16 +195,20 @@ std::vector<VertexId> FromSummitDown(const Terrain& terrain) {
   return order;
 }
 
-// Whether the edge is a ridge or a border, and not inside the hull of what is above it. Level edges ask
-// for the hull of strictly higher ground: ground of their own height does not hide them.
-bool IsCandidate(const Terrain& terrain, const HullForest& hulls, Edge edge) {
-  const Point3i a = terrain.Point(edge.a);
-  const Point3i b = terrain.Point(edge.b);
-  const std::int32_t level = a.z == b.z ? a.z + 1 : std::max(a.z, b.z);
-  if (hulls.Hides(edge.a, edge.b, level)) return false;
+// Whether the edge is a ridge or a border of the terrain.
+bool IsRidge(const Terrain& terrain, Edge edge) {
   const Terrain::Faces faces = terrain.FacesOf(edge);
   return !faces.left || !faces.right ||
-         Convexity(a, b, terrain.Point(*faces.left), terrain.Point(*faces.right)) > 0;
+         Convexity(terrain.Point(edge.a), terrain.Point(edge.b), terrain.Point(*faces.left),
+                   terrain.Point(*faces.right)) > 0;
+}
+
+// Whether the edge is inside the hull of the ground at or above it. Level edges ask for the hull of
+// strictly higher ground: ground of their own height does not hide them.
+bool InsideHull(const Terrain& terrain, const HullForest& hulls, Edge edge) {
+  const std::int32_t a = terrain.Point(edge.a).z;
+  const std::int32_t b = terrain.Point(edge.b).z;
+  return hulls.Hides(edge.a, edge.b, a == b ? a + 1 : std::max(a, b));
 }
 
 }  // namespace
@@ -201,16 +223,27 @@ Result<HullSweep> SweepHulls(const Terrain& terrain, const Watch& watch) {
       if (watch.StopRequested()) return Error{ErrorCode::kCancelled, "stopped during the sweep"};
       watch.Report("sweep", static_cast<double>(i) / static_cast<double>(order.size()));
     }
-    sweeper.Insert(order[i]);
-  }
-  for (VertexId v = 0; v < terrain.post_count(); ++v) {
+    const VertexId v = order[i];
+    sweeper.Insert(v);
     for (const VertexId n : terrain.NeighboursOf(v)) {
-      if (n < v) continue;
+      const bool from_here = terrain.dem().heights[static_cast<std::size_t>(n)] <
+                                 terrain.dem().heights[static_cast<std::size_t>(v)] ||
+                             (sweeper.IsLevel(v, n) && v < n);
+      if (!from_here) continue;
       ++sweep.statistics.terrain_edges;
-      if (IsCandidate(terrain, sweep.hulls, {v, n})) sweep.candidates.push_back({v, n});
+      const Edge edge = MakeEdge(v, n);
+      if (InsideHull(terrain, sweep.hulls, edge) || !IsRidge(terrain, edge)) continue;
+      const std::size_t first = sweep.screens.size();
+      if (!sweeper.IsLevel(v, n)) sweeper.AppendScreens(v, n);
+      sweep.candidates.push_back({edge, first, sweep.screens.size() - first});
     }
   }
-  std::sort(sweep.candidates.begin(), sweep.candidates.end());
+  // By now the whole of each level is in: hulls of equal height may hide a few more.
+  std::erase_if(sweep.candidates, [&](const Candidate& candidate) {
+    return InsideHull(terrain, sweep.hulls, candidate.edge);
+  });
+  std::sort(sweep.candidates.begin(), sweep.candidates.end(),
+            [](const Candidate& a, const Candidate& b) { return a.edge < b.edge; });
   sweep.statistics.candidates = static_cast<std::int64_t>(sweep.candidates.size());
   return sweep;
 }

@@ -9,9 +9,19 @@
 
 namespace farhorizon {
 
+/// An edge that the sweep could not rule out, and what it knows to hide much of it.
+/// screens: level segments between corners of one hull, at or above the edge: every line of sight that
+/// crosses one meets ground of its height or more.
+struct Candidate {
+  Edge edge;
+  std::size_t first_screen = 0;
+  std::size_t screen_count = 0;
+};
+
 /// What a plane that descends through the terrain finds out at once.
 struct HullSweep {
-  std::vector<Edge> candidates;  ///< by rising (a, b); contains every horizon edge
+  std::vector<Candidate> candidates;  ///< by rising (a, b); contains every horizon edge
+  std::vector<Segment> screens;
   HullForest hulls;
   HorizonStatistics statistics;
 };

@@ -60,8 +60,9 @@ Quadratic Dot(const MovingVector& a, const MovingVector& b) {
 }
 
 SightSample::SightSample(const SegmentIndex& index, const Sighted& sighted,
-                         std::optional<std::int32_t> except, PredicateCounts* counts)
-    : index_(index), sighted_(sighted), except_(except), counts_(counts) {}
+                         std::optional<std::int32_t> except, std::span<const Segment> screens,
+                         PredicateCounts* counts)
+    : index_(index), sighted_(sighted), except_(except), screens_(screens), counts_(counts) {}
 
 SightSample::Outcome SightSample::Look(Dyadic t) {
   t_ = t;
@@ -76,6 +77,7 @@ SightSample::Outcome SightSample::Look(Dyadic t) {
   arcs_.clear();
   outcome_ = Outcome::kHidden;
 
+  if (!MeetScreens()) return outcome_;
   struct Pending {
     SegmentIndex::Place place;
     double distance;
@@ -114,21 +116,30 @@ bool SightSample::Visit(const SegmentIndex::Node& node) {
   for (std::int32_t id = node.first; id >= 0;) {
     const SegmentIndex::Item& item = index_.item(id);
     if (item.alive && item.high.z >= least_top_ && id != except_ && !SurelyHidden(item)) {
-      if (!Meet(id)) return false;
+      if (!Meet(id, item)) return false;
     }
     id = item.next;
   }
   return true;
 }
 
-bool SightSample::Meet(std::int32_t id) {
-  const SegmentIndex::Item& item = index_.item(id);
+bool SightSample::MeetScreens() {
+  for (const Segment& screen : screens_) {
+    const SegmentIndex::Item item{screen.a, screen.b};
+    if (item.high.z >= least_top_ && !SurelyHidden(item) && !Meet(kScreen, item)) return false;
+  }
+  return true;
+}
+
+bool SightSample::Meet(std::int32_t id, const SegmentIndex::Item& item) {
   if (item.high.z == least_top_ && (Int128{item.high.z} << t_.k) == scaled_z_ &&
       item.low.z != item.high.z) {
     return true;  // only its upper end is at the height of level ground
   }
   Arc arc;
   arc.obstacle = id;
+  arc.low_z = item.low.z;
+  arc.high_z = item.high.z;
   arc.sliced = (Int128{item.low.z} << t_.k) < scaled_z_;
   arc.from = arc.sliced ? ToSlice(sighted_, item.low, item.high) : ToPoint(sighted_, item.low);
   arc.to = ToPoint(sighted_, item.high);

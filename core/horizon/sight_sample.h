@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/exact/quadratic.h"
@@ -40,6 +41,8 @@ struct MovingVector {
 Quadratic Cross(const MovingVector& a, const MovingVector& b);
 Quadratic Dot(const MovingVector& a, const MovingVector& b);
 
+inline constexpr std::int32_t kScreen = -1;
+
 /// What one obstacle hides at one t: directions from `from` counter-clockwise to `to`.
 struct Arc {
   MovingVector from;
@@ -47,8 +50,10 @@ struct Arc {
   Direction from_direction;
   Direction to_direction;
   bool crosses_start = false;
-  bool sliced = false;  ///< one of the two is where the obstacle rises through the height
-  std::int32_t obstacle = 0;
+  bool sliced = false;        ///< one of the two is where the obstacle rises through the height
+  std::int32_t obstacle = 0;  ///< its id; kScreen for a screen
+  std::int32_t low_z = 0;     ///< the obstacle's heights
+  std::int32_t high_z = 0;
 };
 
 /// What an observer at one point of the segment sees of the obstacles: the directions that they
@@ -63,7 +68,7 @@ class SightSample {
   };
 
   SightSample(const SegmentIndex& index, const Sighted& sighted, std::optional<std::int32_t> except,
-              PredicateCounts* counts);
+              std::span<const Segment> screens, PredicateCounts* counts);
 
   Outcome Look(Dyadic t);
 
@@ -73,7 +78,8 @@ class SightSample {
  private:
   bool Visit(const SegmentIndex::Node& node);
   /// False where the outcome is settled.
-  bool Meet(std::int32_t id);
+  bool Meet(std::int32_t id, const SegmentIndex::Item& item);
+  bool MeetScreens();
   bool MeetCollinear(const Arc& arc, const Vector& from, const Vector& to);
   [[nodiscard]] bool SurelyHidden(const SegmentIndex::Node& node) const;
   [[nodiscard]] bool SurelyHidden(const SegmentIndex::Item& item) const;
@@ -81,6 +87,7 @@ class SightSample {
   const SegmentIndex& index_;
   const Sighted& sighted_;
   std::optional<std::int32_t> except_;
+  std::span<const Segment> screens_;
   PredicateCounts* counts_;
 
   Dyadic t_;

@@ -46,10 +46,11 @@ std::int64_t Skyline::size() const { return index_->segments.alive(); }
 
 std::optional<Witness> Skyline::FindSight(const Segment& segment, Ties ties,
                                           std::optional<Id> except, std::vector<Id>* blockers,
-                                          PredicateCounts* counts) const {
+                                          PredicateCounts* counts,
+                                          std::span<const Segment> screens) const {
   Sighted sighted{segment.a, segment.b, ties};
   if (segment.a.z > segment.b.z) std::swap(sighted.low, sighted.high);
-  SightSample sample(index_->segments, sighted, except, counts);
+  SightSample sample(index_->segments, sighted, except, screens, counts);
   std::vector<HiddenRange> open = {{QuadraticRoot::At({0, 0}), QuadraticRoot::At({1, 0})}};
   while (!open.empty()) {
     const HiddenRange gap = open.back();
@@ -58,8 +59,7 @@ std::optional<Witness> Skyline::FindSight(const Segment& segment, Ties ties,
     if (!t) continue;
     const SightSample::Outcome outcome = sample.Look(*t);
     if (outcome == SightSample::Outcome::kSight) return MakeWitness(segment, *t, sample.sight());
-    const HiddenRange hidden =
-        RangeOfCover(index_->segments, sighted, sample, outcome, *t, blockers, counts);
+    const HiddenRange hidden = RangeOfCover(sighted, sample, outcome, *t, blockers, counts);
     open.push_back({gap.from, hidden.from});
     open.push_back({hidden.to, gap.to});
   }

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/terrain/terrain.h"
@@ -63,7 +64,8 @@ class Skyline {
   [[nodiscard]] std::optional<Witness> FindSight(const Segment& segment, Ties ties,
                                                  std::optional<Id> except = std::nullopt,
                                                  std::vector<Id>* blockers = nullptr,
-                                                 PredicateCounts* counts = nullptr) const;
+                                                 PredicateCounts* counts = nullptr,
+                                                 std::span<const Segment> screens = {}) const;
 
  private:
   struct Index;
