@@ -1,0 +1,448 @@
+// Reads a DEM through GDAL without trusting the file: everything that can be refused from the
+// header is refused before the first pixel is read. Threats and settings: GdalSession.
+#include "core/io/dem_reader.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <cpl_conv.h>
+#include <cpl_string.h>
+#include <gdal.h>
+#include <ogr_srs_api.h>
+
+#include "core/io/ascii_grid.h"
+#include "core/io/gdal_session.h"
+#include "core/io/height_scale.h"
+
+namespace farhorizon {
+namespace {
+
+constexpr int kMaxSide = 32768;
+constexpr double kMaxHeight = 1073741824;  // 2^30: Dem's bound at a quantum of 1
+constexpr double kFoot = 0.3048;
+constexpr double kSurveyFoot = 1200.0 / 3937;
+
+struct CloseDataset {
+  void operator()(void* dataset) const { GDALClose(dataset); }
+};
+using DatasetPtr = std::unique_ptr<void, CloseDataset>;
+
+Error BadData(const std::string& message, const char* kind) {
+  return {ErrorCode::kUnsupportedData, message, kind};
+}
+
+std::string Quoted(const std::filesystem::path& path) {
+  std::string quoted(1, '"');
+  return quoted.append(path.filename().string()).append(1, '"');
+}
+
+DatasetPtr OpenWith(const std::string& path, const char* const* drivers) {
+  // INTERNAL: no world or .tab file; OVERVIEW_LEVEL: no OVERVIEW_FILE redirection (measured).
+  const char* const options[] = {"OVERVIEW_LEVEL=NONE", "GEOREF_SOURCES=INTERNAL", nullptr};
+  return DatasetPtr(
+      GDALOpenEx(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, drivers, options, nullptr));
+}
+
+Result<DatasetPtr> OpenRaster(const std::filesystem::path& path, GdalSession& session) {
+  std::error_code failure;
+  if (!std::filesystem::is_regular_file(path, failure)) {
+    return Error{ErrorCode::kNotFound, "there is no file " + Quoted(path), "no-such-file"};
+  }
+  const std::string absolute = std::filesystem::absolute(path).lexically_normal().string();
+  if (absolute.starts_with("/vsi")) {
+    return Error{ErrorCode::kInvalidArgument, "paths under /vsi are GDAL's, not files of ours",
+                 "virtual-path"};
+  }
+  const char* const alone[] = {"GTiff", "AAIGrid", "SRTMHGT", "DTED", "USGSDEM", nullptr};
+  DatasetPtr dataset = OpenWith(absolute, alone);
+  if (!dataset) {
+    const std::string first = session.Complaint();
+    // ENVI keeps its header in a file beside, which GDAL sees only without EMPTY_DIR.
+    CPLSetThreadLocalConfigOption("GDAL_DISABLE_READDIR_ON_OPEN", "TRUE");
+    const char* const envi[] = {"ENVI", nullptr};
+    dataset = OpenWith(absolute, envi);
+    CPLSetThreadLocalConfigOption("GDAL_DISABLE_READDIR_ON_OPEN", "EMPTY_DIR");
+    if (!dataset) {
+      return BadData(
+          Quoted(path) + " is no raster that can be read" + first +
+              "; expected GeoTIFF, Arc/Info ASCII grid, SRTM HGT, DTED, USGS DEM or ENVI",
+          "not-a-raster");
+    }
+  }
+  session.Forget();
+  return dataset;
+}
+
+Status CheckSize(GDALDatasetH dataset, const DemReadOptions& options) {
+  const int columns = GDALGetRasterXSize(dataset);
+  const int rows = GDALGetRasterYSize(dataset);
+  const std::string size = std::to_string(columns) + " x " + std::to_string(rows);
+  const int bands = GDALGetRasterCount(dataset);
+  if (bands != 1) {
+    return BadData("the raster has " + std::to_string(bands) +
+                       " bands, expected 1; take out the one with the heights "
+                       "(gdal_translate -b)",
+                   bands == 0 ? "not-a-raster" : "several-bands");
+  }
+  if (columns < 2 || rows < 2) {
+    return BadData("the raster has " + size + " cells, at least 2 x 2 are needed", "too-small");
+  }
+  if (columns > kMaxSide || rows > kMaxSide || std::int64_t{columns} * rows > options.max_posts) {
+    return Error{ErrorCode::kResourceExhausted,
+                 "the raster has " + size + " cells, the limit is " +
+                     std::to_string(options.max_posts) + " and " + std::to_string(kMaxSide) +
+                     " a side; cut it or make it coarser",
+                 "raster-too-large"};
+  }
+  return Done{};
+}
+
+// A block is decoded whole. One much larger than the raster is a bomb, not a tiling.
+Status CheckBlock(GDALRasterBandH band, const DemReadOptions& options) {
+  constexpr std::int64_t kAlwaysFine = std::int64_t{1} << 20;
+  int width = 0;
+  int height = 0;
+  GDALGetBlockSize(band, &width, &height);
+  const std::int64_t posts =
+      std::int64_t{GDALGetRasterBandXSize(band)} * GDALGetRasterBandYSize(band);
+  const std::int64_t limit = std::max(kAlwaysFine, std::min(options.max_posts, 4 * posts));
+  if (width > 0 && height > 0 && std::int64_t{width} * height <= limit) return Done{};
+  return Error{ErrorCode::kResourceExhausted,
+               "the raster is stored in blocks of " + std::to_string(width) + " x " +
+                   std::to_string(height) + " cells, the limit is " + std::to_string(limit) +
+                   "; rewrite it with smaller blocks (gdal_translate -co TILED=YES)",
+               "block-too-large"};
+}
+
+Status CheckType(GDALRasterBandH band) {
+  const GDALDataType type = GDALGetRasterDataType(band);
+  if (GDALDataTypeIsComplex(type) != 0 || type == GDT_Unknown) {
+    return BadData(std::string("the band's values are of type ") + GDALGetDataTypeName(type) +
+                       ", heights must be real numbers",
+                   "unsupported-type");
+  }
+  if (GDALGetRasterColorTable(band) != nullptr) {
+    return BadData("the band is a picture with a colour table, heights are needed",
+                   "unsupported-type");
+  }
+  return Done{};
+}
+
+Result<GeoTransform> ReadGeoTransform(GDALDatasetH dataset) {
+  double g[6] = {0, 0, 0, 0, 0, 0};
+  if (GDALGetGeoTransform(dataset, g) != CE_None) {
+    return BadData(
+        "the raster does not say where its cells lie (no geotransform); give it one "
+        "with gdal_translate -a_ullr",
+        "degenerate-geotransform");
+  }
+  const bool finite = std::ranges::all_of(g, [](double x) { return std::isfinite(x); });
+  if (finite && (g[2] != 0 || g[4] != 0)) {
+    return BadData("the raster is rotated or sheared; make it north up with gdalwarp",
+                   "rotated-geotransform");
+  }
+  if (finite && g[1] < 0) {
+    return BadData("the raster's columns run from east to west; turn it round with gdalwarp",
+                   "rotated-geotransform");
+  }
+  // GDAL's coefficients are those of cell corners, for PixelIsPoint files too (it shifts them).
+  const GeoTransform transform = {g[0] + 0.5 * g[1], g[3] + 0.5 * g[5], g[1], g[5]};
+  const double last_x = transform.origin_x + (GDALGetRasterXSize(dataset) - 1) * g[1];
+  const double last_y = transform.origin_y + (GDALGetRasterYSize(dataset) - 1) * g[5];
+  const bool apart = transform.origin_x + g[1] != transform.origin_x && last_x - g[1] != last_x &&
+                     transform.origin_y + g[5] != transform.origin_y && last_y - g[5] != last_y;
+  if (!finite || !apart || !std::isfinite(last_x) || !std::isfinite(last_y)) {
+    return BadData(
+        "the raster's geotransform is degenerate (cell size zero or not a number); give "
+        "it one with gdal_translate -a_ullr",
+        "degenerate-geotransform");
+  }
+  return transform;
+}
+
+Result<std::string> ReadCrs(GDALDatasetH dataset, const DemReadOptions& options) {
+  if (options.crs) return *options.crs;
+  const OGRSpatialReferenceH crs = GDALGetSpatialRef(dataset);
+  if (crs == nullptr) {
+    return BadData("the DEM has no reference system; name it with --crs, for example EPSG:4326",
+                   "no-crs");
+  }
+  const char* authority = OSRGetAuthorityName(crs, nullptr);
+  const char* code = OSRGetAuthorityCode(crs, nullptr);
+  if (authority != nullptr && code != nullptr) return std::string(authority) + ":" + code;
+  const char* const format[] = {"FORMAT=WKT2_2019", "MULTILINE=NO", nullptr};
+  char* text = nullptr;
+  const OGRErr failure = OSRExportToWktEx(crs, &text, format);
+  std::string wkt = text != nullptr ? text : "";
+  CPLFree(text);
+  if (failure != OGRERR_NONE || wkt.empty()) {
+    return BadData("the DEM's reference system cannot be read; name it with --crs", "no-crs");
+  }
+  return wkt;
+}
+
+Result<double> UnitInMetres(std::string name) {
+  std::ranges::transform(name, name.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  static constexpr std::pair<std::string_view, double> kUnits[] = {{"", 1},
+                                                                   {"m", 1},
+                                                                   {"metre", 1},
+                                                                   {"metres", 1},
+                                                                   {"meter", 1},
+                                                                   {"meters", 1},
+                                                                   {"ft", kFoot},
+                                                                   {"foot", kFoot},
+                                                                   {"feet", kFoot},
+                                                                   {"international foot", kFoot},
+                                                                   {"us-ft", kSurveyFoot},
+                                                                   {"ftus", kSurveyFoot},
+                                                                   {"us survey foot", kSurveyFoot},
+                                                                   {"foot_us", kSurveyFoot},
+                                                                   {"us_foot", kSurveyFoot},
+                                                                   {"sfoot", kSurveyFoot},
+                                                                   {"km", 1000},
+                                                                   {"dm", 0.1},
+                                                                   {"cm", 0.01},
+                                                                   {"mm", 0.001}};
+  for (const auto& [known, metres] : kUnits) {
+    if (name == known) return metres;
+  }
+  return BadData("the band's values are in \"" + name.substr(0, 40) +
+                     "\", heights must be in metres or feet; set the unit with gdal_edit -units",
+                 "unknown-unit");
+}
+
+// How raw values become metres: metres = raw * scale + offset.
+struct ValueScale {
+  double scale = 1;
+  double offset = 0;
+};
+
+Result<ValueScale> ReadValueScale(GDALDatasetH dataset, GDALRasterBandH band) {
+  Result<double> unit = UnitInMetres(GDALGetRasterUnitType(band));
+  if (!unit) return std::move(unit.error());
+  const OGRSpatialReferenceH crs = GDALGetSpatialRef(dataset);
+  if (*GDALGetRasterUnitType(band) == '\0' && crs != nullptr && OSRIsCompound(crs) != 0) {
+    unit = OSRGetTargetLinearUnits(crs, "VERT_CS", nullptr);
+  }
+  const double scale = GDALGetRasterScale(band, nullptr);
+  const double offset = GDALGetRasterOffset(band, nullptr);
+  if (!std::isfinite(scale) || scale == 0 || !std::isfinite(offset)) {
+    return BadData("the band's scale (" + std::to_string(scale) + ") or offset (" +
+                       std::to_string(offset) + ") is of no use; set them with gdal_edit",
+                   "unsupported-type");
+  }
+  return ValueScale{scale * *unit, offset * *unit};
+}
+
+// What a band says of cells without data.
+class NoDataRule {
+ public:
+  NoDataRule(GDALRasterBandH band, const DemReadOptions& options)
+      : is_float_(GDALGetRasterDataType(band) == GDT_Float32) {
+    int given = 0;
+    double value = 0;
+    switch (GDALGetRasterDataType(band)) {
+      case GDT_Int64:
+        value = static_cast<double>(GDALGetRasterNoDataValueAsInt64(band, &given));
+        break;
+      case GDT_UInt64:
+        value = static_cast<double>(GDALGetRasterNoDataValueAsUInt64(band, &given));
+        break;
+      default:
+        value = GDALGetRasterNoDataValue(band, &given);
+    }
+    if (given != 0) value_ = value;
+    if (options.nodata) value_ = options.nodata;
+  }
+
+  [[nodiscard]] bool given() const { return value_.has_value(); }
+
+  // Values beyond any height (-1e37, -3.40282e+38) are written with few digits, so that text and
+  // bits may differ: they match within 1e-5 of their size. Ordinary ones match as the type stores
+  // them.
+  [[nodiscard]] bool Matches(double value) const {
+    if (std::isnan(value)) return true;
+    if (!value_) return false;
+    if (value == *value_) return true;
+    if (std::abs(*value_) >= kMaxHeight && std::isfinite(*value_)) {
+      return std::abs(value - *value_) <= 1e-5 * std::abs(*value_);
+    }
+    return is_float_ && std::isfinite(*value_) &&
+           static_cast<float>(value) == static_cast<float>(*value_);
+  }
+
+ private:
+  bool is_float_;
+  std::optional<double> value_;
+};
+
+Error Truncated(const std::string& what) {
+  return BadData("the raster is not complete: " + what + "; fetch or make the file again",
+                 "truncated");
+}
+
+// GDAL fills blocks that a TIFF leaves out with nodata, or with zeros where there is none: in a
+// file that was cut short those zeros would be taken for ground.
+Status CheckTiffBlocks(GDALRasterBandH band, std::uintmax_t file_bytes, bool has_nodata) {
+  int width = 0;
+  int height = 0;
+  GDALGetBlockSize(band, &width, &height);
+  const int across = (GDALGetRasterBandXSize(band) + width - 1) / width;
+  const int down = (GDALGetRasterBandYSize(band) + height - 1) / height;
+  for (int y = 0; y < down; ++y) {
+    for (int x = 0; x < across; ++x) {
+      const std::string place = std::to_string(x) + "_" + std::to_string(y);
+      const auto number = [&](const std::string& key) -> std::uintmax_t {
+        const char* text = GDALGetMetadataItem(band, (key + place).c_str(), "TIFF");
+        return text != nullptr ? std::strtoull(text, nullptr, 10) : 0;
+      };
+      const std::uintmax_t offset = number("BLOCK_OFFSET_");
+      const std::uintmax_t bytes = number("BLOCK_SIZE_");
+      const std::string name = "block (" + std::to_string(x) + ", " + std::to_string(y) + ")";
+      if (offset == 0 && !has_nodata) return Truncated(name + " is missing");
+      if (offset > file_bytes || bytes > file_bytes - offset) {
+        return Truncated(name + " lies beyond the end of the file");
+      }
+    }
+  }
+  return Done{};
+}
+
+// Cells without number in an ASCII grid, and those beyond the end of a flat file, GDAL reads as 0.
+Status CheckComplete(GDALDatasetH dataset, GDALRasterBandH band, const std::filesystem::path& path,
+                     bool has_nodata) {
+  std::error_code failure;
+  const std::uintmax_t bytes = std::filesystem::file_size(path, failure);
+  if (failure) return Error{ErrorCode::kIo, "the size of " + Quoted(path) + " cannot be read"};
+  const std::int64_t posts =
+      std::int64_t{GDALGetRasterBandXSize(band)} * GDALGetRasterBandYSize(band);
+  const std::string_view driver = GDALGetDriverShortName(GDALGetDatasetDriver(dataset));
+  if (driver == "GTiff") return CheckTiffBlocks(band, bytes, has_nodata);
+  if (driver == "AAIGrid") return CheckAsciiGrid(path, posts);
+  if (driver == "ENVI") {
+    const char* text = GDALGetMetadataItem(dataset, "header_offset", "ENVI");
+    const std::uintmax_t start = text != nullptr ? std::strtoull(text, nullptr, 10) : 0;
+    const auto wanted =
+        static_cast<std::uintmax_t>(posts) *
+        static_cast<std::uintmax_t>(GDALGetDataTypeSizeBytes(GDALGetRasterDataType(band)));
+    if (start > bytes || wanted > bytes - start) {
+      return Truncated("the file has " + std::to_string(bytes) + " of " +
+                       std::to_string(start + wanted) + " bytes");
+    }
+  }
+  return Done{};
+}
+
+// An internal mask hides cells without giving them a value of their own.
+Status ApplyMask(GDALRasterBandH band, GdalSession& session, std::vector<double>& values) {
+  if ((GDALGetMaskFlags(band) & GMF_PER_DATASET) == 0) return Done{};
+  const int columns = GDALGetRasterBandXSize(band);
+  const int rows = GDALGetRasterBandYSize(band);
+  std::vector<std::uint8_t> mask(values.size());
+  if (GDALRasterIO(GDALGetMaskBand(band), GF_Read, 0, 0, columns, rows, mask.data(), columns, rows,
+                   GDT_Byte, 0, 0) != CE_None ||
+      session.Failed()) {
+    return Truncated("its mask cannot be read" + session.Complaint());
+  }
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (mask[i] == 0) values[i] = std::numeric_limits<double>::quiet_NaN();
+  }
+  return Done{};
+}
+
+std::string PlaceOf(std::size_t post, int columns) {
+  const auto width = static_cast<std::size_t>(columns);
+  return "the cell at column " + std::to_string(post % width) + ", row " +
+         std::to_string(post / width);
+}
+
+// Raw values of the band, rows x columns, NaN where there is no data; all others are heights.
+Result<std::vector<double>> ReadValues(GDALRasterBandH band, const NoDataRule& nodata,
+                                       const ValueScale& scale, GdalSession& session) {
+  const int columns = GDALGetRasterBandXSize(band);
+  const int rows = GDALGetRasterBandYSize(band);
+  std::vector<double> values(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
+  if (GDALRasterIO(band, GF_Read, 0, 0, columns, rows, values.data(), columns, rows, GDT_Float64, 0,
+                   0) != CE_None ||
+      session.Failed()) {
+    return Truncated("its cells cannot be read" + session.Complaint());
+  }
+  if (Status masked = ApplyMask(band, session, values); !masked) return std::move(masked.error());
+  bool any = false;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    double& value = values[i];
+    if (nodata.Matches(value)) {
+      value = std::numeric_limits<double>::quiet_NaN();
+      continue;
+    }
+    any = true;
+    if (std::isinf(value)) {
+      return BadData(
+          PlaceOf(i, columns) + " is infinite; name the value that means no data with --nodata",
+          "infinite-height");
+    }
+    if (std::abs(value) >= kMaxHeight ||
+        std::abs(value * scale.scale + scale.offset) >= kMaxHeight) {
+      return BadData(PlaceOf(i, columns) + " is " + std::to_string(value) +
+                         ", which is no height; name the value that means no data with --nodata",
+                     "height-out-of-range");
+    }
+  }
+  if (!any) return BadData("no cell of the raster has data", "all-nodata");
+  return values;
+}
+
+Result<Dem> ReadOpened(GDALDatasetH dataset, const std::filesystem::path& path,
+                       const DemReadOptions& options, GdalSession& session) {
+  if (Status fits = CheckSize(dataset, options); !fits) return std::move(fits.error());
+  const GDALRasterBandH band = GDALGetRasterBand(dataset, 1);
+  if (Status typed = CheckType(band); !typed) return std::move(typed.error());
+  if (Status fits = CheckBlock(band, options); !fits) return std::move(fits.error());
+  const NoDataRule nodata(band, options);
+  if (Status whole = CheckComplete(dataset, band, path, nodata.given()); !whole) {
+    return std::move(whole.error());
+  }
+  Result<GeoTransform> transform = ReadGeoTransform(dataset);
+  if (!transform) return std::move(transform.error());
+  Result<std::string> crs = ReadCrs(dataset, options);
+  if (!crs) return std::move(crs.error());
+  Result<ValueScale> scale = ReadValueScale(dataset, band);
+  if (!scale) return std::move(scale.error());
+  session.Forget();
+  Result<std::vector<double>> values = ReadValues(band, nodata, *scale, session);
+  if (!values) return std::move(values.error());
+  if (scale->scale < 0) {
+    for (double& value : *values) value = -value;
+    scale->scale = -scale->scale;
+  }
+
+  ScaledHeights scaled = ScaleHeights(*values);
+  Dem dem;
+  dem.columns = GDALGetRasterXSize(dataset);
+  dem.rows = GDALGetRasterYSize(dataset);
+  dem.heights = std::move(scaled.heights);
+  dem.quantum_m = scaled.quantum * scale->scale;
+  dem.height_offset_m = scaled.offset * scale->scale + scale->offset;
+  dem.quantized = scaled.quantized;
+  dem.transform = *transform;
+  dem.crs = *crs;
+  return dem;
+}
+
+}  // namespace
+
+Result<Dem> ReadDem(const std::filesystem::path& path, const DemReadOptions& options) {
+  GdalSession session(path);
+  Result<DatasetPtr> dataset = OpenRaster(path, session);
+  if (!dataset) return std::move(dataset.error());
+  return ReadOpened(dataset->get(), path, options, session);
+}
+
+}  // namespace farhorizon

@@ -1,0 +1,88 @@
+#include "core/io/gdal_session.h"
+
+#include <array>
+#include <mutex>
+#include <utility>
+
+#include <cpl_conv.h>
+#include <cpl_error.h>
+#include <gdal_frmts.h>
+#include <ogr_srs_api.h>
+#include <ogrsf_frmts.h>
+
+namespace farhorizon {
+namespace {
+
+// GTIFF_REPORT_COMPD_CS: a vertical datum in the file is one we must know of.
+constexpr std::array<std::pair<const char*, const char*>, 7> kSettings = {{
+    {"GDAL_PAM_ENABLED", "NO"},
+    {"GDAL_DISABLE_READDIR_ON_OPEN", "EMPTY_DIR"},
+    {"CPL_VSIL_CURL_ALLOWED_EXTENSIONS", ".nothing"},
+    {"PROJ_NETWORK", "OFF"},
+    {"GTIFF_REPORT_COMPD_CS", "YES"},
+    {"GTIFF_IGNORE_READ_ERRORS", "NO"},
+    {"OGR_SQLITE_SYNCHRONOUS", "OFF"},
+}};
+
+// Instead of GDALAllRegister, which brings some 200 drivers and loads plug-ins.
+void RegisterDrivers() {
+  static std::once_flag once;
+  std::call_once(once, [] {
+    OSRSetPROJEnableNetwork(0);
+    GDALRegister_GTiff();
+    GDALRegister_AAIGrid();
+    GDALRegister_SRTMHGT();
+    GDALRegister_DTED();
+    GDALRegister_USGSDEM();
+    GDALRegister_ENVI();
+    RegisterOGRFlatGeobuf();
+    RegisterOGRGeoPackage();
+  });
+}
+
+void CPL_STDCALL HearError(CPLErr severity, CPLErrorNum, const char* message) {
+  if (severity < CE_Failure) return;
+  static_cast<GdalSession*>(CPLGetErrorHandlerUserData())->Hear(message);
+}
+
+void Replace(std::string& text, const std::string& what, const std::string& with) {
+  if (what.empty()) return;
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at)) {
+    text.replace(at, what.size(), with);
+    at += with.size();
+  }
+}
+
+}  // namespace
+
+GdalSession::GdalSession(const std::filesystem::path& path)
+    : path_(std::filesystem::absolute(path).lexically_normal()) {
+  RegisterDrivers();
+  for (const auto& [key, value] : kSettings) CPLSetThreadLocalConfigOption(key, value);
+  CPLPushErrorHandlerEx(HearError, this);
+}
+
+GdalSession::~GdalSession() {
+  CPLPopErrorHandler();
+  for (const auto& [key, value] : kSettings) CPLSetThreadLocalConfigOption(key, nullptr);
+}
+
+void GdalSession::Hear(const char* message) {
+  if (!first_failure_.empty()) return;
+  first_failure_ = message;
+  const std::string directory = path_.parent_path().string();
+  Replace(first_failure_, path_.string(), path_.filename().string());
+  if (directory.size() > 1) {
+    Replace(first_failure_, directory + "/", "");
+    Replace(first_failure_, directory, ".");
+  }
+  for (char& c : first_failure_) {
+    if (static_cast<unsigned char>(c) < 0x20) c = ' ';
+  }
+}
+
+std::string GdalSession::Complaint() const {
+  return first_failure_.empty() ? "" : " (GDAL: " + first_failure_ + ")";
+}
+
+}  // namespace farhorizon
