@@ -1,9 +1,15 @@
-// The time to find a terrain's horizon edges: on fractal terrain, where the size is ours to choose.
+// The time to find a terrain's horizon edges: on fractal terrain, where the size is ours to choose,
+// and on the real DEMs of FARHORIZON_DEM_DIR, where it is not.
+#include <algorithm>
 #include <cstdint>
+#include <filesystem>
+#include <system_error>
+#include <vector>
 
 #include <benchmark/benchmark.h>
 
 #include "core/horizon/horizon.h"
+#include "core/io/dem_reader.h"
 #include "core/terrain/terrain.h"
 #include "tests/support/terrains.h"
 
@@ -50,7 +56,38 @@ BENCHMARK(FindHorizonOfFractal)
     ->UseRealTime()
     ->Unit(benchmark::kMillisecond);
 
+void FindHorizonOf(benchmark::State& state, const std::filesystem::path& path) {
+  Result<Dem> dem = ReadDem(path, {});
+  if (!dem) {
+    state.SkipWithError(dem.error().message.c_str());
+    return;
+  }
+  MeasureHorizon(state, *dem, 1);
+}
+
+// Nothing is registered where the folder is absent.
+void RegisterRealDems() {
+  std::vector<std::filesystem::path> paths;
+  std::error_code absent;
+  for (const auto& entry : std::filesystem::directory_iterator(FARHORIZON_DEM_DIR, absent)) {
+    if (entry.path().extension() == ".tif") paths.push_back(entry.path());
+  }
+  std::sort(paths.begin(), paths.end());
+  for (const std::filesystem::path& path : paths) {
+    benchmark::RegisterBenchmark(("FindHorizonOf/" + path.stem().string()).c_str(), FindHorizonOf,
+                                 path)
+        ->UseRealTime()
+        ->Unit(benchmark::kMillisecond);
+  }
+}
+
 }  // namespace
 }  // namespace farhorizon
 
-BENCHMARK_MAIN();
+int main(int argc, char** argv) {
+  farhorizon::RegisterRealDems();
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  benchmark::RunSpecifiedBenchmarks();
+  return 0;
+}
