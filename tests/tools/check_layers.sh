@@ -33,7 +33,7 @@ declare -A may=(
 foreign=(
   '(gdal|ogr|cpl_|vrt) @ ^core/io/[^/]+\.cpp$ ^service/jobs/[a-z_0-9]*object_store\.cpp$'
   'draco/ @ ^core/io/[^/]+\.cpp$'
-  'proj(\.h$|/) @ ^core/geo/[^/]+\.cpp$'
+  'proj(_[a-z]+)?(\.h$|/) @ ^core/geo/[^/]+\.cpp$'
   'boost/multiprecision/ @ ^core/exact/'
   'boost/ @ ^service/asio\.h$ ^service/(http|worker|cli)/'
   'sqlite3 @ ^service/jobs/[a-z_0-9]+\.cpp$'

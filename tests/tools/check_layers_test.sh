@@ -26,6 +26,7 @@ sound='every one along an arrow'
 expect 0 "$sound" core/pipeline/build.cpp '"core/horizon/horizon.h"'
 expect 0 "$sound" service/http/router.cpp '"service/handlers/jobs.h"'
 expect 0 "$sound" core/io/dem_reader.cpp '<gdal_priv.h>'
+expect 0 "$sound" core/geo/crs.cpp '<proj_experimental.h>'
 expect 0 "$sound" core/exact/wide.h '<boost/multiprecision/cpp_int.hpp>'
 expect 0 "$sound" service/jobs/sqlite_job_store.cpp '<sqlite3.h>'
 # Up, or across.
