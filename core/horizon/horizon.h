@@ -25,6 +25,10 @@ struct HorizonStatistics {
   std::int64_t clusters_max = 0;  ///< most merged hulls that were apart at any level
   std::int64_t births = 0;        ///< peaks outside every merged hull
   std::int64_t merges = 0;        ///< merges of two clusters
+  std::int64_t regular = 0;       ///< posts that are no peak, saddle or minimum
+  std::int64_t saddles = 0;       ///< posts at which separate ground joins
+  std::int64_t minima = 0;        ///< posts with no lower neighbour
+  std::int64_t hull_changes = 0;  ///< posts that enlarged a hull
   PredicateCounts predicates;
 };
 

@@ -32,17 +32,25 @@ class Sweeper {
     level_ = Height(v);
     std::vector<std::int32_t>& met = met_;
     met.clear();
-    bool peak = true;
+    bool minimum = true;
     for (const VertexId n : terrain_.NeighboursOf(v)) {
-      if (!InsertedBefore(n, v)) continue;
-      peak = false;
+      if (!InsertedBefore(n, v)) {
+        minimum = false;
+        continue;
+      }
       met.push_back(Find(result_.hulls.cluster[static_cast<std::size_t>(n)]));
     }
-    const std::int32_t around = result_.hulls.cluster[static_cast<std::size_t>(v)];
-    result_.statistics.peaks += peak ? 1 : 0;
-    if (around >= 0) met.push_back(Find(around));
     std::sort(met.begin(), met.end());
     met.erase(std::unique(met.begin(), met.end()), met.end());
+    HorizonStatistics& statistics = result_.statistics;
+    ++(met.empty()       ? statistics.peaks
+       : met.size() > 1  ? statistics.saddles
+       : minimum         ? statistics.minima
+                         : statistics.regular);
+    const std::int32_t around = result_.hulls.cluster[static_cast<std::size_t>(v)];
+    if (around >= 0 && std::find(met.begin(), met.end(), Find(around)) == met.end()) {
+      met.push_back(Find(around));
+    }
     if (met.empty()) {
       Bear(v);
       return;
@@ -127,6 +135,7 @@ class Sweeper {
   void Enlarge(std::int32_t cluster, Point2i p) {
     ConvexPolygon& polygon = polygons_[static_cast<std::size_t>(cluster)];
     if (polygon.Contains(p)) return;
+    ++result_.statistics.hull_changes;
     std::vector<Point2i> corners = polygon.corners();
     corners.push_back(p);
     polygon = ConvexPolygon::HullOf(corners);

@@ -25,15 +25,12 @@ struct BuildOptions {
   int threads = 1;  ///< never changes a byte of the result
 };
 
-/// Seconds by stage, for the log.
-using Timings = std::map<std::string, double>;
-
 /// DEM in, artifacts out: reads `dem`, finds its horizon, builds and encodes the levels, measures
 /// them on what was encoded, and leaves tileset.json, lodN.glb, lodN.drc, horizon.geojson,
 /// report.json and manifest.json in `directory` (made if missing). Nothing is left behind on
 /// failure. Same input and options, same bytes.
 Status BuildArtifacts(const std::filesystem::path& dem, const std::filesystem::path& directory,
-                      const BuildOptions& options, const Watch& watch, Timings* timings = nullptr);
+                      const BuildOptions& options, const Watch& watch);
 
 /// Checks options by themselves. Errors: kInvalidArgument, naming the option, its value and its
 /// range.

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <filesystem>
+
+#include "core/base/progress.h"
+#include "core/base/result.h"
+#include "core/pipeline/build.h"
+
+namespace farhorizon {
+
+/// Only the horizon edges of `dem`, in the format that the ending of `out` names: ".geojson", ".fgb" or
+/// ".gpkg".
+/// Errors: kInvalidArgument for another ending; those of reading, placing and sweeping the DEM.
+Status WriteHorizonEdges(const std::filesystem::path& dem, const std::filesystem::path& out,
+                         const BuildOptions& options, const Watch& watch);
+
+}  // namespace farhorizon

@@ -1,0 +1,159 @@
+#include "core/pipeline/level_artifact.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/io/glb.h"
+#include "core/pipeline/geometric_error.h"
+
+namespace farhorizon {
+namespace {
+
+std::vector<VertexId> PostsOf(const PostMesh& mesh) {
+  std::vector<VertexId> posts;
+  posts.reserve(mesh.triangles.size() * 3);
+  for (const Triangle& t : mesh.triangles) posts.insert(posts.end(), t.begin(), t.end());
+  std::sort(posts.begin(), posts.end());
+  posts.erase(std::unique(posts.begin(), posts.end()), posts.end());
+  return posts;
+}
+
+Result<std::vector<Enu>> Locate(const Placement& placement, const std::vector<VertexId>& posts) {
+  Result<std::vector<Geodetic>> geodetic = placement.ToGeodetic(posts);
+  if (!geodetic) return std::move(geodetic.error());
+  return placement.ToEnu(*geodetic);
+}
+
+Result<LocalMesh> ToLocal(const Placement& placement, const PostMesh& mesh) {
+  const std::vector<VertexId> posts = PostsOf(mesh);
+  Result<std::vector<Enu>> positions = Locate(placement, posts);
+  if (!positions) return std::move(positions.error());
+  LocalMesh local;
+  local.positions = *std::move(positions);
+  local.sources.assign(posts.begin(), posts.end());
+  const auto index = [&posts](VertexId v) {
+    return static_cast<std::uint32_t>(std::lower_bound(posts.begin(), posts.end(), v) -
+                                      posts.begin());
+  };
+  const bool keeps = placement.KeepsOrientation();
+  local.triangles.reserve(mesh.triangles.size());
+  for (const Triangle& t : mesh.triangles) {
+    local.triangles.push_back({index(t[0]), index(t[keeps ? 1 : 2]), index(t[keeps ? 2 : 1])});
+  }
+  return local;
+}
+
+// Kept horizon edges as pairs of vertices of the decoded mesh.
+std::vector<std::pair<std::uint32_t, std::uint32_t>> KeptInDecoded(const Horizon& horizon,
+                                                                   const Lod& lod,
+                                                                   const LocalMesh& decoded) {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> by_source;
+  for (std::size_t i = 0; i < decoded.sources.size(); ++i) {
+    by_source.emplace_back(decoded.sources[i], static_cast<std::uint32_t>(i));
+  }
+  std::sort(by_source.begin(), by_source.end());
+  const auto find = [&by_source](VertexId v) {
+    const auto at = std::lower_bound(by_source.begin(), by_source.end(),
+                                     std::pair(static_cast<std::uint32_t>(v), std::uint32_t{0}));
+    Check(at != by_source.end() && at->first == static_cast<std::uint32_t>(v),
+          "the posts of a kept edge are in the mesh");
+    return at->second;
+  };
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
+  for (const std::int32_t i : lod.kept) {
+    const Edge edge = horizon.edges[static_cast<std::size_t>(i)].edge;
+    pairs.emplace_back(find(edge.a), find(edge.b));
+  }
+  return pairs;
+}
+
+}  // namespace
+
+Result<QuantizationLattice> LatticeFor(const Terrain& terrain, const Placement& placement,
+                                       double wanted_step_m) {
+  // The outline and the extremes of each row reach as far as any post, whatever the level keeps; all
+  // posts are asked because a projected grid bulges.
+  std::vector<Enu> reach;
+  std::vector<VertexId> row;
+  for (VertexId v = 0; v < terrain.post_count(); ++v) {
+    if (terrain.dem().HasData(v)) row.push_back(v);
+    if (terrain.dem().Column(v) + 1 < terrain.dem().columns || row.empty()) continue;
+    Result<std::vector<Enu>> points = Locate(placement, row);
+    if (!points) return std::move(points.error());
+    reach.insert(reach.end(), points->begin(), points->end());
+    // Only the corners of the box so far matter.
+    Enu least = reach.front();
+    Enu most = reach.front();
+    for (const Enu& p : reach) {
+      least = {std::min(least.east, p.east), std::min(least.north, p.north),
+               std::min(least.up, p.up)};
+      most = {std::max(most.east, p.east), std::max(most.north, p.north), std::max(most.up, p.up)};
+    }
+    reach = {least, most};
+    row.clear();
+  }
+  return ChooseLattice(reach, wanted_step_m);
+}
+
+Result<LevelReport> MeasureLevel(const LevelContext& context, const LocalMesh& decoded, int level,
+                                 double step_m, double asked_m) {
+  const VertexId post_count = context.terrain.post_count();
+  GridMesh grid;
+  std::vector<VertexId> posts;
+  for (const std::uint32_t source : decoded.sources) {
+    if (source >= static_cast<std::uint32_t>(post_count) ||
+        !context.terrain.dem().HasData(static_cast<VertexId>(source))) {
+      return Error{ErrorCode::kUnsupportedData,
+                   "a vertex names post " + std::to_string(source) + ", which the DEM does not have",
+                   "bad-mesh"};
+    }
+    posts.push_back(static_cast<VertexId>(source));
+  }
+  Result<std::vector<GridPoint>> points = context.placement.ToGrid(decoded.positions);
+  if (!points) return std::move(points.error());
+  grid.points = *std::move(points);
+  const bool keeps = context.placement.KeepsOrientation();
+  for (const auto& t : decoded.triangles) {
+    grid.triangles.push_back({static_cast<std::int32_t>(t[0]),
+                              static_cast<std::int32_t>(t[keeps ? 1 : 2]),
+                              static_cast<std::int32_t>(t[keeps ? 2 : 1])});
+  }
+  Result<MeshError> error = MeasureMeshError(context.terrain, context.horizon, grid, posts, asked_m,
+                                             context.watch);
+  if (!error) return std::move(error.error());
+  Result<double> geometric = MeasureGeometricError(context.terrain, context.placement, decoded);
+  if (!geometric) return std::move(geometric.error());
+  LevelReport report;
+  report.level = level;
+  report.triangles = static_cast<std::int64_t>(decoded.triangles.size());
+  report.vertices = static_cast<std::int64_t>(decoded.positions.size());
+  report.vertical = {RoundUp(error->vertical.max_m), RoundUp(error->vertical.rms_m)};
+  report.silhouette = {RoundUp(error->silhouette.max_m), RoundUp(error->silhouette.rms_m)};
+  report.geometric_error_m = RoundUp(*geometric);
+  report.quantization_step_m = step_m;
+  return report;
+}
+
+Result<LevelArtifact> EncodeLevel(const LevelContext& context, const Lod& lod, int level,
+                                  const QuantizationLattice& lattice, double asked_m) {
+  Result<LocalMesh> local = ToLocal(context.placement, lod.mesh);
+  if (!local) return std::move(local.error());
+  LevelArtifact artifact;
+  Result<std::vector<std::uint8_t>> drc = EncodeDraco(*local, lattice);
+  if (!drc) return std::move(drc.error());
+  artifact.drc = *std::move(drc);
+  Result<LocalMesh> decoded = DecodeDraco(artifact.drc);
+  if (!decoded) return std::move(decoded.error());
+  artifact.glb = WriteGlb(artifact.drc, *decoded, KeptInDecoded(context.horizon, lod, *decoded));
+  Result<LevelReport> report = MeasureLevel(context, *decoded, level, lattice.step_m, asked_m);
+  if (!report) {
+    return std::move(report.error()).Within("level " + std::to_string(level));
+  }
+  artifact.report = *std::move(report);
+  artifact.report.horizon_edges = static_cast<std::int64_t>(lod.kept.size());
+  artifact.report.glb_bytes = static_cast<std::int64_t>(artifact.glb.size());
+  artifact.report.drc_bytes = static_cast<std::int64_t>(artifact.drc.size());
+  return artifact;
+}
+
+}  // namespace farhorizon

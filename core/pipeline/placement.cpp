@@ -1,0 +1,83 @@
+#include "core/pipeline/placement.h"
+
+#include <cmath>
+#include <utility>
+
+namespace farhorizon {
+namespace {
+
+MapPoint MapPointAt(const Dem& dem, double column, double row, double height_m) {
+  return {dem.transform.origin_x + column * dem.transform.step_x,
+          dem.transform.origin_y + row * dem.transform.step_y, height_m};
+}
+
+double Distance(const Ecef& a, const Ecef& b) { return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z); }
+
+}  // namespace
+
+Placement::Placement(const Dem& dem, GlobeTransform transform, TangentFrame frame)
+    : dem_(&dem), transform_(std::move(transform)), frame_(frame) {}
+
+Result<Placement> Placement::Of(const Terrain& terrain, const std::string& vertical_datum) {
+  const Dem& dem = terrain.dem();
+  Result<GlobeTransform> transform = GlobeTransform::Open(dem.crs, vertical_datum);
+  if (!transform) return std::move(transform.error());
+  // The frame stands in the middle of the grid, on the ellipsoid; its neighbours give the cell's size.
+  const double column = (dem.columns - 1) / 2.0;
+  const double row = (dem.rows - 1) / 2.0;
+  Result<std::vector<Geodetic>> middle = transform->ToGeodetic(
+      {MapPointAt(dem, column, row, 0), MapPointAt(dem, column - 0.5, row, 0),
+       MapPointAt(dem, column + 0.5, row, 0), MapPointAt(dem, column, row - 0.5, 0),
+       MapPointAt(dem, column, row + 0.5, 0)});
+  if (!middle) return std::move(middle.error());
+  Geodetic origin = (*middle)[0];
+  origin.height_m = 0;
+  (*middle)[0] = origin;
+  Result<std::vector<Ecef>> ecef = transform->ToEcef(*middle);
+  if (!ecef) return std::move(ecef.error());
+  Placement placement(dem, *std::move(transform), TangentFrame(origin, (*ecef)[0]));
+  placement.column_step_m_ = Distance((*ecef)[1], (*ecef)[2]);
+  placement.row_step_m_ = Distance((*ecef)[3], (*ecef)[4]);
+  return placement;
+}
+
+bool Placement::KeepsOrientation() const {
+  return (dem_->transform.step_x > 0) == (dem_->transform.step_y < 0);
+}
+
+Result<std::vector<Geodetic>> Placement::ToGeodetic(const std::vector<VertexId>& posts) const {
+  std::vector<MapPoint> points;
+  points.reserve(posts.size());
+  for (const VertexId v : posts) {
+    points.push_back(MapPointAt(*dem_, dem_->Column(v), dem_->Row(v), dem_->HeightM(v)));
+  }
+  return transform_.ToGeodetic(points);
+}
+
+Result<std::vector<Enu>> Placement::ToEnu(const std::vector<Geodetic>& points) const {
+  Result<std::vector<Ecef>> ecef = transform_.ToEcef(points);
+  if (!ecef) return std::move(ecef.error());
+  std::vector<Enu> enu;
+  enu.reserve(ecef->size());
+  for (const Ecef& p : *ecef) enu.push_back(frame_.ToEnu(p));
+  return enu;
+}
+
+Result<std::vector<GridPoint>> Placement::ToGrid(const std::vector<Enu>& points) const {
+  std::vector<Ecef> ecef;
+  ecef.reserve(points.size());
+  for (const Enu& p : points) ecef.push_back(frame_.ToEcef(p));
+  Result<std::vector<Geodetic>> geodetic = transform_.FromEcef(ecef);
+  if (!geodetic) return std::move(geodetic.error());
+  Result<std::vector<MapPoint>> map = transform_.FromGeodetic(*geodetic);
+  if (!map) return std::move(map.error());
+  std::vector<GridPoint> grid;
+  grid.reserve(map->size());
+  for (const MapPoint& p : *map) {
+    grid.push_back({(p.x - dem_->transform.origin_x) / dem_->transform.step_x,
+                    (p.y - dem_->transform.origin_y) / dem_->transform.step_y, p.z});
+  }
+  return grid;
+}
+
+}  // namespace farhorizon

@@ -1,0 +1,141 @@
+#include "core/pipeline/report.h"
+
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+namespace farhorizon {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json ToJson(const ErrorMeasure& error) { return {{"max", error.max_m}, {"rms", error.rms_m}}; }
+
+ErrorMeasure ReadMeasure(const Json& json) {
+  return {json.at("max").get<double>(), json.at("rms").get<double>()};
+}
+
+Json ToJson(const DemReport& dem) {
+  return {{"columns", dem.columns},
+          {"rows", dem.rows},
+          {"crs", dem.crs},
+          {"cell_m", dem.cell_m},
+          {"heights_m", dem.heights_m},
+          {"height_quantum_m", dem.height_quantum_m},
+          {"heights_rounded", dem.heights_rounded},
+          {"nodata_posts", dem.nodata_posts},
+          {"sha256", dem.sha256}};
+}
+
+DemReport ReadDemReport(const Json& json) {
+  DemReport dem;
+  json.at("columns").get_to(dem.columns);
+  json.at("rows").get_to(dem.rows);
+  json.at("crs").get_to(dem.crs);
+  json.at("cell_m").get_to(dem.cell_m);
+  json.at("heights_m").get_to(dem.heights_m);
+  json.at("height_quantum_m").get_to(dem.height_quantum_m);
+  json.at("heights_rounded").get_to(dem.heights_rounded);
+  json.at("nodata_posts").get_to(dem.nodata_posts);
+  json.at("sha256").get_to(dem.sha256);
+  return dem;
+}
+
+Json ToJson(const HorizonStatistics& s, std::int64_t horizon_edges) {
+  return {{"terrain_edges", s.terrain_edges},
+          {"horizon_edges", horizon_edges},
+          {"candidates", s.candidates},
+          {"peaks", s.peaks},
+          {"clusters_max", s.clusters_max},
+          {"events",
+           {{"peak", s.peaks},
+            {"regular", s.regular},
+            {"saddle", s.saddles},
+            {"minimum", s.minima},
+            {"merge", s.merges},
+            {"hull", s.hull_changes},
+            {"bitangent", 0}}},
+          {"queue_max", 0},
+          {"predicates",
+           {{"filtered", s.predicates.filtered},
+            {"exact", s.predicates.exact},
+            {"tied", s.predicates.tied}}}};
+}
+
+void ReadHorizon(const Json& json, Report& report) {
+  HorizonStatistics& s = report.statistics;
+  json.at("horizon_edges").get_to(report.horizon_edges);
+  json.at("terrain_edges").get_to(s.terrain_edges);
+  json.at("candidates").get_to(s.candidates);
+  json.at("peaks").get_to(s.peaks);
+  json.at("clusters_max").get_to(s.clusters_max);
+  const Json& events = json.at("events");
+  events.at("regular").get_to(s.regular);
+  events.at("saddle").get_to(s.saddles);
+  events.at("minimum").get_to(s.minima);
+  events.at("merge").get_to(s.merges);
+  events.at("hull").get_to(s.hull_changes);
+  const Json& predicates = json.at("predicates");
+  predicates.at("filtered").get_to(s.predicates.filtered);
+  predicates.at("exact").get_to(s.predicates.exact);
+  predicates.at("tied").get_to(s.predicates.tied);
+}
+
+Json ToJson(const LevelReport& level) {
+  return {{"level", level.level},
+          {"triangles", level.triangles},
+          {"vertices", level.vertices},
+          {"horizon_edges", level.horizon_edges},
+          {"vertical_error_m", ToJson(level.vertical)},
+          {"silhouette_error_m", ToJson(level.silhouette)},
+          {"geometric_error_m", level.geometric_error_m},
+          {"quantization_step_m", level.quantization_step_m},
+          {"glb_bytes", level.glb_bytes},
+          {"drc_bytes", level.drc_bytes}};
+}
+
+LevelReport ReadLevel(const Json& json) {
+  LevelReport level;
+  json.at("level").get_to(level.level);
+  json.at("triangles").get_to(level.triangles);
+  json.at("vertices").get_to(level.vertices);
+  json.at("horizon_edges").get_to(level.horizon_edges);
+  level.vertical = ReadMeasure(json.at("vertical_error_m"));
+  level.silhouette = ReadMeasure(json.at("silhouette_error_m"));
+  json.at("geometric_error_m").get_to(level.geometric_error_m);
+  json.at("quantization_step_m").get_to(level.quantization_step_m);
+  json.at("glb_bytes").get_to(level.glb_bytes);
+  json.at("drc_bytes").get_to(level.drc_bytes);
+  return level;
+}
+
+}  // namespace
+
+std::string WriteReport(const Report& report) {
+  Json levels = Json::array();
+  for (const LevelReport& level : report.levels) levels.push_back(ToJson(level));
+  const Json json = {{"farhorizon", report.version},
+                     {"dem", ToJson(report.dem)},
+                     {"horizon", ToJson(report.statistics, report.horizon_edges)},
+                     {"levels", levels}};
+  return json.dump(1) + "\n";
+}
+
+Result<Report> ReadReport(const std::string& text) {
+  try {
+    const Json json = Json::parse(text);
+    Report report;
+    json.at("farhorizon").get_to(report.version);
+    report.dem = ReadDemReport(json.at("dem"));
+    ReadHorizon(json.at("horizon"), report);
+    for (const Json& level : json.at("levels")) report.levels.push_back(ReadLevel(level));
+    return report;
+  } catch (const nlohmann::json::exception& failure) {
+    return Error{ErrorCode::kUnsupportedData, std::string("report.json: ") + failure.what(),
+                 "bad-report"};
+  }
+}
+
+double RoundUp(double value) { return std::ceil(value * 1e6) / 1e6; }
+
+}  // namespace farhorizon
