@@ -6,6 +6,7 @@
 
 #include "core/base/progress.h"
 #include "core/base/result.h"
+#include "core/pipeline/build.h"
 
 namespace farhorizon {
 
@@ -15,10 +16,12 @@ struct ClaimCheck {
   std::string claim;  ///< what was claimed and what was found, on one line
 };
 
-/// Measures every claim that `directory` makes about `dem` again, from the files alone.
+/// Measures every claim that `directory` makes about `dem` again, from the files alone: hashes, counts,
+/// the set of horizon edges, each witness, both errors of each level on its decoded mesh, the tileset.
+/// options: crs, vertical_datum and nodata as they were given to the build; threads.
 /// Errors: where a file is missing or cannot be read at all.
 Result<std::vector<ClaimCheck>> VerifyArtifacts(const std::filesystem::path& dem,
                                                 const std::filesystem::path& directory,
-                                                const Watch& watch);
+                                                const BuildOptions& options, const Watch& watch);
 
 }  // namespace farhorizon

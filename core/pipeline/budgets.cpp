@@ -1,0 +1,90 @@
+#include "core/pipeline/budgets.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "core/pipeline/level_artifact.h"
+
+namespace farhorizon {
+namespace {
+
+constexpr double kEarthRadiusM = 6371000;
+
+// The steepest slope of the terrain's triangles, metres up a metre along.
+double SteepestSlope(const Source& source) {
+  const Dem& dem = source.dem();
+  double steepest = 0;
+  for (const Triangle& t : source.terrain().Triangles()) {
+    const Point3i a = source.terrain().Point(t[0]);
+    const Point3i b = source.terrain().Point(t[1]);
+    const Point3i c = source.terrain().Point(t[2]);
+    const double ux = (b.x - a.x) * source.placement().column_step_m();
+    const double uy = (b.y - a.y) * source.placement().row_step_m();
+    const double uz = (static_cast<double>(b.z) - a.z) * dem.quantum_m;
+    const double vx = (c.x - a.x) * source.placement().column_step_m();
+    const double vy = (c.y - a.y) * source.placement().row_step_m();
+    const double vz = (static_cast<double>(c.z) - a.z) * dem.quantum_m;
+    const double area = ux * vy - uy * vx;
+    steepest = std::max(steepest, std::hypot(uy * vz - uz * vy, uz * vx - ux * vz) / std::abs(area));
+  }
+  return steepest;
+}
+
+// What rounding a vertex by half a step on each axis does to the height over a fixed place.
+double HeightLost(double step_m, double slope) {
+  return 0.5 * step_m + slope * step_m * std::sqrt(0.5);
+}
+
+std::string Metres(double value) {
+  std::string text = std::to_string(value);
+  while (text.back() == '0') text.pop_back();
+  if (text.back() == '.') text.pop_back();
+  return text + " m";
+}
+
+}  // namespace
+
+Result<std::vector<LevelPlan>> PlanLevels(const Source& source, const BuildOptions& options) {
+  const double cell_m =
+      std::sqrt(source.placement().column_step_m() * source.placement().row_step_m());
+  const double slope = SteepestSlope(source);
+  std::vector<LevelPlan> plans;
+  double max_error_m = options.max_error_m.value_or(cell_m / 8);
+  for (int level = 0; level < options.levels; ++level, max_error_m *= 2) {
+    LevelPlan plan;
+    plan.max_error_m = max_error_m;
+    plan.silhouette_error_m =
+        level == 0 ? options.silhouette_error_m
+                   : std::max(options.silhouette_error_m, max_error_m / 8);
+    Result<QuantizationLattice> lattice =
+        LatticeFor(source.terrain(), source.placement(), max_error_m / 32);
+    if (!lattice) return std::move(lattice.error());
+    plan.lattice = *lattice;
+    const double step_m = plan.lattice.step_m;
+    const double lost = HeightLost(step_m, slope);
+    if (lost >= max_error_m && options.max_error_m) {
+      return Error{ErrorCode::kInvalidArgument,
+                   "a vertical error of " + Metres(max_error_m) +
+                       " is finer than positions in 16 bits, which are " + Metres(step_m) +
+                       " apart over this DEM; ask for " + Metres(std::ceil(2 * lost)) + " or more",
+                   "max-error-too-small"};
+    }
+    plan.budget.vertical_error_m = std::max(max_error_m - lost, max_error_m / 2);
+    plan.budget.silhouette_error_m =
+        level == 0 ? plan.silhouette_error_m
+                   : std::max(plan.silhouette_error_m - lost, plan.silhouette_error_m / 2);
+    // A flat triangle of this length sinks a quarter of the error below the curved earth.
+    plan.budget.longest_edge =
+        std::sqrt(8 * kEarthRadiusM * max_error_m / 4) /
+        std::max(source.placement().column_step_m(), source.placement().row_step_m());
+    plan.budget.least_altitude =
+        2 * std::sqrt(2.0) * step_m /
+        std::min(source.placement().column_step_m(), source.placement().row_step_m());
+    plans.push_back(plan);
+  }
+  return plans;
+}
+
+}  // namespace farhorizon

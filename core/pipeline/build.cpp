@@ -1,0 +1,218 @@
+// A DEM becomes a tileset: read, sweep, simplify, encode, measure, write.
+#include "core/pipeline/build.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include "core/io/files.h"
+#include "core/io/horizon_features.h"
+#include "core/io/tileset.h"
+#include "core/pipeline/budgets.h"
+#include "core/pipeline/level_artifact.h"
+#include "core/pipeline/report.h"
+#include "core/pipeline/source.h"
+#include "core/pipeline/version.h"
+
+namespace farhorizon {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool Asks(const BuildOptions& options, std::string_view format) {
+  return std::find(options.formats.begin(), options.formats.end(), format) !=
+         options.formats.end();
+}
+
+std::string_view AsText(const std::vector<std::uint8_t>& bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+// Writes artifacts one by one and takes them all back, the folder included if it made it, unless the
+// work is finished.
+class ArtifactWriter {
+ public:
+  explicit ArtifactWriter(fs::path directory) : directory_(std::move(directory)) {}
+  ArtifactWriter(const ArtifactWriter&) = delete;
+  ArtifactWriter& operator=(const ArtifactWriter&) = delete;
+  ~ArtifactWriter() {
+    if (finished_) return;
+    std::error_code ignored;
+    for (const ManifestEntry& entry : entries_) fs::remove(directory_ / entry.name, ignored);
+    if (made_directory_) fs::remove(directory_, ignored);
+  }
+
+  Status Open() {
+    std::error_code failure;
+    made_directory_ = fs::create_directories(directory_, failure);
+    if (failure || !fs::is_directory(directory_)) {
+      return Error{ErrorCode::kIo, "cannot make the folder " + directory_.filename().string() +
+                                       ": " + failure.message()};
+    }
+    return Done{};
+  }
+
+  Status Add(const std::string& name, std::string_view bytes) {
+    entries_.push_back({name, MediaTypeOf(name), bytes.size(), Sha256Hex(bytes)});
+    return WriteFile(directory_ / name, bytes);
+  }
+
+  /// A file that something else has written to PathOf(name).
+  Status AddWritten(const std::string& name) {
+    Result<std::string> bytes = ReadFile(PathOf(name));
+    if (!bytes) return std::move(bytes.error());
+    entries_.push_back({name, MediaTypeOf(name), bytes->size(), Sha256Hex(*bytes)});
+    return Done{};
+  }
+  [[nodiscard]] fs::path PathOf(const std::string& name) const { return directory_ / name; }
+
+  Status Finish() {
+    std::sort(entries_.begin(), entries_.end(),
+              [](const ManifestEntry& a, const ManifestEntry& b) { return a.name < b.name; });
+    Status written = WriteFile(directory_ / "manifest.json", WriteManifest(entries_));
+    finished_ = written.has_value();
+    return written;
+  }
+
+ private:
+  fs::path directory_;
+  std::vector<ManifestEntry> entries_;
+  bool made_directory_ = false;
+  bool finished_ = false;
+};
+
+std::vector<int> LevelsKept(const Horizon& horizon, const std::vector<Lod>& chain) {
+  std::vector<int> level_kept(horizon.edges.size(), -1);
+  for (std::size_t level = 0; level < chain.size(); ++level) {
+    for (const std::int32_t i : chain[level].kept) {
+      level_kept[static_cast<std::size_t>(i)] = static_cast<int>(level);
+    }
+  }
+  return level_kept;
+}
+
+Status WriteTilesetFor(const Source& source, const std::vector<LevelReport>& levels,
+                       ArtifactWriter& writer) {
+  Result<BoundingRegion> region = source.Region();
+  if (!region) return std::move(region.error());
+  // Flat triangles sink below the curved earth, and vertices are rounded: no lower than this.
+  const double margin = levels.back().geometric_error_m + levels.back().quantization_step_m;
+  region->min_height_m -= margin;
+  region->max_height_m += margin;
+  constexpr double kLeastMetresPerRadian = 6335000;
+  region->south -= levels.back().quantization_step_m / kLeastMetresPerRadian;
+  region->north += levels.back().quantization_step_m / kLeastMetresPerRadian;
+  const double across = levels.back().quantization_step_m /
+                        (kLeastMetresPerRadian *
+                         std::max(0.01, std::cos(std::max(std::abs(region->south),
+                                                          std::abs(region->north)))));
+  region->west -= across;
+  region->east += across;
+  std::vector<TilesetLevel> tiles;
+  for (const LevelReport& level : levels) {
+    tiles.push_back({"lod" + std::to_string(level.level) + ".glb", level.geometric_error_m});
+  }
+  const double size_m =
+      std::hypot(source.placement().column_step_m() * (source.dem().columns - 1),
+                 source.placement().row_step_m() * (source.dem().rows - 1));
+  return writer.Add("tileset.json", WriteTileset(tiles, *region, RoundUp(size_m),
+                                                 source.placement().frame().EnuToEcef()));
+}
+
+Status WriteFeatures(const Source& source, const Horizon& horizon,
+                     const std::vector<int>& level_kept, const BuildOptions& options,
+                     ArtifactWriter& writer) {
+  Result<std::vector<HorizonFeature>> features = source.Features(horizon, level_kept);
+  if (!features) return std::move(features.error());
+  if (Asks(options, "geojson")) {
+    Status added = writer.Add("horizon.geojson", WriteHorizonGeoJson(*features));
+    if (!added) return added;
+  }
+  if (Asks(options, "flatgeobuf")) {
+    Status written = WriteHorizonVector(*features, writer.PathOf("horizon.fgb"));
+    if (!written) return written;
+    return writer.AddWritten("horizon.fgb");
+  }
+  return Done{};
+}
+
+Result<std::vector<LevelReport>> WriteLevels(const LevelContext& context,
+                                             const std::vector<LevelPlan>& plans,
+                                             const std::vector<Lod>& chain,
+                                             const BuildOptions& options, ArtifactWriter& writer) {
+  std::vector<LevelReport> reports;
+  for (std::size_t i = 0; i < chain.size(); ++i) {
+    context.watch.Report("encode", static_cast<double>(i) / static_cast<double>(chain.size()));
+    Result<LevelArtifact> level = EncodeLevel(context, chain[i], static_cast<int>(i),
+                                              plans[i].lattice, plans[i].silhouette_error_m);
+    if (!level) return std::move(level.error());
+    const std::string name = "lod" + std::to_string(i);
+    if (Asks(options, "3dtiles")) {
+      Status added = writer.Add(name + ".glb", AsText(level->glb));
+      if (!added) return std::move(added.error());
+    } else {
+      level->report.glb_bytes = 0;
+    }
+    if (Asks(options, "drc")) {
+      Status added = writer.Add(name + ".drc", AsText(level->drc));
+      if (!added) return std::move(added.error());
+    } else {
+      level->report.drc_bytes = 0;
+    }
+    // A client refines towards smaller errors, so a level may not claim less than a finer one.
+    if (i > 0) {
+      level->report.geometric_error_m =
+          std::max(level->report.geometric_error_m, reports.back().geometric_error_m);
+    }
+    reports.push_back(level->report);
+  }
+  return reports;
+}
+
+}  // namespace
+
+Status BuildArtifacts(const fs::path& dem, const fs::path& directory, const BuildOptions& options,
+                      const Watch& watch) {
+  Status checked = CheckOptions(options);
+  if (!checked) return checked;
+  watch.Report("read", 0);
+  Result<std::unique_ptr<Source>> source = Source::Open(dem, options);
+  if (!source) return std::move(source.error());
+  Result<std::vector<LevelPlan>> plans = PlanLevels(**source, options);
+  if (!plans) return std::move(plans.error());
+
+  Result<Horizon> horizon = FindHorizon((*source)->terrain(), options.threads, watch);
+  if (!horizon) return std::move(horizon.error());
+
+  std::vector<LevelBudget> budgets;
+  for (const LevelPlan& plan : *plans) budgets.push_back(plan.budget);
+  Result<std::vector<Lod>> chain =
+      BuildLodChain((*source)->terrain(), *horizon, budgets, watch);
+  if (!chain) return std::move(chain.error());
+
+  ArtifactWriter writer(directory);
+  Status opened = writer.Open();
+  if (!opened) return opened;
+  const LevelContext context{(*source)->terrain(), *horizon, (*source)->placement(), watch};
+  Result<std::vector<LevelReport>> levels = WriteLevels(context, *plans, *chain, options, writer);
+  if (!levels) return std::move(levels.error());
+  if (Asks(options, "3dtiles")) {
+    Status tileset = WriteTilesetFor(**source, *levels, writer);
+    if (!tileset) return tileset;
+  }
+  watch.Report("write", 0);
+  Status features =
+      WriteFeatures(**source, *horizon, LevelsKept(*horizon, *chain), options, writer);
+  if (!features) return features;
+  const Report report{Version(), (*source)->report(),
+                      static_cast<std::int64_t>(horizon->edges.size()), horizon->statistics,
+                      *levels};
+  Status reported = writer.Add("report.json", WriteReport(report));
+  if (!reported) return reported;
+  Status finished = writer.Finish();
+  watch.Report("write", 1);
+  return finished;
+}
+
+}  // namespace farhorizon

@@ -1,0 +1,30 @@
+#include "core/pipeline/horizon_edges.h"
+
+#include <utility>
+
+#include "core/io/files.h"
+#include "core/io/horizon_features.h"
+#include "core/pipeline/source.h"
+
+namespace farhorizon {
+
+Status WriteHorizonEdges(const std::filesystem::path& dem, const std::filesystem::path& out,
+                         const BuildOptions& options, const Watch& watch) {
+  const std::string ending = out.extension().string();
+  if (ending != ".geojson" && ending != ".fgb" && ending != ".gpkg") {
+    return Error{ErrorCode::kInvalidArgument,
+                 "no format has the ending \"" + ending + "\"; use .geojson, .fgb or .gpkg",
+                 "unknown-format"};
+  }
+  watch.Report("read", 0);
+  Result<std::unique_ptr<Source>> source = Source::Open(dem, options);
+  if (!source) return std::move(source.error());
+  Result<Horizon> horizon = FindHorizon((*source)->terrain(), options.threads, watch);
+  if (!horizon) return std::move(horizon.error());
+  Result<std::vector<HorizonFeature>> features = (*source)->Features(*horizon, {});
+  if (!features) return std::move(features.error());
+  if (ending == ".geojson") return WriteFile(out, WriteHorizonGeoJson(*features));
+  return WriteHorizonVector(*features, out);
+}
+
+}  // namespace farhorizon

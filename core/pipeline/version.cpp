@@ -1,0 +1,7 @@
+#include "core/pipeline/version.h"
+
+namespace farhorizon {
+
+const char* Version() { return FARHORIZON_VERSION; }
+
+}  // namespace farhorizon
