@@ -5,6 +5,7 @@
 
 #include "core/base/progress.h"
 #include "core/base/result.h"
+#include "core/horizon/line_height.h"
 #include "core/horizon/skyline.h"
 #include "core/terrain/terrain.h"
 

@@ -43,10 +43,10 @@ class Sweeper {
     std::sort(met.begin(), met.end());
     met.erase(std::unique(met.begin(), met.end()), met.end());
     HorizonStatistics& statistics = result_.statistics;
-    ++(met.empty()       ? statistics.peaks
-       : met.size() > 1  ? statistics.saddles
-       : minimum         ? statistics.minima
-                         : statistics.regular);
+    ++(met.empty()      ? statistics.peaks
+       : met.size() > 1 ? statistics.saddles
+       : minimum        ? statistics.minima
+                        : statistics.regular);
     const std::int32_t around = result_.hulls.cluster[static_cast<std::size_t>(v)];
     if (around >= 0 && std::find(met.begin(), met.end(), Find(around)) == met.end()) {
       met.push_back(Find(around));

@@ -43,7 +43,8 @@ std::optional<ExactHeight> HighestOver(const Terrain& terrain, const PlanLine& l
     const Point3i p = terrain.Point(v);
     // Edges are at most a diagonal long: from further away none reaches the line.
     const std::int64_t side = Side(p, line);
-    const std::int64_t reach = 2 * (std::abs(std::int64_t{line.dc}) + std::abs(std::int64_t{line.dr}));
+    const std::int64_t reach =
+        2 * (std::abs(std::int64_t{line.dc}) + std::abs(std::int64_t{line.dr}));
     if (side > reach || side < -reach || !terrain.dem().HasData(v)) continue;
     for (const VertexId n : terrain.NeighboursOf(v)) {
       if (n > v) Raise(highest, HeightOver({p, terrain.Point(n)}, line));

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/result.h"
 #include "core/geo/frames.h"
 
 namespace farhorizon {
@@ -29,5 +30,14 @@ struct TilesetLevel {
 /// tile's size. transform: local frame to ECEF, column-major.
 std::string WriteTileset(const std::vector<TilesetLevel>& levels, const BoundingRegion& region,
                          double root_error_m, const std::array<double, 16>& transform);
+
+/// What a tileset.json that WriteTileset made says, for verification. levels: level 0 first.
+struct TilesetContents {
+  std::vector<TilesetLevel> levels;
+  double root_error_m = 0;
+  std::array<double, 16> transform = {};
+};
+/// Errors: kUnsupportedData where it is no chain of tiles.
+Result<TilesetContents> ReadTileset(const std::string& text);
 
 }  // namespace farhorizon

@@ -27,7 +27,8 @@ double SteepestSlope(const Source& source) {
     const double vy = (c.y - a.y) * source.placement().row_step_m();
     const double vz = (static_cast<double>(c.z) - a.z) * dem.quantum_m;
     const double area = ux * vy - uy * vx;
-    steepest = std::max(steepest, std::hypot(uy * vz - uz * vy, uz * vx - ux * vz) / std::abs(area));
+    steepest =
+        std::max(steepest, std::hypot(uy * vz - uz * vy, uz * vx - ux * vz) / std::abs(area));
   }
   return steepest;
 }
@@ -55,9 +56,8 @@ Result<std::vector<LevelPlan>> PlanLevels(const Source& source, const BuildOptio
   for (int level = 0; level < options.levels; ++level, max_error_m *= 2) {
     LevelPlan plan;
     plan.max_error_m = max_error_m;
-    plan.silhouette_error_m =
-        level == 0 ? options.silhouette_error_m
-                   : std::max(options.silhouette_error_m, max_error_m / 8);
+    plan.silhouette_error_m = level == 0 ? options.silhouette_error_m
+                                         : std::max(options.silhouette_error_m, max_error_m / 8);
     Result<QuantizationLattice> lattice =
         LatticeFor(source.terrain(), source.placement(), max_error_m / 32);
     if (!lattice) return std::move(lattice.error());

@@ -21,8 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 bool Asks(const BuildOptions& options, std::string_view format) {
-  return std::find(options.formats.begin(), options.formats.end(), format) !=
-         options.formats.end();
+  return std::find(options.formats.begin(), options.formats.end(), format) != options.formats.end();
 }
 
 std::string_view AsText(const std::vector<std::uint8_t>& bytes) {
@@ -103,19 +102,18 @@ Status WriteTilesetFor(const Source& source, const std::vector<LevelReport>& lev
   constexpr double kLeastMetresPerRadian = 6335000;
   region->south -= levels.back().quantization_step_m / kLeastMetresPerRadian;
   region->north += levels.back().quantization_step_m / kLeastMetresPerRadian;
-  const double across = levels.back().quantization_step_m /
-                        (kLeastMetresPerRadian *
-                         std::max(0.01, std::cos(std::max(std::abs(region->south),
-                                                          std::abs(region->north)))));
+  const double across =
+      levels.back().quantization_step_m /
+      (kLeastMetresPerRadian *
+       std::max(0.01, std::cos(std::max(std::abs(region->south), std::abs(region->north)))));
   region->west -= across;
   region->east += across;
   std::vector<TilesetLevel> tiles;
   for (const LevelReport& level : levels) {
     tiles.push_back({"lod" + std::to_string(level.level) + ".glb", level.geometric_error_m});
   }
-  const double size_m =
-      std::hypot(source.placement().column_step_m() * (source.dem().columns - 1),
-                 source.placement().row_step_m() * (source.dem().rows - 1));
+  const double size_m = std::hypot(source.placement().column_step_m() * (source.dem().columns - 1),
+                                   source.placement().row_step_m() * (source.dem().rows - 1));
   return writer.Add("tileset.json", WriteTileset(tiles, *region, RoundUp(size_m),
                                                  source.placement().frame().EnuToEcef()));
 }
@@ -187,8 +185,7 @@ Status BuildArtifacts(const fs::path& dem, const fs::path& directory, const Buil
 
   std::vector<LevelBudget> budgets;
   for (const LevelPlan& plan : *plans) budgets.push_back(plan.budget);
-  Result<std::vector<Lod>> chain =
-      BuildLodChain((*source)->terrain(), *horizon, budgets, watch);
+  Result<std::vector<Lod>> chain = BuildLodChain((*source)->terrain(), *horizon, budgets, watch);
   if (!chain) return std::move(chain.error());
 
   ArtifactWriter writer(directory);

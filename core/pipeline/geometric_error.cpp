@@ -125,8 +125,7 @@ class RowSweep {
         if (at < 0) continue;
         const Enu p = placed.At(column, row);
         const Enu& q = (*enu)[static_cast<std::size_t>(at)];
-        greatest =
-            std::max(greatest, std::hypot(p.east - q.east, p.north - q.north, p.up - q.up));
+        greatest = std::max(greatest, std::hypot(p.east - q.east, p.north - q.north, p.up - q.up));
       }
     }
     return greatest;

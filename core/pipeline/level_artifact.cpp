@@ -103,9 +103,10 @@ Result<LevelReport> MeasureLevel(const LevelContext& context, const LocalMesh& d
   for (const std::uint32_t source : decoded.sources) {
     if (source >= static_cast<std::uint32_t>(post_count) ||
         !context.terrain.dem().HasData(static_cast<VertexId>(source))) {
-      return Error{ErrorCode::kUnsupportedData,
-                   "a vertex names post " + std::to_string(source) + ", which the DEM does not have",
-                   "bad-mesh"};
+      return Error{
+          ErrorCode::kUnsupportedData,
+          "a vertex names post " + std::to_string(source) + ", which the DEM does not have",
+          "bad-mesh"};
     }
     posts.push_back(static_cast<VertexId>(source));
   }
@@ -118,8 +119,8 @@ Result<LevelReport> MeasureLevel(const LevelContext& context, const LocalMesh& d
                               static_cast<std::int32_t>(t[keeps ? 1 : 2]),
                               static_cast<std::int32_t>(t[keeps ? 2 : 1])});
   }
-  Result<MeshError> error = MeasureMeshError(context.terrain, context.horizon, grid, posts, asked_m,
-                                             context.watch);
+  Result<MeshError> error =
+      MeasureMeshError(context.terrain, context.horizon, grid, posts, asked_m, context.watch);
   if (!error) return std::move(error.error());
   Result<double> geometric = MeasureGeometricError(context.terrain, context.placement, decoded);
   if (!geometric) return std::move(geometric.error());

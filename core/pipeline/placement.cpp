@@ -11,7 +11,9 @@ MapPoint MapPointAt(const Dem& dem, double column, double row, double height_m) 
           dem.transform.origin_y + row * dem.transform.step_y, height_m};
 }
 
-double Distance(const Ecef& a, const Ecef& b) { return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z); }
+double Distance(const Ecef& a, const Ecef& b) {
+  return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z);
+}
 
 }  // namespace
 

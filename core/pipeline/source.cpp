@@ -26,8 +26,8 @@ void Include(BoundingRegion& region, const Geodetic& p) {
 Result<std::unique_ptr<Source>> Source::Open(const std::filesystem::path& path,
                                              const BuildOptions& options) {
   std::unique_ptr<Source> source(new Source());
-  Result<Dem> dem = ReadDem(
-      path, {.max_posts = options.max_posts, .crs = options.crs, .nodata = options.nodata});
+  Result<Dem> dem =
+      ReadDem(path, {.max_posts = options.max_posts, .crs = options.crs, .nodata = options.nodata});
   if (!dem) return std::move(dem.error()).Within("read DEM");
   source->dem_ = *std::move(dem);
   Result<Terrain> terrain = Terrain::Build(source->dem_);

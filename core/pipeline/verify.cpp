@@ -7,7 +7,7 @@
 #include <random>
 #include <utility>
 
-#include "core/horizon/line_height.h"
+#include "core/horizon/horizon.h"
 #include "core/io/files.h"
 #include "core/io/horizon_features.h"
 #include "core/io/tileset.h"
@@ -113,15 +113,15 @@ PublishedEdges VerifyFeatures(const Source& source, const std::vector<HorizonFea
       return std::abs(a.lon_deg - b.lon_deg) < 1e-8 && std::abs(a.lat_deg - b.lat_deg) < 1e-8 &&
              std::abs(a.height_m - b.height_m) < 1e-3;
     };
-    const bool there = near((*places)[2 * i], features[i].from) &&
-                       near((*places)[2 * i + 1], features[i].to);
+    const bool there =
+        near((*places)[2 * i], features[i].from) && near((*places)[2 * i + 1], features[i].to);
     astray += there ? 0 : 1;
   }
   claims.Same("horizon.geojson edges that are not where their posts are", std::int64_t{0}, astray);
   claims.Same("horizon.geojson witnesses that meet higher ground", std::int64_t{0}, blind);
-  claims.Same(std::to_string(kRandomLines) +
-                  " random lines of sight with ground above every horizon edge",
-              0, LinesThatSeeMore(source.terrain(), set));
+  claims.Same(
+      std::to_string(kRandomLines) + " random lines of sight with ground above every horizon edge",
+      0, LinesThatSeeMore(source.terrain(), set));
   return published;
 }
 
@@ -137,8 +137,7 @@ void VerifySet(const std::vector<Edge>& claimed, const Horizon& horizon, Claims&
   std::set_difference(sorted.begin(), sorted.end(), found.begin(), found.end(),
                       std::back_inserter(extra));
   claims.Same("horizon edges missing from horizon.geojson", std::size_t{0}, missing.size());
-  claims.Same("edges in horizon.geojson that are not on the horizon", std::size_t{0},
-              extra.size());
+  claims.Same("edges in horizon.geojson that are not on the horizon", std::size_t{0}, extra.size());
 }
 
 void VerifyLevels(const Source& source, const Horizon& horizon, const fs::path& directory,
@@ -152,8 +151,9 @@ void VerifyLevels(const Source& source, const Horizon& horizon, const fs::path& 
     watch.Report("verify", static_cast<double>(level) / static_cast<double>(report.levels.size()));
     const LevelReport& claimed = report.levels[level];
     const std::vector<Edge> edges = VerifyLevel(context, directory, claimed, claims);
-    claims.Add(claimed.geometric_error_m >= finer_error_m,
-               "lod" + std::to_string(level) + " has no smaller geometric error than a finer level");
+    claims.Add(
+        claimed.geometric_error_m >= finer_error_m,
+        "lod" + std::to_string(level) + " has no smaller geometric error than a finer level");
     finer_error_m = claimed.geometric_error_m;
     if (!published) continue;
     // An edge counts as kept as long as no finer level has lost it.
@@ -226,8 +226,7 @@ Result<std::vector<ClaimCheck>> VerifyArtifacts(const fs::path& dem, const fs::p
   }
   Result<Horizon> horizon = FindHorizon((*source)->terrain(), options.threads, watch);
   if (!horizon) return std::move(horizon.error());
-  claims.Same("terrain edges", report->statistics.terrain_edges,
-              (*source)->terrain().CountEdges());
+  claims.Same("terrain edges", report->statistics.terrain_edges, (*source)->terrain().CountEdges());
   claims.Same("horizon edges", report->horizon_edges,
               static_cast<std::int64_t>(horizon->edges.size()));
 

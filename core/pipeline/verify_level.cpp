@@ -120,10 +120,8 @@ std::vector<Edge> VerifyLevel(const LevelContext& context, const std::filesystem
   claims.Same(name + " vertices", claimed.vertices, found->vertices);
   claims.AtMost(name + " vertical error, max", claimed.vertical.max_m, found->vertical.max_m);
   claims.AtMost(name + " vertical error, rms", claimed.vertical.rms_m, found->vertical.rms_m);
-  claims.AtMost(name + " silhouette error, max", claimed.silhouette.max_m,
-                found->silhouette.max_m);
-  claims.AtMost(name + " silhouette error, rms", claimed.silhouette.rms_m,
-                found->silhouette.rms_m);
+  claims.AtMost(name + " silhouette error, max", claimed.silhouette.max_m, found->silhouette.max_m);
+  claims.AtMost(name + " silhouette error, rms", claimed.silhouette.rms_m, found->silhouette.rms_m);
   claims.AtMost(name + " geometric error", claimed.geometric_error_m, found->geometric_error_m);
   return EdgesByPost(*mesh);
 }
