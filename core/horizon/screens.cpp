@@ -2,28 +2,34 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 namespace farhorizon {
 namespace {
 
 struct Shade {
-  double from;   // radians, in [0, pi)
-  double width;  // in [0, pi)
+  double from;  // keys as in direction.h: the half turn is 2
+  double width;
   const ConvexPolygon::Silhouette* silhouette;
 };
 
-double AngleOf(Point2i eye, Point2i p) {
-  const double angle = std::atan2(p.y - eye.y, p.x - eye.x);
-  return angle < 0 ? angle + std::numbers::pi : (angle >= std::numbers::pi ? 0 : angle);
+constexpr double kHalfTurn = 2;
+
+double KeyOf(Point2i eye, Point2i p) {
+  double x = p.x - eye.x;
+  double y = p.y - eye.y;
+  if (y < 0 || (y == 0 && x < 0)) {
+    x = -x;
+    y = -y;
+  }
+  return 1 - x / (std::abs(x) + y);
 }
 
-// Whether an interval of directions, modulo a half turn, is inside one of those that are kept.
+// Whether an interval of directions, which may cross the start, is inside one of those that are kept.
 bool Hidden(const std::vector<Shade>& kept, const Shade& shade) {
   return std::any_of(kept.begin(), kept.end(), [&shade](const Shade& k) {
     double start = shade.from - k.from;
-    if (start < 0) start += std::numbers::pi;
+    if (start < 0) start += kHalfTurn;
     return start + shade.width <= k.width;
   });
 }
@@ -35,9 +41,9 @@ void SelectScreens(Point2i eye, std::int32_t level,
                    std::vector<Segment>& screens) {
   std::vector<Shade> shades;
   for (const ConvexPolygon::Silhouette& s : silhouettes) {
-    const double from = AngleOf(eye, s.right);
-    double width = AngleOf(eye, s.left) - from;
-    if (width < 0) width += std::numbers::pi;
+    const double from = KeyOf(eye, s.right);
+    double width = KeyOf(eye, s.left) - from;
+    if (width < 0) width += kHalfTurn;
     if (s.right != s.left) shades.push_back({from, width, &s});
   }
   std::sort(shades.begin(), shades.end(), [](const Shade& a, const Shade& b) {
