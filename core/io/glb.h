@@ -14,8 +14,10 @@ namespace farhorizon {
 /// turned to glTF's y up by the root node.
 ///
 /// decoded: what `draco` decodes to, in its own order; accessors' counts, min and max are its.
-/// horizon_edges: pairs of positions in `decoded` (vertex indices) that are horizon edges, flagged
-/// as silhouette edges in EXT_mesh_primitive_edge_visibility.
+/// horizon_edges: pairs of positions in `decoded` (vertex indices) that are horizon edges, flagged in
+/// EXT_mesh_primitive_edge_visibility: as silhouette edges between two triangles, as hard ones on
+/// the border. The extension is left out where there are none.
+/// The sources stay in the Draco bitstream, but are no attribute of the glTF primitive.
 std::vector<std::uint8_t> WriteGlb(
     const std::vector<std::uint8_t>& draco, const LocalMesh& decoded,
     const std::vector<std::pair<std::uint32_t, std::uint32_t>>& horizon_edges);
@@ -29,6 +31,7 @@ struct GlbContents {
   std::array<double, 3> min = {0, 0, 0};
   std::array<double, 3> max = {0, 0, 0};
 };
+/// Errors: kUnsupportedData, kind "bad-glb", with the cause.
 Result<GlbContents> ReadGlb(const std::vector<std::uint8_t>& bytes);
 
 }  // namespace farhorizon

@@ -1,0 +1,124 @@
+#include "core/io/edge_visibility.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <tuple>
+
+namespace farhorizon {
+namespace {
+
+using VertexPair = std::pair<std::uint32_t, std::uint32_t>;
+
+constexpr std::uint8_t kSilhouette = 1;
+constexpr std::uint8_t kHard = 2;
+constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
+// Per vertex, the least vertex of the same source and position.
+std::vector<std::uint32_t> FirstOfEqual(const LocalMesh& mesh) {
+  const auto key = [&](std::uint32_t v) {
+    const Enu& p = mesh.positions[v];
+    return std::tuple(mesh.sources[v], p.east, p.north, p.up);
+  };
+  std::vector<std::uint32_t> order(mesh.positions.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::ranges::stable_sort(order, [&](auto a, auto b) { return key(a) < key(b); });
+  std::vector<std::uint32_t> first(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const bool same = i > 0 && key(order[i]) == key(order[i - 1]);
+    first[order[i]] = same ? first[order[i - 1]] : order[i];
+  }
+  return first;
+}
+
+// A flagged edge and the triangles on either side.
+struct Flagged {
+  VertexPair edge;
+  std::array<std::uint32_t, 2> triangles = {kNone, kNone};
+};
+
+class FlaggedEdges {
+ public:
+  FlaggedEdges(const LocalMesh& mesh, const std::vector<VertexPair>& edges)
+      : mesh_(mesh), first_(FirstOfEqual(mesh)) {
+    for (const auto& [a, b] : edges) {
+      Check(a < first_.size() && b < first_.size(), "an edge of vertices that are not there");
+      flagged_.push_back({.edge = Name(a, b)});
+    }
+    std::ranges::sort(flagged_, {}, &Flagged::edge);
+    const auto repeated = std::ranges::unique(flagged_, {}, &Flagged::edge);
+    flagged_.erase(repeated.begin(), repeated.end());
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+      for (std::size_t side = 0; side < 3; ++side) {
+        if (Flagged* found = Find(t, side)) {
+          found->triangles[found->triangles[0] == kNone ? 0 : 1] = t;
+        }
+      }
+    }
+  }
+
+  // The flagged edge at this side of triangle t; null where there is none.
+  Flagged* Find(std::uint32_t t, std::size_t side) {
+    const auto& triangle = mesh_.triangles[t];
+    const VertexPair edge = Name(triangle[side], triangle[(side + 1) % 3]);
+    const auto found = std::ranges::lower_bound(flagged_, edge, {}, &Flagged::edge);
+    return found != flagged_.end() && found->edge == edge ? &*found : nullptr;
+  }
+
+ private:
+  [[nodiscard]] VertexPair Name(std::uint32_t a, std::uint32_t b) const {
+    return std::minmax(first_[a], first_[b]);
+  }
+
+  const LocalMesh& mesh_;
+  std::vector<std::uint32_t> first_;
+  std::vector<Flagged> flagged_;
+};
+
+// The normal of triangle t in signed bytes.
+std::array<std::int8_t, 3> NormalOf(const LocalMesh& mesh, std::uint32_t t) {
+  const auto& [a, b, c] = mesh.triangles[t];
+  const auto minus = [](const Enu& p, const Enu& q) {
+    return std::array{p.east - q.east, p.north - q.north, p.up - q.up};
+  };
+  const std::array<double, 3> u = minus(mesh.positions[b], mesh.positions[a]);
+  const std::array<double, 3> v = minus(mesh.positions[c], mesh.positions[a]);
+  const std::array<double, 3> n = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
+                                   u[0] * v[1] - u[1] * v[0]};
+  const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+  if (length == 0) return {0, 0, 127};
+  const auto byte = [&](double x) {
+    return static_cast<std::int8_t>(std::lround(127 * x / length));
+  };
+  return {byte(n[0]), byte(n[1]), byte(n[2])};
+}
+
+}  // namespace
+
+EdgeVisibility FlagEdges(const LocalMesh& mesh, const std::vector<VertexPair>& edges) {
+  FlaggedEdges flagged(mesh, edges);
+  EdgeVisibility result;
+  result.bits.assign((6 * mesh.triangles.size() + 7) / 8, 0);
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (std::size_t side = 0; side < 3; ++side) {
+      const Flagged* found = flagged.Find(t, side);
+      if (found == nullptr || found->triangles[0] != t) continue;
+      const bool shared = found->triangles[1] != kNone;
+      const std::size_t index = 3 * std::size_t{t} + side;
+      const unsigned value = shared ? kSilhouette : kHard;
+      result.bits[index / 4] =
+          static_cast<std::uint8_t>(result.bits[index / 4] | (value << (2 * (index % 4))));
+      ++result.edge_count;
+      if (!shared) continue;
+      for (const std::uint32_t neighbour : found->triangles) {
+        const std::array<std::int8_t, 3> normal = NormalOf(mesh, neighbour);
+        result.normals.insert(result.normals.end(), normal.begin(), normal.end());
+      }
+    }
+  }
+  return result;
+}
+
+}  // namespace farhorizon

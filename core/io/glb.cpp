@@ -1,0 +1,245 @@
+#include "core/io/glb.h"
+
+#include <algorithm>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include <nlohmann/json.hpp>
+
+#include "core/io/edge_visibility.h"
+
+namespace farhorizon {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Numbers of the glTF 2.0 specification: GLB header and chunks, component types, modes.
+constexpr std::uint32_t kMagic = 0x46546C67;
+constexpr std::uint32_t kJsonChunk = 0x4E4F534A;
+constexpr std::uint32_t kBinChunk = 0x004E4942;
+constexpr std::size_t kHeaderBytes = 12;
+constexpr std::size_t kChunkHeaderBytes = 8;
+constexpr int kByte = 5120;
+constexpr int kUnsignedByte = 5121;
+constexpr int kUnsignedShort = 5123;
+constexpr int kUnsignedInt = 5125;
+constexpr int kFloat = 5126;
+constexpr int kTriangles = 4;
+constexpr std::size_t kMaxShortVertices = 65535;  // 65535 itself restarts a strip
+// Unique ids of the attributes that EncodeDraco writes.
+constexpr int kDracoPosition = 0;
+
+constexpr char kDraco[] = "KHR_draco_mesh_compression";
+constexpr char kEdges[] = "EXT_mesh_primitive_edge_visibility";
+
+void AppendLittleEndian(std::vector<std::uint8_t>& bytes, std::uint32_t value) {
+  for (unsigned shift = 0; shift < 32; shift += 8) {
+    bytes.push_back(static_cast<std::uint8_t>(value >> shift));
+  }
+}
+
+std::uint32_t LittleEndianAt(std::span<const std::uint8_t> bytes, std::size_t at) {
+  std::uint32_t value = 0;
+  for (unsigned i = 0; i < 4; ++i) value |= std::uint32_t{bytes[at + i]} << (8 * i);
+  return value;
+}
+
+void Pad(std::vector<std::uint8_t>& bytes, std::uint8_t with) {
+  while (bytes.size() % 4 != 0) bytes.push_back(with);
+}
+
+// The one buffer and its views.
+struct Binary {
+  std::vector<std::uint8_t> bytes;
+  Json views = Json::array();
+
+  // Returns the number of the new view.
+  template <typename Byte>
+  std::size_t Add(const std::vector<Byte>& part) {
+    Pad(bytes, 0);
+    views.push_back({{"buffer", 0}, {"byteOffset", bytes.size()}, {"byteLength", part.size()}});
+    for (const Byte b : part) bytes.push_back(static_cast<std::uint8_t>(b));
+    return views.size() - 1;
+  }
+};
+
+Json PositionAccessor(const LocalMesh& mesh) {
+  std::array<double, 3> least = {0, 0, 0};
+  std::array<double, 3> greatest = {0, 0, 0};
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    const Enu& p = mesh.positions[i];
+    const std::array<double, 3> xyz = {p.east, p.north, p.up};
+    for (std::size_t k = 0; k < 3; ++k) {
+      least[k] = i == 0 ? xyz[k] : std::min(least[k], xyz[k]);
+      greatest[k] = i == 0 ? xyz[k] : std::max(greatest[k], xyz[k]);
+    }
+  }
+  return {{"componentType", kFloat},
+          {"count", mesh.positions.size()},
+          {"type", "VEC3"},
+          {"min", least},
+          {"max", greatest}};
+}
+
+// The extension's object, its accessors and views added; see FlagEdges.
+Json EdgeExtension(const EdgeVisibility& edges, Json& accessors, Binary& binary) {
+  Json extension;
+  extension["visibility"] = accessors.size();
+  accessors.push_back({{"bufferView", binary.Add(edges.bits)},
+                       {"componentType", kUnsignedByte},
+                       {"count", edges.bits.size()},
+                       {"type", "SCALAR"}});
+  extension["material"] = 1;
+  if (!edges.normals.empty()) {
+    extension["silhouetteNormals"] = accessors.size();
+    accessors.push_back({{"bufferView", binary.Add(edges.normals)},
+                         {"componentType", kByte},
+                         {"normalized", true},
+                         {"count", edges.normals.size() / 3},
+                         {"type", "VEC3"}});
+  }
+  return extension;
+}
+
+Json Material(const char* name, std::array<double, 4> colour) {
+  return {{"name", name},
+          {"pbrMetallicRoughness",
+           {{"baseColorFactor", colour}, {"metallicFactor", 0}, {"roughnessFactor", 1}}},
+          {"doubleSided", false}};
+}
+
+std::vector<std::uint8_t> Assemble(const Json& gltf, const Binary& binary) {
+  const std::string text = gltf.dump();
+  std::vector<std::uint8_t> json(text.begin(), text.end());
+  Pad(json, ' ');
+  std::vector<std::uint8_t> bin = binary.bytes;
+  Pad(bin, 0);
+  const std::size_t total =
+      kHeaderBytes + kChunkHeaderBytes + json.size() + kChunkHeaderBytes + bin.size();
+  Check(total <= 0xFFFFFFFFU, "a GLB beyond 4 GiB");
+  std::vector<std::uint8_t> glb;
+  glb.reserve(total);
+  const auto append_chunk = [&](std::uint32_t type, const std::vector<std::uint8_t>& chunk) {
+    AppendLittleEndian(glb, static_cast<std::uint32_t>(chunk.size()));
+    AppendLittleEndian(glb, type);
+    glb.insert(glb.end(), chunk.begin(), chunk.end());
+  };
+  AppendLittleEndian(glb, kMagic);
+  AppendLittleEndian(glb, 2);
+  AppendLittleEndian(glb, static_cast<std::uint32_t>(total));
+  append_chunk(kJsonChunk, json);
+  append_chunk(kBinChunk, bin);
+  return glb;
+}
+
+Error BadGlb(const std::string& message) {
+  return {ErrorCode::kUnsupportedData, "no GLB of ours: " + message, "bad-glb"};
+}
+
+struct Chunks {
+  std::span<const std::uint8_t> json;
+  std::span<const std::uint8_t> bin;
+};
+
+Result<Chunks> SplitChunks(std::span<const std::uint8_t> bytes) {
+  if (bytes.size() < kHeaderBytes || LittleEndianAt(bytes, 0) != kMagic ||
+      LittleEndianAt(bytes, 4) != 2) {
+    return BadGlb("it does not begin as glTF binary 2 does");
+  }
+  if (LittleEndianAt(bytes, 8) != bytes.size()) {
+    return BadGlb("it has " + std::to_string(bytes.size()) + " bytes, its header says " +
+                  std::to_string(LittleEndianAt(bytes, 8)));
+  }
+  std::array<std::span<const std::uint8_t>, 2> found;
+  std::size_t at = kHeaderBytes;
+  for (const auto& [index, type] : {std::pair{0U, kJsonChunk}, std::pair{1U, kBinChunk}}) {
+    if (bytes.size() - at < kChunkHeaderBytes || LittleEndianAt(bytes, at + 4) != type) {
+      return BadGlb("chunk " + std::to_string(index) + " is missing");
+    }
+    const std::size_t size = LittleEndianAt(bytes, at);
+    at += kChunkHeaderBytes;
+    if (size > bytes.size() - at) return BadGlb("chunk " + std::to_string(index) + " is cut short");
+    found[index] = bytes.subspan(at, size);
+    at += size;
+  }
+  return Chunks{found[0], found[1]};
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> WriteGlb(
+    const std::vector<std::uint8_t>& draco, const LocalMesh& decoded,
+    const std::vector<std::pair<std::uint32_t, std::uint32_t>>& horizon_edges) {
+  Binary binary;
+  const std::size_t draco_view = binary.Add(draco);
+  // Accessors of what Draco holds have no view of their own, and no offset either.
+  Json accessors = Json::array();
+  accessors.push_back(PositionAccessor(decoded));
+  accessors.push_back(
+      {{"componentType",
+        decoded.positions.size() <= kMaxShortVertices ? kUnsignedShort : kUnsignedInt},
+       {"count", 3 * decoded.triangles.size()},
+       {"type", "SCALAR"}});
+  Json primitive = {
+      {"attributes", {{"POSITION", 0}}}, {"indices", 1}, {"mode", kTriangles}, {"material", 0}};
+  primitive["extensions"][kDraco] = {{"bufferView", draco_view},
+                                     {"attributes", {{"POSITION", kDracoPosition}}}};
+  Json materials = Json::array({Material("terrain", {0.62, 0.6, 0.55, 1})});
+  Json used = Json::array({kDraco});
+  const EdgeVisibility edges = FlagEdges(decoded, horizon_edges);
+  if (edges.edge_count > 0) {
+    primitive["extensions"][kEdges] = EdgeExtension(edges, accessors, binary);
+    materials.push_back(Material("horizon edge", {1, 0.25, 0, 1}));
+    used.push_back(kEdges);
+  }
+
+  Json gltf;
+  gltf["asset"] = {{"version", "2.0"}, {"generator", "farhorizon"}};
+  gltf["extensionsUsed"] = used;
+  gltf["extensionsRequired"] = Json::array({kDraco});
+  gltf["scene"] = 0;
+  gltf["scenes"] = Json::array({{{"nodes", {0}}}});
+  // Column-major; z up to y up. 3D Tiles turns it back, so that the local frame arrives as it is
+  // (3D Tiles 1.1, "glTF transforms").
+  gltf["nodes"] =
+      Json::array({{{"mesh", 0}, {"matrix", {1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1}}}});
+  gltf["meshes"] = Json::array({{{"primitives", Json::array({primitive})}}});
+  gltf["materials"] = materials;
+  gltf["accessors"] = accessors;
+  gltf["bufferViews"] = binary.views;
+  gltf["buffers"] = Json::array({{{"byteLength", binary.bytes.size()}}});
+  return Assemble(gltf, binary);
+}
+
+Result<GlbContents> ReadGlb(const std::vector<std::uint8_t>& bytes) {
+  Result<Chunks> chunks = SplitChunks(bytes);
+  if (!chunks) return std::move(chunks.error());
+  try {
+    const Json gltf = Json::parse(chunks->json.begin(), chunks->json.end());
+    const Json& primitive = gltf.at("meshes").at(0).at("primitives").at(0);
+    const Json& extension = primitive.at("extensions").at(kDraco);
+    const Json& accessors = gltf.at("accessors");
+    const Json& position =
+        accessors.at(primitive.at("attributes").at("POSITION").get<std::size_t>());
+    const Json& view = gltf.at("bufferViews").at(extension.at("bufferView").get<std::size_t>());
+    GlbContents contents;
+    contents.vertex_count = position.at("count").get<std::int64_t>();
+    contents.index_count =
+        accessors.at(primitive.at("indices").get<std::size_t>()).at("count").get<std::int64_t>();
+    contents.min = position.at("min").get<std::array<double, 3>>();
+    contents.max = position.at("max").get<std::array<double, 3>>();
+    const auto offset = view.value("byteOffset", std::uint64_t{0});
+    const auto length = view.at("byteLength").get<std::uint64_t>();
+    if (offset > chunks->bin.size() || length > chunks->bin.size() - offset) {
+      return BadGlb("the Draco bitstream lies outside the buffer");
+    }
+    const auto part = chunks->bin.subspan(offset, length);
+    contents.draco.assign(part.begin(), part.end());
+    return contents;
+  } catch (const nlohmann::json::exception& failure) {
+    return BadGlb(failure.what());
+  }
+}
+
+}  // namespace farhorizon

@@ -1,0 +1,121 @@
+#include "core/io/horizon_features.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <initializer_list>
+#include <string_view>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+namespace farhorizon {
+namespace {
+
+// A tenth of a millimetre on the ground, and in height.
+constexpr int kDegreeDecimals = 9;
+constexpr int kMetreDecimals = 4;
+
+// The shortest text of `value` rounded to `decimals`.
+std::string Rounded(double value, int decimals) {
+  std::array<char, 64> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value,
+                                 std::chars_format::fixed, decimals);
+  Check(end.ec == std::errc(), "a coordinate too long to print");
+  std::string_view shown(text.data(), static_cast<std::size_t>(end.ptr - text.data()));
+  while (shown.ends_with('0')) shown.remove_suffix(1);
+  if (shown.ends_with('.')) shown.remove_suffix(1);
+  return shown == "-0" ? "0" : std::string(shown);
+}
+
+// The shortest text that reads back to the same number.
+std::string Exact(double value) {
+  std::array<char, 64> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value);
+  return {text.data(), end.ptr};
+}
+
+// Joined by appending: GCC 12 sees an overlap in "[" + std::string (its bug 105651).
+std::string Bracketed(std::initializer_list<std::string> parts) {
+  std::string text(1, '[');
+  for (const std::string& part : parts) {
+    if (text.size() > 1) text += ',';
+    text += part;
+  }
+  return text += ']';
+}
+
+std::string Coordinates(const Geodetic& g) {
+  return Bracketed({Rounded(g.lon_deg, kDegreeDecimals), Rounded(g.lat_deg, kDegreeDecimals),
+                    Rounded(g.height_m, kMetreDecimals)});
+}
+
+std::string Pair(std::int32_t first, std::int32_t second) {
+  return Bracketed({std::to_string(first), std::to_string(second)});
+}
+
+std::string FeatureText(const HorizonFeature& feature) {
+  std::string text = R"({"type":"Feature","geometry":{"type":"LineString","coordinates":)";
+  text += Bracketed({Coordinates(feature.from), Coordinates(feature.to)});
+  text += R"(},"properties":{"a":)" + Pair(feature.a[0], feature.a[1]);
+  text += R"(,"b":)" + Pair(feature.b[0], feature.b[1]);
+  text += R"(,"witness":{"t":)" + Exact(feature.witness.t);
+  text += R"(,"direction":)" + Pair(feature.witness.dc, feature.witness.dr) + "}";
+  if (feature.level_kept) text += R"(,"level_kept":)" + std::to_string(*feature.level_kept);
+  return text + "}}";
+}
+
+using Json = nlohmann::json;
+
+Geodetic ReadPosition(const Json& position) {
+  return {position.at(0).get<double>(), position.at(1).get<double>(), position.at(2).get<double>()};
+}
+
+HorizonFeature ReadFeature(const Json& feature) {
+  const Json& line = feature.at("geometry").at("coordinates");
+  const Json& properties = feature.at("properties");
+  const Json& witness = properties.at("witness");
+  HorizonFeature result{};
+  result.a = properties.at("a").get<std::array<std::int32_t, 2>>();
+  result.b = properties.at("b").get<std::array<std::int32_t, 2>>();
+  result.from = ReadPosition(line.at(0));
+  result.to = ReadPosition(line.at(1));
+  result.witness.t = witness.at("t").get<double>();
+  const auto direction = witness.at("direction").get<std::array<std::int32_t, 2>>();
+  result.witness.dc = direction[0];
+  result.witness.dr = direction[1];
+  if (properties.contains("level_kept")) {
+    result.level_kept = properties.at("level_kept").get<int>();
+  }
+  return result;
+}
+
+Error BadGeoJson(const std::string& message) {
+  return {ErrorCode::kUnsupportedData, "no horizon.geojson: " + message, "bad-geojson"};
+}
+
+}  // namespace
+
+std::string WriteHorizonGeoJson(const std::vector<HorizonFeature>& features) {
+  std::string text = "{\"type\":\"FeatureCollection\",\"features\":[";
+  const char* separator = "\n";
+  for (const HorizonFeature& feature : features) {
+    text += separator + FeatureText(feature);
+    separator = ",\n";
+  }
+  return text + "\n]}\n";
+}
+
+Result<std::vector<HorizonFeature>> ReadHorizonGeoJson(const std::string& text) {
+  std::vector<HorizonFeature> features;
+  try {
+    const Json collection = Json::parse(text);
+    if (collection.at("type") != "FeatureCollection") return BadGeoJson("no FeatureCollection");
+    for (const Json& feature : collection.at("features")) features.push_back(ReadFeature(feature));
+    return features;
+  } catch (const Json::exception& failure) {
+    return BadGeoJson("feature " + std::to_string(features.size()) + ": " + failure.what());
+  }
+}
+
+}  // namespace farhorizon

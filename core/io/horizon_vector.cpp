@@ -1,0 +1,104 @@
+// The horizon edges for GIS programs, through OGR: FlatGeobuf and GeoPackage.
+#include <memory>
+#include <utility>
+
+#include <cpl_conv.h>
+#include <gdal.h>
+#include <ogr_api.h>
+#include <ogr_srs_api.h>
+
+#include "core/io/gdal_session.h"
+#include "core/io/horizon_features.h"
+
+namespace farhorizon {
+namespace {
+
+struct CloseDataset {
+  void operator()(void* dataset) const { GDALClose(dataset); }
+};
+struct DestroyFeature {
+  void operator()(void* feature) const { OGR_F_Destroy(feature); }
+};
+struct ReleaseCrs {
+  void operator()(void* crs) const { OSRRelease(crs); }
+};
+
+constexpr std::pair<const char*, OGRFieldType> kFields[] = {
+    {"a_column", OFTInteger},       {"a_row", OFTInteger},     {"b_column", OFTInteger},
+    {"b_row", OFTInteger},          {"witness_t", OFTReal},    {"direction_columns", OFTInteger},
+    {"direction_rows", OFTInteger}, {"level_kept", OFTInteger}};
+
+bool AddFields(OGRLayerH layer) {
+  for (const auto& [name, type] : kFields) {
+    const OGRFieldDefnH field = OGR_Fld_Create(name, type);
+    const OGRErr added = OGR_L_CreateField(layer, field, 1);
+    OGR_Fld_Destroy(field);
+    if (added != OGRERR_NONE) return false;
+  }
+  return true;
+}
+
+bool AddFeature(OGRLayerH layer, const HorizonFeature& edge) {
+  const std::unique_ptr<void, DestroyFeature> feature(OGR_F_Create(OGR_L_GetLayerDefn(layer)));
+  const std::int32_t numbers[] = {edge.a[0], edge.a[1], edge.b[0], edge.b[1]};
+  for (int i = 0; i < 4; ++i) OGR_F_SetFieldInteger(feature.get(), i, numbers[i]);
+  OGR_F_SetFieldDouble(feature.get(), 4, edge.witness.t);
+  OGR_F_SetFieldInteger(feature.get(), 5, edge.witness.dc);
+  OGR_F_SetFieldInteger(feature.get(), 6, edge.witness.dr);
+  if (edge.level_kept) OGR_F_SetFieldInteger(feature.get(), 7, *edge.level_kept);
+  const OGRGeometryH line = OGR_G_CreateGeometry(wkbLineString25D);
+  for (const Geodetic& g : {edge.from, edge.to}) {
+    OGR_G_AddPoint(line, g.lon_deg, g.lat_deg, g.height_m);
+  }
+  return OGR_F_SetGeometryDirectly(feature.get(), line) == OGRERR_NONE &&
+         OGR_L_CreateFeature(layer, feature.get()) == OGRERR_NONE;
+}
+
+// Writes all; false with the cause in the session where the driver failed.
+bool WriteLayer(const char* driver, const std::string& path,
+                const std::vector<HorizonFeature>& features, const GdalSession& session) {
+  const std::unique_ptr<void, CloseDataset> dataset(
+      GDALCreate(GDALGetDriverByName(driver), path.c_str(), 0, 0, 0, GDT_Unknown, nullptr));
+  if (!dataset) return false;
+  const std::unique_ptr<void, ReleaseCrs> crs(OSRNewSpatialReference(nullptr));
+  if (OSRImportFromEPSG(crs.get(), 4326) != OGRERR_NONE) return false;
+  OSRSetAxisMappingStrategy(crs.get(), OAMS_TRADITIONAL_GIS_ORDER);
+  const OGRLayerH layer =
+      GDALDatasetCreateLayer(dataset.get(), "horizon", crs.get(), wkbLineString25D, nullptr);
+  if (layer == nullptr || !AddFields(layer)) return false;
+  const bool transacted = GDALDatasetTestCapability(dataset.get(), ODsCTransactions) != 0;
+  if (transacted && GDALDatasetStartTransaction(dataset.get(), FALSE) != OGRERR_NONE) return false;
+  for (const HorizonFeature& feature : features) {
+    if (!AddFeature(layer, feature)) return false;
+  }
+  if (transacted && GDALDatasetCommitTransaction(dataset.get()) != OGRERR_NONE) return false;
+  GDALFlushCache(dataset.get());
+  return !session.Failed();
+}
+
+}  // namespace
+
+Status WriteHorizonVector(const std::vector<HorizonFeature>& features,
+                          const std::filesystem::path& path) {
+  const std::string ending = path.extension().string();
+  const char* driver = ending == ".fgb" ? "FlatGeobuf" : ending == ".gpkg" ? "GPKG" : nullptr;
+  if (driver == nullptr) {
+    return Error{ErrorCode::kInvalidArgument, "no format goes with the ending of " +
+                                                  path.filename().string() +
+                                                  "; use .geojson, .fgb or .gpkg"};
+  }
+  GdalSession session(path);
+  std::error_code ignored;
+  std::filesystem::remove(path, ignored);
+  // GeoPackage stamps its contents with a date: same input, same bytes.
+  CPLSetThreadLocalConfigOption("OGR_CURRENT_DATE", "1970-01-01T00:00:00.000Z");
+  const std::string absolute = std::filesystem::absolute(path).lexically_normal().string();
+  const bool written = WriteLayer(driver, absolute, features, session);
+  CPLSetThreadLocalConfigOption("OGR_CURRENT_DATE", nullptr);
+  // FlatGeobuf writes its file as it closes: a failure may come only now.
+  if (written && !session.Failed()) return Done{};
+  std::filesystem::remove(path, ignored);
+  return Error{ErrorCode::kIo, "cannot write " + path.filename().string() + session.Complaint()};
+}
+
+}  // namespace farhorizon

@@ -1,0 +1,90 @@
+#include "core/io/edge_visibility.h"
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/local_meshes.h"
+
+namespace farhorizon {
+namespace {
+
+using ::testing::ElementsAre;
+
+// The extension's own example, indices 0,1,2, 0,2,3:
+//   0______3
+//   | \    |
+//   |____\ |
+//   1      2
+LocalMesh Square() {
+  return {.positions = {{0, 1, 0}, {0, 0, 0}, {1, 0, 0}, {1, 1, 0}},
+          .sources = {0, 1, 2, 3},
+          .triangles = {{0, 1, 2}, {0, 2, 3}}};
+}
+
+std::vector<int> Values(const EdgeVisibility& edges, std::size_t triangles) {
+  std::vector<int> values;
+  for (std::size_t i = 0; i < 3 * triangles; ++i) {
+    values.push_back((edges.bits[i / 4] >> (2 * (i % 4))) & 3);
+  }
+  return values;
+}
+
+TEST(FlagEdges, ASharedEdgeIsASilhouetteOnceAndABorderEdgeIsHard) {
+  const EdgeVisibility edges = FlagEdges(Square(), {{2, 0}, {0, 1}});
+  EXPECT_THAT(Values(edges, 2), ElementsAre(2, 0, 1, 0, 0, 0));
+  EXPECT_THAT(edges.bits, ElementsAre(18, 0));
+  EXPECT_EQ(edges.edge_count, 2);
+  EXPECT_THAT(edges.normals, ElementsAre(0, 0, 127, 0, 0, 127));
+}
+
+TEST(FlagEdges, UnusedBitsAreZeroAndThereIsAByteForEveryFourEdges) {
+  const EdgeVisibility edges = FlagEdges(Square(), {{3, 0}});
+  EXPECT_THAT(edges.bits, ElementsAre(0, 2 << 2));
+  EXPECT_TRUE(edges.normals.empty());
+}
+
+TEST(FlagEdges, PairsThatAreNoEdgeAreLeftOut) {
+  EXPECT_EQ(FlagEdges(Square(), {{1, 3}}).edge_count, 0);
+  EXPECT_EQ(FlagEdges(Square(), {}).edge_count, 0);
+}
+
+TEST(FlagEdges, VerticesThatDracoSplitCountAsOne) {
+  LocalMesh mesh = Square();
+  mesh.positions.push_back(mesh.positions[2]);
+  mesh.sources.push_back(2);
+  mesh.triangles[1] = {0, 4, 3};
+  const EdgeVisibility edges = FlagEdges(mesh, {{0, 2}, {0, 4}});
+  EXPECT_THAT(Values(edges, 2), ElementsAre(0, 0, 1, 0, 0, 0));
+  EXPECT_EQ(edges.edge_count, 1);
+}
+
+TEST(FlagEdges, VerticesOfOneSourceButOtherHeightStayApart) {
+  LocalMesh mesh = Square();  // as at a skirt, whose lower vertices stand for the same posts
+  mesh.positions.push_back({0, 1, -9});
+  mesh.sources.push_back(0);
+  mesh.triangles.push_back({0, 4, 1});
+  EXPECT_EQ(FlagEdges(mesh, {{4, 1}}).edge_count, 1);
+  EXPECT_THAT(Values(FlagEdges(mesh, {{4, 1}}), 3), ElementsAre(0, 0, 0, 0, 0, 0, 0, 2, 0));
+}
+
+TEST(FlagEdges, NormalsComeInTheOrderOfTheFlagsAndPointOutOfTheGround) {
+  const LocalMesh mesh = HillyGrid(12, 9, 10);
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> all;
+  for (const auto& t : mesh.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) all.emplace_back(t[k], t[(k + 1) % 3]);
+  }
+  const EdgeVisibility edges = FlagEdges(mesh, all);
+  const std::int64_t border = 2 * (11 + 8);
+  const std::int64_t total = (12 * 9) + static_cast<std::int64_t>(mesh.triangles.size()) - 1;
+  EXPECT_EQ(edges.edge_count, total);  // Euler: V - E + F = 1
+  EXPECT_EQ(edges.normals.size(), static_cast<std::size_t>(6 * (total - border)));
+  for (std::size_t i = 0; i < edges.normals.size(); i += 3) {
+    EXPECT_GT(edges.normals[i + 2], 0);
+    EXPECT_NEAR(std::hypot(edges.normals[i], edges.normals[i + 1], edges.normals[i + 2]), 127, 1.5);
+  }
+}
+
+}  // namespace
+}  // namespace farhorizon

@@ -1,0 +1,149 @@
+#include "core/io/glb.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/support/local_meshes.h"
+
+namespace farhorizon {
+namespace {
+
+using ::testing::ElementsAre;
+using Json = nlohmann::json;
+using VertexPairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+
+struct Encoded {
+  std::vector<std::uint8_t> draco;
+  LocalMesh mesh;
+};
+
+Encoded Encode(std::uint32_t columns, std::uint32_t rows) {
+  const LocalMesh mesh = HillyGrid(columns, rows, 10);
+  Encoded encoded;
+  encoded.draco = *EncodeDraco(mesh, ChooseLattice(mesh.positions, 0.25));
+  encoded.mesh = *DecodeDraco(encoded.draco);
+  return encoded;
+}
+
+std::uint32_t Number(const std::vector<std::uint8_t>& bytes, std::size_t at) {
+  return bytes[at] | bytes[at + 1] << 8U | bytes[at + 2] << 16U |
+         static_cast<std::uint32_t>(bytes[at + 3]) << 24U;
+}
+
+Json JsonOf(const std::vector<std::uint8_t>& glb) {
+  return Json::parse(glb.begin() + 20, glb.begin() + 20 + Number(glb, 12));
+}
+
+// The first inner edge of a triangle of `mesh`, so that it has a neighbour.
+VertexPairs SomeEdges(const LocalMesh& mesh) {
+  VertexPairs edges;
+  for (std::size_t i = 0; i < mesh.triangles.size(); i += 7) {
+    edges.emplace_back(mesh.triangles[i][0], mesh.triangles[i][1]);
+  }
+  return edges;
+}
+
+TEST(Glb, ChunksAreAlignedAndTheHeaderTellsTheLength) {
+  const Encoded e = Encode(9, 8);
+  const std::vector<std::uint8_t> glb = WriteGlb(e.draco, e.mesh, SomeEdges(e.mesh));
+  EXPECT_EQ(Number(glb, 0), 0x46546C67U);
+  EXPECT_EQ(Number(glb, 4), 2U);
+  EXPECT_EQ(Number(glb, 8), glb.size());
+  EXPECT_EQ(Number(glb, 12) % 4, 0U);
+  EXPECT_EQ(Number(glb, 16), 0x4E4F534AU);
+  const std::size_t bin = 20 + Number(glb, 12);
+  EXPECT_EQ(Number(glb, bin) % 4, 0U);
+  EXPECT_EQ(Number(glb, bin + 4), 0x004E4942U);
+  EXPECT_EQ(bin + 8 + Number(glb, bin), glb.size());
+}
+
+TEST(Glb, DracoAccessorsHaveNoViewAndTellOfTheDecodedMesh) {
+  const Encoded e = Encode(9, 8);
+  const Json gltf = JsonOf(WriteGlb(e.draco, e.mesh, {}));
+  const Json& primitive = gltf["meshes"][0]["primitives"][0];
+  const Json& position = gltf["accessors"][primitive["attributes"]["POSITION"].get<int>()];
+  const Json& indices = gltf["accessors"][primitive["indices"].get<int>()];
+  EXPECT_FALSE(position.contains("bufferView"));
+  EXPECT_FALSE(position.contains("byteOffset"));
+  EXPECT_FALSE(indices.contains("bufferView"));
+  EXPECT_EQ(position["count"], 72);
+  EXPECT_EQ(indices["count"], 3 * 2 * 8 * 7);
+  EXPECT_EQ(indices["componentType"], 5123);
+  for (const Enu& p : e.mesh.positions) {
+    EXPECT_LE(position["min"][2].get<double>(), p.up);
+    EXPECT_GE(position["max"][2].get<double>(), p.up);
+  }
+  EXPECT_EQ(gltf["extensionsRequired"], Json::array({"KHR_draco_mesh_compression"}));
+  EXPECT_EQ(primitive["extensions"]["KHR_draco_mesh_compression"]["attributes"]["POSITION"], 0);
+  EXPECT_EQ(primitive["mode"], 4);
+}
+
+TEST(Glb, TheRootTurnsZUpToYUp) {
+  const Encoded e = Encode(3, 3);
+  const Json gltf = JsonOf(WriteGlb(e.draco, e.mesh, {}));
+  const auto m = gltf["nodes"][0]["matrix"].get<std::vector<double>>();
+  ASSERT_EQ(m.size(), 16U);
+  const auto apply = [&](double x, double y, double z) {
+    return std::vector<double>{m[0] * x + m[4] * y + m[8] * z, m[1] * x + m[5] * y + m[9] * z,
+                               m[2] * x + m[6] * y + m[10] * z};
+  };
+  EXPECT_THAT(apply(1, 0, 0), ElementsAre(1, 0, 0));   // east stays right
+  EXPECT_THAT(apply(0, 0, 1), ElementsAre(0, 1, 0));   // up is glTF's y
+  EXPECT_THAT(apply(0, 1, 0), ElementsAre(0, 0, -1));  // north is away
+}
+
+TEST(Glb, MoreVerticesThanShortsCanNameTakeLongIndices) {
+  const Encoded e = Encode(300, 220);
+  EXPECT_EQ(JsonOf(WriteGlb(e.draco, e.mesh, {}))["accessors"][1]["componentType"], 5125);
+}
+
+TEST(Glb, HorizonEdgesAreInTheExtensionAndOnlyThen) {
+  const Encoded e = Encode(9, 8);
+  Json gltf = JsonOf(WriteGlb(e.draco, e.mesh, {}));
+  EXPECT_EQ(gltf["extensionsUsed"], Json::array({"KHR_draco_mesh_compression"}));
+  const std::vector<std::uint8_t> glb = WriteGlb(e.draco, e.mesh, SomeEdges(e.mesh));
+  gltf = JsonOf(glb);
+  EXPECT_EQ(gltf["extensionsUsed"][1], "EXT_mesh_primitive_edge_visibility");
+  const Json& edges =
+      gltf["meshes"][0]["primitives"][0]["extensions"]["EXT_mesh_primitive_edge_visibility"];
+  const Json& visibility = gltf["accessors"][edges["visibility"].get<int>()];
+  EXPECT_EQ(visibility["count"], (6 * 2 * 8 * 7 + 7) / 8);
+  const Json& view = gltf["bufferViews"][visibility["bufferView"].get<int>()];
+  const std::size_t start = 20 + Number(glb, 12) + 8 + view["byteOffset"].get<std::size_t>();
+  int silhouettes = 0;
+  for (std::size_t i = 0; i < 4 * visibility["count"].get<std::size_t>(); ++i) {
+    silhouettes += (glb[start + i / 4] >> (2 * (i % 4)) & 3) == 1 ? 1 : 0;
+  }
+  EXPECT_GT(silhouettes, 3);
+  EXPECT_EQ(gltf["accessors"][edges["silhouetteNormals"].get<int>()]["count"], 2 * silhouettes);
+}
+
+TEST(Glb, ReadsBackWhatItWrote) {
+  const Encoded e = Encode(9, 8);
+  Result<GlbContents> contents = ReadGlb(WriteGlb(e.draco, e.mesh, SomeEdges(e.mesh)));
+  ASSERT_TRUE(contents) << contents.error().message;
+  EXPECT_EQ(contents->draco, e.draco);
+  EXPECT_EQ(contents->vertex_count, 72);
+  EXPECT_EQ(contents->index_count, 3 * 2 * 8 * 7);
+  EXPECT_LT(contents->min[0], contents->max[0]);
+}
+
+TEST(Glb, ReadingACutOrDamagedFileFailsWithAReason) {
+  const Encoded e = Encode(9, 8);
+  const std::vector<std::uint8_t> glb = WriteGlb(e.draco, e.mesh, SomeEdges(e.mesh));
+  for (std::size_t size = 0; size < glb.size(); size += 13) {
+    Result<GlbContents> cut =
+        ReadGlb({glb.begin(), glb.begin() + static_cast<std::ptrdiff_t>(size)});
+    ASSERT_FALSE(cut);
+    EXPECT_EQ(cut.error().kind, "bad-glb");
+  }
+  for (std::size_t at = 8; at < 20 + Number(glb, 12); ++at) {
+    std::vector<std::uint8_t> damaged = glb;
+    damaged[at] ^= 0x15;
+    static_cast<void>(ReadGlb(damaged));  // may succeed; must not crash
+  }
+}
+
+}  // namespace
+}  // namespace farhorizon
