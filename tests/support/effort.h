@@ -1,0 +1,15 @@
+#pragma once
+
+namespace farhorizon {
+
+/// How many rounds of a random test to run: all in an ordinary build, a tenth under the sanitizers,
+/// where each takes some ten times as long.
+constexpr int Rounds(int rounds) {
+#ifdef __SANITIZE_ADDRESS__
+  return rounds < 10 ? 1 : rounds / 10;
+#else
+  return rounds;
+#endif
+}
+
+}  // namespace farhorizon
