@@ -1,0 +1,97 @@
+// The chain of levels: each collapses the one before it further, under three promises that are kept
+// collapse by collapse: the vertical error at every post (Star), nothing above the DEM's skyline
+// (SkylineGuard), nothing of that skyline lost (RidgeNetwork). Proofs: horizon.md, section 7.
+#include "core/simplify/lod_chain.h"
+
+#include <algorithm>
+
+#include "core/simplify/border.h"
+#include "core/simplify/collapse.h"
+#include "core/simplify/ridge_network.h"
+#include "core/simplify/skyline_guard.h"
+
+namespace farhorizon {
+namespace {
+
+class ChainBuilder {
+ public:
+  ChainBuilder(const Terrain& terrain, const Horizon& horizon)
+      : terrain_(terrain),
+        horizon_(horizon),
+        outline_(OutlinePosts(terrain)),
+        collapser_(terrain),
+        guard_(terrain, horizon),
+        ridges_(terrain, horizon, guard_.scale()) {}
+
+  Status BuildLevel(const LevelBudget& budget, const Watch& watch,
+                    const std::function<void(double)>& report) {
+    const double quantum = terrain_.dem().quantum_m;
+    const std::int32_t steps = guard_.scale().Steps(budget.silhouette_error_m / quantum);
+    ridges_.Allow(steps);
+    ridges_.ShedLooseEnds();
+    CollapseRules rules;
+    rules.limits = {budget.vertical_error_m / quantum, budget.longest_edge, budget.least_altitude};
+    rules.may_leave = PostsThatMayLeave(rules.limits, steps);
+    rules.may_stand = [this, steps](VertexId p, VertexId q) { return guard_.Hides(p, q, steps); };
+    rules.may_move = [this](VertexId v, VertexId b) { return ridges_.MayMove(v, b); };
+    rules.move_ridges = [this](VertexId v, VertexId b) { return ridges_.Move(v, b); };
+    return collapser_.Run(rules, watch, report);
+  }
+
+  [[nodiscard]] Lod Level() const {
+    const Surface& surface = collapser_.surface();
+    Lod lod{{surface.Triangles()}, {}};
+    for (std::size_t e = 0; e < horizon_.edges.size(); ++e) {
+      // An edge whose posts both still stand is still an edge: see Surface.
+      const Edge& edge = horizon_.edges[e].edge;
+      if (surface.IsVertex(edge.a) && surface.IsVertex(edge.b)) {
+        lod.kept.push_back(static_cast<std::int32_t>(e));
+      }
+    }
+    return lod;
+  }
+
+ private:
+  // Without an allowance the whole outline stays and with it each of its horizon edges; with one, the
+  // sides follow their own rule and other rims only their heights.
+  [[nodiscard]] std::vector<bool> PostsThatMayLeave(const TriangleLimits& limits,
+                                                    std::int32_t steps) const {
+    std::vector<bool> may_leave(outline_.size());
+    if (steps == 0) {
+      std::transform(outline_.begin(), outline_.end(), may_leave.begin(), std::logical_not<>());
+      return may_leave;
+    }
+    const double tolerance = std::min(limits.vertical_error, guard_.scale().Quanta(steps));
+    const std::vector<bool> kept = KeptSidePosts(terrain_.dem(), tolerance, limits.longest_edge);
+    std::transform(kept.begin(), kept.end(), may_leave.begin(), std::logical_not<>());
+    return may_leave;
+  }
+
+  const Terrain& terrain_;
+  const Horizon& horizon_;
+  std::vector<bool> outline_;
+  Collapser collapser_;
+  SkylineGuard guard_;
+  RidgeNetwork ridges_;
+};
+
+}  // namespace
+
+Result<std::vector<Lod>> BuildLodChain(const Terrain& terrain, const Horizon& horizon,
+                                       const std::vector<LevelBudget>& budgets,
+                                       const Watch& watch) {
+  ChainBuilder builder(terrain, horizon);
+  std::vector<Lod> levels;
+  const auto count = static_cast<double>(budgets.size());
+  for (const LevelBudget& budget : budgets) {
+    const auto done = static_cast<double>(levels.size());
+    const auto report = [&](double share) { watch.Report("simplify", (done + share) / count); };
+    Status status = builder.BuildLevel(budget, watch, report);
+    if (!status) return std::move(status.error());
+    levels.push_back(builder.Level());
+  }
+  watch.Report("simplify", 1.0);
+  return levels;
+}
+
+}  // namespace farhorizon

@@ -1,0 +1,189 @@
+#include "core/simplify/ridge_network.h"
+
+#include <algorithm>
+#include <queue>
+#include <tuple>
+
+#include "core/base/result.h"
+
+namespace farhorizon {
+namespace {
+
+std::size_t Index(std::int32_t id) { return static_cast<std::size_t>(id); }
+
+}  // namespace
+
+RidgeNetwork::RidgeNetwork(const Terrain& terrain, const Horizon& horizon, HeightScale scale)
+    : terrain_(&terrain),
+      horizon_(&horizon),
+      scale_(scale),
+      skyline_(terrain.dem().columns, terrain.dem().rows) {
+  ridges_.reserve(horizon.edges.size() * 2);
+  certificates_.resize(horizon.edges.size());
+  for (std::size_t e = 0; e < horizon.edges.size(); ++e) {
+    const RidgeId ridge = Add(horizon.edges[e].edge);
+    Stand(ridge);
+    // Ridge and horizon edge have the same number: what stands hides itself.
+    certificates_[e] = {ridge};
+    ridges_[Index(ridge)].leaning = {static_cast<std::int32_t>(e)};
+  }
+}
+
+RidgeNetwork::RidgeId RidgeNetwork::Add(Edge edge) {
+  Ridge ridge;
+  ridge.edge = edge;
+  ridges_.push_back(std::move(ridge));
+  return static_cast<RidgeId>(ridges_.size()) - 1;
+}
+
+void RidgeNetwork::Stand(RidgeId r) {
+  Ridge& ridge = ridges_[Index(r)];
+  ridge.id = skyline_.Insert(
+      {scale_.Scale(terrain_->Point(ridge.edge.a)), scale_.Scale(terrain_->Point(ridge.edge.b))});
+  ridge.stands = true;
+  if (ridge_of_id_.size() <= Index(ridge.id)) ridge_of_id_.resize(Index(ridge.id) + 1, -1);
+  ridge_of_id_[Index(ridge.id)] = r;
+  ridges_of_[ridge.edge.a].push_back(r);
+  ridges_of_[ridge.edge.b].push_back(r);
+}
+
+void RidgeNetwork::Fall(RidgeId r) {
+  Ridge& ridge = ridges_[Index(r)];
+  skyline_.Erase(ridge.id);
+  ridge.stands = false;
+  for (const VertexId v : {ridge.edge.a, ridge.edge.b}) {
+    std::vector<RidgeId>& around = ridges_of_[v];
+    std::erase(around, r);
+    if (around.empty()) ridges_of_.erase(v);
+  }
+}
+
+VertexId RidgeNetwork::OtherEnd(RidgeId r, VertexId v) const {
+  const Edge& edge = ridges_[Index(r)].edge;
+  return edge.a == v ? edge.b : edge.a;
+}
+
+bool RidgeNetwork::HasRidge(Edge edge) const {
+  const auto around = ridges_of_.find(edge.a);
+  if (around == ridges_of_.end()) return false;
+  return std::any_of(around->second.begin(), around->second.end(),
+                     [&](RidgeId r) { return ridges_[Index(r)].edge == edge; });
+}
+
+bool RidgeNetwork::MayMove(VertexId v, VertexId b) const {
+  const auto around = ridges_of_.find(v);
+  if (around == ridges_of_.end()) return true;
+  return allowance_ > 0 && std::any_of(around->second.begin(), around->second.end(),
+                                       [&](RidgeId r) { return OtherEnd(r, v) == b; });
+}
+
+bool RidgeNetwork::Move(VertexId v, VertexId b) {
+  const auto around = ridges_of_.find(v);
+  if (around == ridges_of_.end()) return true;
+  const std::vector<RidgeId> old = around->second;
+  std::vector<Edge> young;
+  for (const RidgeId r : old) {
+    const VertexId other = OtherEnd(r, v);
+    if (other != b && !HasRidge(MakeEdge(other, b))) young.push_back(MakeEdge(other, b));
+  }
+  return Replace(old, young);
+}
+
+std::vector<std::int32_t> RidgeNetwork::LeaningOn(std::span<const RidgeId> ridges) const {
+  std::vector<std::int32_t> leaning;
+  for (const RidgeId r : ridges) {
+    for (const std::int32_t e : ridges_[Index(r)].leaning) {
+      const std::vector<RidgeId>& certificate = certificates_[Index(e)];
+      if (std::binary_search(certificate.begin(), certificate.end(), r)) leaning.push_back(e);
+    }
+  }
+  std::sort(leaning.begin(), leaning.end());
+  leaning.erase(std::unique(leaning.begin(), leaning.end()), leaning.end());
+  return leaning;
+}
+
+bool RidgeNetwork::Prove(std::int32_t e) {
+  std::vector<RidgeId>& certificate = certificates_[Index(e)];
+  if (ridges_[Index(e)].stands) {
+    certificate = {e};
+    return true;
+  }
+  const Edge& edge = horizon_->edges[Index(e)].edge;
+  const Segment segment{scale_.Scale(terrain_->Point(edge.a)),
+                        scale_.Scale(terrain_->Point(edge.b))};
+  blockers_.clear();
+  if (skyline_.FindSight(Lowered(segment, allowance_), Ties::kBlock, std::nullopt, &blockers_)) {
+    return false;
+  }
+  certificate.clear();
+  for (const Skyline::Id id : blockers_) certificate.push_back(ridge_of_id_[Index(id)]);
+  std::sort(certificate.begin(), certificate.end());
+  certificate.erase(std::unique(certificate.begin(), certificate.end()), certificate.end());
+  return true;
+}
+
+bool RidgeNetwork::Replace(std::span<const RidgeId> old, const std::vector<Edge>& young) {
+  const std::vector<std::int32_t> leaning = LeaningOn(old);
+  std::vector<std::vector<RidgeId>> before;
+  before.reserve(leaning.size());
+  const auto first_young = static_cast<RidgeId>(ridges_.size());
+  for (const Edge& edge : young) Stand(Add(edge));
+  for (const RidgeId r : old) Fall(r);
+  for (const std::int32_t e : leaning) {
+    before.push_back(certificates_[Index(e)]);
+    if (Prove(e)) continue;
+    // Back to where we were; the old ridges stand again under new names in the skyline.
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      certificates_[Index(leaning[i])] = std::move(before[i]);
+    }
+    for (std::size_t i = 0; i < young.size(); ++i) {
+      Fall(first_young + static_cast<RidgeId>(i));
+    }
+    ridges_.resize(Index(first_young));
+    for (const RidgeId r : old) Stand(r);
+    return false;
+  }
+  for (const std::int32_t e : leaning) {
+    for (const RidgeId r : certificates_[Index(e)]) ridges_[Index(r)].leaning.push_back(e);
+  }
+  for (const RidgeId r : old) ridges_[Index(r)].leaning = {};
+  return true;
+}
+
+void RidgeNetwork::ShedLooseEnds() {
+  if (allowance_ == 0) return;
+  // By the height of the ridge's upper end: what is low is hidden soonest.
+  using Loose = std::tuple<std::int32_t, RidgeId>;
+  std::priority_queue<Loose, std::vector<Loose>, std::greater<>> loose;
+  const auto consider = [&](RidgeId r) {
+    const Edge& edge = ridges_[Index(r)].edge;
+    if (ridges_of_[edge.a].size() > 1 && ridges_of_[edge.b].size() > 1) return;
+    loose.emplace(std::max(terrain_->Point(edge.a).z, terrain_->Point(edge.b).z), r);
+  };
+  for (RidgeId r = 0; r < static_cast<RidgeId>(ridges_.size()); ++r) {
+    if (ridges_[Index(r)].stands) consider(r);
+  }
+  while (!loose.empty()) {
+    const RidgeId r = std::get<1>(loose.top());
+    loose.pop();
+    if (!ridges_[Index(r)].stands) continue;
+    const Edge edge = ridges_[Index(r)].edge;
+    if (!Replace(std::span(&r, 1), {})) continue;
+    for (const VertexId v : {edge.a, edge.b}) {
+      const auto around = ridges_of_.find(v);
+      if (around == ridges_of_.end() || around->second.size() != 1) continue;
+      consider(around->second.front());
+    }
+  }
+}
+
+std::vector<Edge> RidgeNetwork::Edges() const {
+  std::vector<Edge> edges;
+  for (const Ridge& ridge : ridges_) {
+    if (ridge.stands) edges.push_back(ridge.edge);
+  }
+  std::sort(edges.begin(), edges.end());
+  return edges;
+}
+
+}  // namespace farhorizon
