@@ -102,7 +102,7 @@ bool Collapser::TryCollapse(const CollapseRules& rules, VertexId v) {
   if (rules.may_stand) {
     bool all = true;
     for (const VertexId n : others_) {
-      if (rules.may_stand(b, n)) continue;
+      if (star_.Covers(b, n) || rules.may_stand(b, n)) continue;
       Refuse(refused_edges_, b, n);
       all = false;
     }

@@ -19,7 +19,8 @@ struct CollapseRules {
   TriangleLimits limits;
   /// Per post: whether it may leave at all. A post on the outline leaves along straight runs only.
   std::vector<bool> may_leave;
-  /// Whether a new edge between two posts may stand. Asked once for each edge, as late as possible.
+  /// Whether a new edge between two posts may stand. Asked as late as possible, and only where the
+  /// edge would rise above the surface it replaces.
   std::function<bool(VertexId, VertexId)> may_stand;
   /// Whether `v` may move onto `b` as far as the ridges are concerned. Cheap, asked often.
   std::function<bool(VertexId v, VertexId b)> may_move;

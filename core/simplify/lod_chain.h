@@ -27,10 +27,13 @@ struct Lod {
 
 /// A chain of meshes of falling detail, level 0 the finest; one for each budget.
 ///
-/// Vertices are posts of the DEM; the outline of the terrain stays as it is in plan, its heights
-/// simplified by a rule that sees only the outline's own. Each level keeps only horizon edges that
-/// the finer one keeps; where the silhouette budget is 0 it keeps all of them and H is exactly the
-/// DEM's. Requires: budgets do not fall from level to level. Errors: kCancelled.
+/// Vertices are posts of the DEM. The tile's four sides keep all their posts, so that neighbours which
+/// are built apart meet without a crack; other rims (of holes, of slanted outlines) keep their shape in
+/// plan. Each level keeps only horizon edges that the finer one keeps. Where the silhouette budget is 0
+/// it keeps all of them and H is exactly the DEM's; elsewhere H is within the budget, exactly. A budget
+/// below HeightScale's step counts as 0.
+/// Requires: budgets do not fall from level to level.
+/// Errors: kCancelled.
 Result<std::vector<Lod>> BuildLodChain(const Terrain& terrain, const Horizon& horizon,
                                        const std::vector<LevelBudget>& budgets, const Watch& watch);
 

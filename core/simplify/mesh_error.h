@@ -25,9 +25,11 @@ struct MeshError {
 ///
 /// The silhouette bound is a proof: no edge of the mesh lowered by it is in sight over the terrain,
 /// no horizon edge lowered by it is in sight over the mesh (exact, on the posts), plus what the
-/// vertices' distance from their posts can do. `asked_m` is where the search for the least bound
-/// begins. Errors: kUnsupportedData where the mesh has a hole, a flipped triangle or a vertex away
-/// from its
+/// vertices' distance from their posts can do. Lines that pass the outline closer than that distance,
+/// and so may meet one of the two surfaces only, are not counted. The bound is at most about a
+/// twentieth above the least that can be proven on the posts; `asked_m` is where the search for it
+/// begins. The rms is over lines drawn uniformly in the plan where a column is as wide as a row.
+/// Errors: kUnsupportedData where the mesh has a hole, a flipped triangle or a vertex away from its
 ///   post by more than half a cell; kCancelled.
 Result<MeshError> MeasureMeshError(const Terrain& terrain, const Horizon& horizon,
                                    const GridMesh& mesh, const std::vector<VertexId>& posts,

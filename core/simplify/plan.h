@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "core/exact/wide.h"
 #include "core/terrain/terrain.h"
 
 namespace farhorizon {
@@ -22,6 +23,31 @@ inline std::int64_t SquaredLength(Point3i p, Point3i q) {
   const std::int64_t dx = q.x - p.x;
   const std::int64_t dy = q.y - p.y;
   return dx * dx + dy * dy;
+}
+
+/// Sign of the height of the segment v, w over the segment p, q where they cross in plan.
+/// Requires: they cross, and q is on the left of p as seen from v: TwiceArea(v, p, q) > 0. Exact.
+inline int SideAtCrossing(Point3i v, Point3i w, Point3i p, Point3i q) {
+  // Weights of p and q at the crossing, seen from the line v, w; then of v and w from the line p, q.
+  const std::int64_t of_p = TwiceArea(v, w, q);
+  const std::int64_t of_q = TwiceArea(v, p, w);
+  const std::int64_t of_w = TwiceArea(v, p, q);
+  const std::int64_t of_v = -TwiceArea(w, p, q);
+  const Int128 under = Int128{of_p} * p.z + Int128{of_q} * q.z;  // times of_v + of_w
+  const Int128 over = Int128{of_v} * v.z + Int128{of_w} * w.z;   // times of_p + of_q
+  const Int128 difference = over * (of_p + of_q) - under * (of_v + of_w);
+  return SignOf(difference);
+}
+
+/// Above the line through c and d (1), in one plane with it (0) or below it (-1): whether the edge
+/// from a to b is a ridge between the faces whose third posts are c and d, however large they are.
+/// Requires: c on the left, d on the right of ab in plan. Exact.
+inline int RidgeSign(Point3i a, Point3i b, Point3i c, Point3i d) {
+  const std::int64_t of_d = TwiceArea(a, b, c);  // > 0
+  const std::int64_t of_c = -TwiceArea(a, b, d);
+  const std::int64_t of_b = TwiceArea(a, d, c);  // may be negative: the line may miss the edge
+  const std::int64_t of_a = of_c + of_d - of_b;
+  return SignOf(Int128{of_a} * a.z + Int128{of_b} * b.z - Int128{of_c} * c.z - Int128{of_d} * d.z);
 }
 
 }  // namespace farhorizon

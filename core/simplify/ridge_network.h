@@ -7,7 +7,7 @@
 
 #include "core/horizon/horizon.h"
 #include "core/horizon/skyline.h"
-#include "core/simplify/skyline_guard.h"
+#include "core/simplify/height_scale.h"
 #include "core/terrain/terrain.h"
 
 namespace farhorizon {

@@ -1,39 +1,10 @@
 #include "core/simplify/skyline_guard.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
+
+#include "core/simplify/ground_cover.h"
 
 namespace farhorizon {
-namespace {
-
-constexpr std::int64_t kSkylineLimit = std::int64_t{1} << 30;  // |z| of a Skyline's segments
-constexpr int kFinestShift = 10;                               // a thousandth of a quantum will do
-
-}  // namespace
-
-HeightScale HeightScale::For(const Terrain& terrain) {
-  std::int64_t least = std::numeric_limits<std::int64_t>::max();
-  std::int64_t greatest = std::numeric_limits<std::int64_t>::min();
-  for (VertexId v = 0; v < terrain.post_count(); ++v) {
-    if (!terrain.dem().HasData(v)) continue;
-    least = std::min<std::int64_t>(least, terrain.Point(v).z);
-    greatest = std::max<std::int64_t>(greatest, terrain.Point(v).z);
-  }
-  HeightScale scale;
-  scale.middle = static_cast<std::int32_t>(least + (greatest - least) / 2);
-  // Lowering by more than the relief hides everything, so nothing is ever lowered further than that.
-  const std::int64_t reach = (greatest - least) * 2 + 2;
-  while (scale.shift < kFinestShift && reach << (scale.shift + 1) < kSkylineLimit) ++scale.shift;
-  const std::int64_t half = ((greatest - least) / 2 + 1) << scale.shift;
-  scale.most_steps = static_cast<std::int32_t>(std::max<std::int64_t>(kSkylineLimit - 1 - half, 0));
-  return scale;
-}
-
-std::int32_t HeightScale::Steps(double quanta) const {
-  const double steps = std::floor(quanta * static_cast<double>(std::int64_t{1} << shift));
-  return static_cast<std::int32_t>(std::clamp(steps, 0.0, static_cast<double>(most_steps)));
-}
 
 SkylineGuard::SkylineGuard(const Terrain& terrain, const Horizon& horizon)
     : terrain_(&terrain),
@@ -49,8 +20,10 @@ bool SkylineGuard::Hides(VertexId p, VertexId q, std::int32_t steps_lower) const
   const Point3i at_p = terrain_->Point(p);
   const Point3i at_q = terrain_->Point(q);
   // Whole quanta only, rounded towards the safe side: what hides the higher hides the lower.
+  // Whole quanta only, rounded towards the safe side: what hides the higher hides the lower.
   const std::int32_t whole = steps_lower >> scale_.shift;
-  if (hulls_->Hides(p, at_p.z - whole, q, at_q.z - whole)) return true;
+  if (hulls_->Hides(p, q, std::max(at_p.z, at_q.z) - whole)) return true;
+  if (GroundCovers(*terrain_, *hulls_, scale_, p, q, steps_lower)) return true;
   const Segment segment = Lowered({scale_.Scale(at_p), scale_.Scale(at_q)}, steps_lower);
   return !skyline_.FindSight(segment, Ties::kBlock).has_value();
 }

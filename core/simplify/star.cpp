@@ -107,6 +107,30 @@ void Star::HandOver(VertexId b, Coverage& coverage) const {
   }
 }
 
+bool Star::Covers(VertexId b, VertexId n) const {
+  const Point3i v = terrain_->Point(centre_);
+  Point3i p = terrain_->Point(b);
+  Point3i q = terrain_->Point(n);
+  std::int64_t turn = TwiceArea(v, p, q);
+  if (turn < 0) std::swap(p, q);
+  if (turn == 0) {
+    // The edge would run through the centre: compare there, along the longer way.
+    const bool by_column = p.x != q.x;
+    const std::int64_t whole = by_column ? q.x - p.x : q.y - p.y;
+    const std::int64_t part = by_column ? v.x - p.x : v.y - p.y;
+    const std::int64_t rise = (std::int64_t{q.z} - p.z) * part - (std::int64_t{v.z} - p.z) * whole;
+    return whole > 0 ? rise <= 0 : rise >= 0;
+  }
+  // Both are straight between the spokes that the edge crosses, so it is enough to compare there.
+  for (const VertexId neighbour : neighbours_) {
+    if (neighbour == b || neighbour == n) continue;
+    const Point3i w = terrain_->Point(neighbour);
+    const bool crosses = TwiceArea(v, p, w) > 0 && TwiceArea(v, w, q) > 0;
+    if (crosses && SideAtCrossing(v, w, p, q) < 0) return false;
+  }
+  return true;
+}
+
 void Star::NewNeighbours(VertexId b, std::vector<VertexId>& others) const {
   for (const VertexId n : neighbours_) {
     if (n == b) continue;

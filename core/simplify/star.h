@@ -53,6 +53,10 @@ class Star {
   /// Requires: CostOfCollapse(b, …) was not kNever; the surface has not yet collapsed.
   void HandOver(VertexId b, Coverage& coverage) const;
 
+  /// Whether the surface as it stands is nowhere below the edge that would join two neighbours: then
+  /// the edge hides nothing new. Exact. Requires: the edge lies within the star.
+  [[nodiscard]] bool Covers(VertexId b, VertexId n) const;
+
   /// Appends the neighbours that an edge to `b` would be new for.
   void NewNeighbours(VertexId b, std::vector<VertexId>& others) const;
 

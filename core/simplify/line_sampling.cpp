@@ -1,0 +1,84 @@
+#include "core/simplify/line_sampling.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace farhorizon {
+namespace {
+
+constexpr int kDirections = 192;
+constexpr double kLinesPerCell = 2;
+constexpr double kMissed = -std::numeric_limits<double>::infinity();
+
+/// Parallel lines: the points with cosine * row - sine * column = first + i / kLinesPerCell.
+struct Pencil {
+  double sine;
+  double cosine;
+  double first;
+  std::size_t count;
+
+  [[nodiscard]] double Place(const GridPoint& p) const {
+    return (cosine * p.row - sine * p.column - first) * kLinesPerCell;
+  }
+};
+
+Pencil PencilOf(int direction, std::int32_t columns, std::int32_t rows) {
+  // Off the grid's own directions, in which whole rows of posts would lie on one line.
+  const double theta = std::numbers::pi * (direction + 0.5) / kDirections;
+  const double sine = std::sin(theta);
+  const double cosine = std::cos(theta);
+  const double width = columns - 1;
+  const double height = rows - 1;
+  const double least = -sine * width + std::min(0.0, cosine * height);
+  const double greatest = std::max(0.0, cosine * height);
+  const auto count = static_cast<std::size_t>((greatest - least) * kLinesPerCell) + 1;
+  return {sine, cosine, least + 0.25 / kLinesPerCell, count};
+}
+
+void GreatestHeights(const std::vector<GridSegment>& segments, const Pencil& pencil,
+                     std::vector<double>& heights) {
+  heights.assign(pencil.count, kMissed);
+  for (const GridSegment& segment : segments) {
+    double from = pencil.Place(segment.a);
+    double to = pencil.Place(segment.b);
+    double at_from = segment.a.height_m;
+    double at_to = segment.b.height_m;
+    if (from > to) {
+      std::swap(from, to);
+      std::swap(at_from, at_to);
+    }
+    const double first = std::max(std::ceil(from), 0.0);
+    const double last = std::min(std::floor(to), static_cast<double>(pencil.count) - 1);
+    const double slope = to > from ? (at_to - at_from) / (to - from) : 0;
+    for (double i = first; i <= last; i += 1) {
+      double& height = heights[static_cast<std::size_t>(i)];
+      height = std::max(height, at_from + slope * (i - from));
+    }
+  }
+}
+
+}  // namespace
+
+double RmsOverLines(const std::vector<GridSegment>& first, const std::vector<GridSegment>& second,
+                    std::int32_t columns, std::int32_t rows) {
+  std::vector<double> first_heights;
+  std::vector<double> second_heights;
+  double squares = 0;
+  std::int64_t lines = 0;
+  for (int direction = 0; direction < kDirections; ++direction) {
+    const Pencil pencil = PencilOf(direction, columns, rows);
+    GreatestHeights(first, pencil, first_heights);
+    GreatestHeights(second, pencil, second_heights);
+    for (std::size_t i = 0; i < pencil.count; ++i) {
+      if (first_heights[i] == kMissed || second_heights[i] == kMissed) continue;
+      const double difference = first_heights[i] - second_heights[i];
+      squares += difference * difference;
+      ++lines;
+    }
+  }
+  return lines > 0 ? std::sqrt(squares / static_cast<double>(lines)) : 0;
+}
+
+}  // namespace farhorizon

@@ -1,0 +1,178 @@
+#include "core/simplify/mesh_error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "core/simplify/line_sampling.h"
+#include "core/simplify/mesh_edges.h"
+#include "core/simplify/plan.h"
+#include "core/simplify/silhouette_bound.h"
+#include "core/simplify/vertical_error.h"
+
+namespace farhorizon {
+namespace {
+
+constexpr double kMostDisplacement =
+    0.5;  // columns or rows: past it a vertex is nearer another post
+
+Error BadMesh(const std::string& what, const char* kind) {
+  return Error{ErrorCode::kUnsupportedData, what, kind};
+}
+
+/// What moving the vertices from their posts has done.
+struct Displacement {
+  double greatest = 0;    ///< in plan, columns or rows
+  double greatest_m = 0;  ///< in height
+};
+
+Result<Displacement> MeasureDisplacement(const Terrain& terrain, const GridMesh& mesh,
+                                         const std::vector<VertexId>& posts) {
+  if (posts.size() != mesh.points.size()) {
+    return BadMesh("the mesh has " + std::to_string(mesh.points.size()) + " points but " +
+                       std::to_string(posts.size()) + " posts are named for them",
+                   "unnamed-points");
+  }
+  Displacement displacement;
+  for (std::size_t i = 0; i < posts.size(); ++i) {
+    const VertexId v = posts[i];
+    if (v < 0 || v >= terrain.post_count() || !terrain.dem().HasData(v)) {
+      return BadMesh("point " + std::to_string(i) + " stands for post " + std::to_string(v) +
+                         ", which the DEM does not have",
+                     "unknown-post");
+    }
+    const GridPoint& p = mesh.points[i];
+    const double off = std::hypot(p.column - terrain.dem().Column(v), p.row - terrain.dem().Row(v));
+    if (!(off <= kMostDisplacement)) {
+      return BadMesh("point " + std::to_string(i) + " is " + std::to_string(off) +
+                         " cells away from its post; half a cell is the most that can be measured",
+                     "displaced-vertex");
+    }
+    displacement.greatest = std::max(displacement.greatest, off);
+    displacement.greatest_m =
+        std::max(displacement.greatest_m, std::abs(p.height_m - terrain.dem().HeightM(v)));
+  }
+  return displacement;
+}
+
+/// The mesh's triangles over posts, or what keeps it from covering the terrain's domain.
+Result<std::vector<Triangle>> TrianglesOverPosts(const Terrain& terrain, const GridMesh& mesh,
+                                                 const std::vector<VertexId>& posts) {
+  std::vector<Triangle> triangles;
+  triangles.reserve(mesh.triangles.size());
+  std::int64_t covered = 0;
+  const auto count = static_cast<std::int32_t>(posts.size());
+  for (const std::array<std::int32_t, 3>& t : mesh.triangles) {
+    if (std::any_of(t.begin(), t.end(), [&](std::int32_t i) { return i < 0 || i >= count; })) {
+      return BadMesh("a triangle names a point that the mesh does not have", "unknown-point");
+    }
+    const auto point = [&](std::size_t k) { return mesh.points[static_cast<std::size_t>(t[k])]; };
+    const GridPoint a = point(0);
+    const GridPoint b = point(1);
+    const GridPoint c = point(2);
+    const double turn =
+        (b.row - a.row) * (c.column - a.column) - (b.column - a.column) * (c.row - a.row);
+    const auto post = [&](std::size_t k) { return posts[static_cast<std::size_t>(t[k])]; };
+    const Triangle over = {post(0), post(1), post(2)};
+    const std::int64_t area =
+        TwiceArea(terrain.Point(over[0]), terrain.Point(over[1]), terrain.Point(over[2]));
+    if (area <= 0 || !(turn > 0)) {
+      return BadMesh("a triangle at post " + std::to_string(over[0]) +
+                         " is flipped or flat in plan; use a finer quantisation",
+                     "flipped-triangle");
+    }
+    covered += area;
+    triangles.push_back(over);
+  }
+  std::int64_t whole = 0;
+  for (const Triangle& t : terrain.Triangles()) {
+    whole += TwiceArea(terrain.Point(t[0]), terrain.Point(t[1]), terrain.Point(t[2]));
+  }
+  if (covered != whole) {
+    return BadMesh("the mesh covers " + std::to_string(static_cast<double>(covered) / 2) + " of " +
+                       std::to_string(static_cast<double>(whole) / 2) + " cells",
+                   "hole");
+  }
+  return triangles;
+}
+
+/// The steepest a triangle over posts is, metres a column or row.
+double SteepestSlope(const Terrain& terrain, const std::vector<Triangle>& triangles) {
+  double steepest = 0;
+  for (const Triangle& t : triangles) {
+    const Point3i a = terrain.Point(t[0]);
+    const Point3i b = terrain.Point(t[1]);
+    const Point3i c = terrain.Point(t[2]);
+    const auto area = static_cast<double>(TwiceArea(a, b, c));
+    const double rise_b = static_cast<double>(b.z) - a.z;
+    const double rise_c = static_cast<double>(c.z) - a.z;
+    const double by_x = rise_b * (c.y - a.y) - rise_c * (b.y - a.y);
+    const double by_y = rise_b * (c.x - a.x) - rise_c * (b.x - a.x);
+    steepest = std::max(steepest, std::hypot(by_x, by_y) / area);
+  }
+  return steepest * terrain.dem().quantum_m;
+}
+
+std::vector<GridSegment> SkylineOf(const Terrain& terrain, const Horizon& horizon) {
+  const auto point = [&terrain](VertexId v) {
+    const Dem& dem = terrain.dem();
+    return GridPoint{static_cast<double>(dem.Column(v)), static_cast<double>(dem.Row(v)),
+                     dem.HeightM(v)};
+  };
+  std::vector<GridSegment> segments;
+  segments.reserve(horizon.edges.size());
+  for (const HorizonEdge& h : horizon.edges) {
+    segments.push_back({point(h.edge.a), point(h.edge.b)});
+  }
+  return segments;
+}
+
+/// Every side of the mesh once: which of them are ridges may have changed with the vertices.
+std::vector<GridSegment> SidesOf(const GridMesh& mesh) {
+  std::vector<std::pair<std::int32_t, std::int32_t>> sides;
+  sides.reserve(mesh.triangles.size() * 3);
+  for (const std::array<std::int32_t, 3>& t : mesh.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) sides.push_back(std::minmax(t[k], t[(k + 1) % 3]));
+  }
+  std::sort(sides.begin(), sides.end());
+  sides.erase(std::unique(sides.begin(), sides.end()), sides.end());
+  std::vector<GridSegment> segments;
+  segments.reserve(sides.size());
+  for (const auto& [i, j] : sides) {
+    segments.push_back(
+        {mesh.points[static_cast<std::size_t>(i)], mesh.points[static_cast<std::size_t>(j)]});
+  }
+  return segments;
+}
+
+}  // namespace
+
+Result<MeshError> MeasureMeshError(const Terrain& terrain, const Horizon& horizon,
+                                   const GridMesh& mesh, const std::vector<VertexId>& posts,
+                                   double asked_m, const Watch& watch) {
+  Result<Displacement> displacement = MeasureDisplacement(terrain, mesh, posts);
+  if (!displacement) return std::move(displacement.error());
+  Result<std::vector<Triangle>> triangles = TrianglesOverPosts(terrain, mesh, posts);
+  if (!triangles) return std::move(triangles.error());
+  const std::optional<std::vector<MeshEdge>> edges = EdgesOf(*triangles);
+  if (!edges) return BadMesh("two triangles of the mesh lie over one another", "overlap");
+
+  MeshError error;
+  error.displacement = displacement->greatest;
+  error.vertical = VerticalError(terrain, mesh);
+  watch.Report("measure", 0.2);
+  error.silhouette.rms_m = RmsOverLines(SkylineOf(terrain, horizon), SidesOf(mesh),
+                                        terrain.dem().columns, terrain.dem().rows);
+  watch.Report("measure", 0.4);
+  const double quantum = terrain.dem().quantum_m;
+  Result<double> bound = SilhouetteBound(terrain, horizon, *edges, asked_m / quantum, watch);
+  if (!bound) return std::move(bound.error());
+  // A point of the mesh is at most `greatest` in plan and `greatest_m` in height away from its place
+  // on the mesh over posts, whose height changes by no more than its steepest slope on the way.
+  error.silhouette.max_m = *bound * quantum + displacement->greatest_m +
+                           SteepestSlope(terrain, *triangles) * displacement->greatest;
+  watch.Report("measure", 1.0);
+  return error;
+}
+
+}  // namespace farhorizon
