@@ -17,6 +17,8 @@ namespace farhorizon {
 /// horizon_edges: pairs of positions in `decoded` (vertex indices) that are horizon edges, flagged in
 /// EXT_mesh_primitive_edge_visibility: as silhouette edges between two triangles, as hard ones on
 /// the border. The extension is left out where there are none.
+/// CesiumJS 1.140 and 1.145 show these edges in the wrong place (seen in a browser): it dequantises
+/// them itself and again in its shader. The terrain itself, and what the file says, are right.
 /// The sources stay in the Draco bitstream, but are no attribute of the glTF primitive.
 std::vector<std::uint8_t> WriteGlb(
     const std::vector<std::uint8_t>& draco, const LocalMesh& decoded,
