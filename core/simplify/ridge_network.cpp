@@ -9,6 +9,10 @@
 namespace farhorizon {
 namespace {
 
+// So many ridges beside an edge are tried before all: certificates stay small, and so does the number
+// of edges that have to be proven anew when a ridge goes.
+constexpr std::size_t kMostNearby = 16;
+
 std::size_t Index(std::int32_t id) { return static_cast<std::size_t>(id); }
 
 }  // namespace
@@ -17,7 +21,8 @@ RidgeNetwork::RidgeNetwork(const Terrain& terrain, const Horizon& horizon, Heigh
     : terrain_(&terrain),
       horizon_(&horizon),
       scale_(scale),
-      skyline_(terrain.dem().columns, terrain.dem().rows) {
+      skyline_(terrain.dem().columns, terrain.dem().rows),
+      nothing_(terrain.dem().columns, terrain.dem().rows) {
   ridges_.reserve(horizon.edges.size() * 2);
   certificates_.resize(horizon.edges.size());
   for (std::size_t e = 0; e < horizon.edges.size(); ++e) {
@@ -27,6 +32,10 @@ RidgeNetwork::RidgeNetwork(const Terrain& terrain, const Horizon& horizon, Heigh
     certificates_[e] = {ridge};
     ridges_[Index(ridge)].leaning = {static_cast<std::int32_t>(e)};
   }
+}
+
+Segment RidgeNetwork::Scaled(Edge edge) const {
+  return {scale_.Scale(terrain_->Point(edge.a)), scale_.Scale(terrain_->Point(edge.b))};
 }
 
 RidgeNetwork::RidgeId RidgeNetwork::Add(Edge edge) {
@@ -102,19 +111,58 @@ std::vector<std::int32_t> RidgeNetwork::LeaningOn(std::span<const RidgeId> ridge
   return leaning;
 }
 
-bool RidgeNetwork::Prove(std::int32_t e) {
+bool RidgeNetwork::ProveNearby(std::int32_t e, const Segment& lowered,
+                               std::span<const RidgeId> young) {
+  std::vector<RidgeId> nearby(young.begin(), young.end());
+  const auto add_around = [&](VertexId v) {
+    const auto around = ridges_of_.find(v);
+    if (around == ridges_of_.end()) return;
+    nearby.insert(nearby.end(), around->second.begin(), around->second.end());
+  };
+  for (const RidgeId r : young) {
+    add_around(ridges_[Index(r)].edge.a);
+    add_around(ridges_[Index(r)].edge.b);
+  }
+  for (const RidgeId r : certificates_[Index(e)]) {
+    if (ridges_[Index(r)].stands) nearby.push_back(r);
+  }
+  std::sort(nearby.begin(), nearby.end());
+  nearby.erase(std::unique(nearby.begin(), nearby.end()), nearby.end());
+  const auto distance = [&](RidgeId r) {
+    const Point3i a = terrain_->Point(ridges_[Index(r)].edge.a);
+    const Point3i b = terrain_->Point(ridges_[Index(r)].edge.b);
+    const std::int64_t dx = std::int64_t{a.x} + b.x - lowered.a.x - lowered.b.x;
+    const std::int64_t dy = std::int64_t{a.y} + b.y - lowered.a.y - lowered.b.y;
+    return dx * dx + dy * dy;
+  };
+  std::sort(nearby.begin(), nearby.end(), [&](RidgeId p, RidgeId q) {
+    return std::pair(distance(p), p) < std::pair(distance(q), q);
+  });
+  if (nearby.size() > kMostNearby) nearby.resize(kMostNearby);
+  screens_.clear();
+  for (const RidgeId r : nearby) {
+    Segment screen = Scaled(ridges_[Index(r)].edge);
+    if (screen.a.z > screen.b.z) std::swap(screen.a, screen.b);
+    screens_.push_back(screen);
+  }
+  if (nothing_.FindSight(lowered, Ties::kBlock, std::nullopt, nullptr, nullptr, screens_)) {
+    return false;
+  }
+  std::sort(nearby.begin(), nearby.end());
+  certificates_[Index(e)] = std::move(nearby);
+  return true;
+}
+
+bool RidgeNetwork::Prove(std::int32_t e, std::span<const RidgeId> young) {
   std::vector<RidgeId>& certificate = certificates_[Index(e)];
   if (ridges_[Index(e)].stands) {
     certificate = {e};
     return true;
   }
-  const Edge& edge = horizon_->edges[Index(e)].edge;
-  const Segment segment{scale_.Scale(terrain_->Point(edge.a)),
-                        scale_.Scale(terrain_->Point(edge.b))};
+  const Segment lowered = Lowered(Scaled(horizon_->edges[Index(e)].edge), allowance_);
+  if (ProveNearby(e, lowered, young)) return true;
   blockers_.clear();
-  if (skyline_.FindSight(Lowered(segment, allowance_), Ties::kBlock, std::nullopt, &blockers_)) {
-    return false;
-  }
+  if (skyline_.FindSight(lowered, Ties::kBlock, std::nullopt, &blockers_)) return false;
   certificate.clear();
   for (const Skyline::Id id : blockers_) certificate.push_back(ridge_of_id_[Index(id)]);
   std::sort(certificate.begin(), certificate.end());
@@ -126,20 +174,22 @@ bool RidgeNetwork::Replace(std::span<const RidgeId> old, const std::vector<Edge>
   const std::vector<std::int32_t> leaning = LeaningOn(old);
   std::vector<std::vector<RidgeId>> before;
   before.reserve(leaning.size());
-  const auto first_young = static_cast<RidgeId>(ridges_.size());
-  for (const Edge& edge : young) Stand(Add(edge));
+  const std::size_t first_young = ridges_.size();
+  std::vector<RidgeId> young_ids;
+  for (const Edge& edge : young) {
+    young_ids.push_back(Add(edge));
+    Stand(young_ids.back());
+  }
   for (const RidgeId r : old) Fall(r);
   for (const std::int32_t e : leaning) {
     before.push_back(certificates_[Index(e)]);
-    if (Prove(e)) continue;
+    if (Prove(e, young_ids)) continue;
     // Back to where we were; the old ridges stand again under new names in the skyline.
     for (std::size_t i = 0; i < before.size(); ++i) {
       certificates_[Index(leaning[i])] = std::move(before[i]);
     }
-    for (std::size_t i = 0; i < young.size(); ++i) {
-      Fall(first_young + static_cast<RidgeId>(i));
-    }
-    ridges_.resize(Index(first_young));
+    for (const RidgeId r : young_ids) Fall(r);
+    ridges_.resize(first_young);
     for (const RidgeId r : old) Stand(r);
     return false;
   }

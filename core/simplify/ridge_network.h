@@ -56,19 +56,26 @@ class RidgeNetwork {
   [[nodiscard]] VertexId OtherEnd(RidgeId ridge, VertexId v) const;
   // Puts `young` in the place of `old` if all that leaned on the old can be proven without them.
   bool Replace(std::span<const RidgeId> old, const std::vector<Edge>& young);
-  bool Prove(std::int32_t horizon_edge);
+  // Proves that the horizon edge, lowered by the allowance, is hidden, and notes by which ridges.
+  // young: ridges that have come in the place of some that hid it.
+  bool Prove(std::int32_t horizon_edge, std::span<const RidgeId> young);
+  bool ProveNearby(std::int32_t horizon_edge, const Segment& lowered,
+                   std::span<const RidgeId> young);
+  [[nodiscard]] Segment Scaled(Edge edge) const;
   [[nodiscard]] std::vector<std::int32_t> LeaningOn(std::span<const RidgeId> ridges) const;
 
   const Terrain* terrain_;
   const Horizon* horizon_;
   HeightScale scale_;
   Skyline skyline_;
+  Skyline nothing_;  // stays empty: over it, screens alone decide
   std::int32_t allowance_ = 0;
   std::vector<Ridge> ridges_;
   std::vector<RidgeId> ridge_of_id_;                              // per Skyline::Id
   std::vector<std::vector<RidgeId>> certificates_;                // per horizon edge, rising
   std::unordered_map<VertexId, std::vector<RidgeId>> ridges_of_;  // only looked up, never walked
   std::vector<Skyline::Id> blockers_;
+  std::vector<Segment> screens_;
 };
 
 }  // namespace farhorizon

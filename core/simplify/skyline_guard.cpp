@@ -1,7 +1,10 @@
 #include "core/simplify/skyline_guard.h"
 
 #include <algorithm>
+#include <utility>
+#include <vector>
 
+#include "core/simplify/ground_chords.h"
 #include "core/simplify/ground_cover.h"
 
 namespace farhorizon {
@@ -11,15 +14,19 @@ SkylineGuard::SkylineGuard(const Terrain& terrain, const Horizon& horizon)
       hulls_(&horizon.hulls),
       scale_(HeightScale::For(terrain)),
       skyline_(terrain.dem().columns, terrain.dem().rows) {
+  std::vector<std::int32_t> heights;
   for (const HorizonEdge& h : horizon.edges) {
+    heights.push_back(terrain.Point(h.edge.a).z);
     skyline_.Insert({scale_.Scale(terrain.Point(h.edge.a)), scale_.Scale(terrain.Point(h.edge.b))});
+  }
+  for (const Segment& chord : GroundChords(terrain, std::move(heights))) {
+    skyline_.Insert({scale_.Scale(chord.a), scale_.Scale(chord.b)});
   }
 }
 
 bool SkylineGuard::Hides(VertexId p, VertexId q, std::int32_t steps_lower) const {
   const Point3i at_p = terrain_->Point(p);
   const Point3i at_q = terrain_->Point(q);
-  // Whole quanta only, rounded towards the safe side: what hides the higher hides the lower.
   // Whole quanta only, rounded towards the safe side: what hides the higher hides the lower.
   const std::int32_t whole = steps_lower >> scale_.shift;
   if (hulls_->Hides(p, q, std::max(at_p.z, at_q.z) - whole)) return true;
