@@ -7,7 +7,7 @@ namespace {
 
 // No star grows past this: the cost of a collapse grows with the square of its sides.
 constexpr std::int32_t kMostSides = 48;
-constexpr std::int64_t kStepsBetweenChecks = 4096;
+constexpr std::int64_t kStepsBetweenChecks = 512;
 
 std::uint64_t Pair(VertexId p, VertexId q) {
   return (static_cast<std::uint64_t>(p) << 32) | static_cast<std::uint32_t>(q);

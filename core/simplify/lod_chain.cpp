@@ -28,7 +28,7 @@ class ChainBuilder {
     const double quantum = terrain_.dem().quantum_m;
     const std::int32_t steps = guard_.scale().Steps(budget.silhouette_error_m / quantum);
     ridges_.Allow(steps);
-    ridges_.ShedLooseEnds();
+    ridges_.ShedLooseEnds(watch);
     CollapseRules rules;
     rules.limits = {budget.vertical_error_m / quantum, budget.longest_edge, budget.least_altitude};
     rules.may_leave = PostsThatMayLeave(steps);

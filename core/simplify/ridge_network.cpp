@@ -200,7 +200,7 @@ bool RidgeNetwork::Replace(std::span<const RidgeId> old, const std::vector<Edge>
   return true;
 }
 
-void RidgeNetwork::ShedLooseEnds() {
+void RidgeNetwork::ShedLooseEnds(const Watch& watch) {
   if (allowance_ == 0) return;
   // By the height of the ridge's upper end: what is low is hidden soonest.
   using Loose = std::tuple<std::int32_t, RidgeId>;
@@ -213,7 +213,7 @@ void RidgeNetwork::ShedLooseEnds() {
   for (RidgeId r = 0; r < static_cast<RidgeId>(ridges_.size()); ++r) {
     if (ridges_[Index(r)].stands) consider(r);
   }
-  while (!loose.empty()) {
+  while (!loose.empty() && !watch.StopRequested()) {
     const RidgeId r = std::get<1>(loose.top());
     loose.pop();
     if (!ridges_[Index(r)].stands) continue;

@@ -5,6 +5,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "core/base/progress.h"
 #include "core/horizon/horizon.h"
 #include "core/horizon/skyline.h"
 #include "core/simplify/height_scale.h"
@@ -26,8 +27,9 @@ class RidgeNetwork {
   void Allow(std::int32_t steps) { allowance_ = steps; }
 
   /// Drops ridges from their loose ends, lowest first, as far as the allowance goes.
+  /// Leaves off where the watch says stop.
   /// Cost: a sight for each horizon edge that leaned on a ridge tried.
-  void ShedLooseEnds();
+  void ShedLooseEnds(const Watch& watch);
 
   [[nodiscard]] bool Has(VertexId v) const { return ridges_of_.count(v) > 0; }
   /// Whether a post may move onto its neighbour: any that is on no ridge, others along a ridge.

@@ -12,7 +12,8 @@ namespace farhorizon {
 /// Keeps a mesh from rising above the DEM's skyline: says of an edge whether, lowered by an
 /// allowance, it is hidden from every distant horizontal direction behind the DEM.
 ///
-/// Asks the DEM's horizon edges only, because they generate H (horizon.md's second conclusion).
+/// Asks the DEM's horizon edges only, because they generate H (horizon.md's second conclusion), and
+/// chords across the ground that hide much at once.
 class SkylineGuard {
  public:
   /// Requires: both outlive the guard.

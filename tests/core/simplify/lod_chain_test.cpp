@@ -1,7 +1,10 @@
 #include "core/simplify/lod_chain.h"
 
+#include <filesystem>
+
 #include <gtest/gtest.h>
 
+#include "core/io/dem_reader.h"
 #include "core/simplify/border.h"
 #include "tests/support/drawn_dem.h"
 #include "tests/support/line_heights.h"
@@ -114,6 +117,18 @@ TEST(LodChain, ALevelKeepsOnlyHorizonEdgesThatTheFinerOneKeepsAndHasThem) {
                               present.begin(), present.end()));
   }
   EXPECT_LT(chain.levels.back().kept.size(), chain.levels.front().kept.size());
+}
+
+TEST(LodChain, KeepsTheSkylineOfRealHillsWithLessThanHalfTheTriangles) {
+  const std::filesystem::path path = std::filesystem::path(FARHORIZON_DEM_DIR) / "gabilan_65.tif";
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << "no " << path;
+  const Dem dem = *ReadDem(path, {});
+  const Chain chain = Build(dem, {{0.125, 0, 0, 0}, {0.5, 0.0625, 0, 0}});
+  const double quantum = dem.quantum_m;
+  EXPECT_LE(GreatestSilhouetteError(chain, chain.levels[0], 1000), kRounding);
+  EXPECT_LE(GreatestSilhouetteError(chain, chain.levels[1], 1000) * quantum, 0.0625 + kRounding);
+  EXPECT_LE(GreatestVerticalError(chain.terrain, chain.levels[1].mesh.triangles) * quantum, 0.5);
+  EXPECT_LT(chain.levels[0].mesh.triangles.size(), chain.terrain.Triangles().size() / 2);
 }
 
 TEST(LodChain, TheSameTwice) {
