@@ -14,12 +14,19 @@ namespace {
 
 using BigInt = boost::multiprecision::cpp_int;
 
-// 104 + 2 * 10 bits and two carries stay below 127.
-constexpr int kNarrowBits = 10;
+// Whether the value and the slope at t fit in 128 bits: three terms of the coefficients' size times
+// 2^2k, with two carries.
+bool IsNarrow(const Quadratic& q, Dyadic t) {
+  if (t.k <= 10) return true;
+  if (t.k > 60) return false;
+  const Int128 most = Int128{1} << (124 - 2 * t.k);
+  const auto small = [most](Int128 c) { return c < most && c > -most; };
+  return small(q.c0) && small(q.c1) && small(q.c2);
+}
 
 // The sign of the derivative 2 c2 t + c1.
 int SlopeAt(const Quadratic& q, Dyadic t) {
-  if (t.k <= kNarrowBits) return SignOf(2 * q.c2 * t.n + (q.c1 << t.k));
+  if (IsNarrow(q, t)) return SignOf(2 * q.c2 * t.n + (q.c1 << t.k));
   return BigInt(2 * BigInt(q.c2) * BigInt(t.n) + (BigInt(q.c1) << t.k)).sign();
 }
 
@@ -88,7 +95,7 @@ bool SameNumber(const QuadraticRoot& r, const QuadraticRoot& s) {
 double Dyadic::ToDouble() const { return std::ldexp(static_cast<double>(n), -k); }
 
 int SignAt(const Quadratic& q, Dyadic t) {
-  if (t.k <= kNarrowBits) {
+  if (IsNarrow(q, t)) {
     const Int128 high = q.c2 * t.n + (q.c1 << t.k);
     return SignOf(high * t.n + (q.c0 << (2 * t.k)));
   }

@@ -6,6 +6,7 @@
 // hides the segment, of which there are finitely many.
 #include "core/horizon/skyline.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "core/base/result.h"
@@ -17,15 +18,22 @@
 namespace farhorizon {
 namespace {
 
+// What WitnessHolds can check in 128 bits; cliffs of 2^30 quanta stay below it.
+constexpr int kMostWitnessBits = 107;
+
 Witness MakeWitness(const Segment& segment, Dyadic t, const Vector& sight) {
   // Finer than a double can say would be a sight through a gap of 2^-52 of the segment.
   Check(t.k <= 52, "a witness stands at a number that a double can hold");
   const bool from_low = segment.a.z <= segment.b.z;
   const double where = from_low ? t.ToDouble() : 1 - t.ToDouble();
-  Check(sight.x == static_cast<std::int32_t>(sight.x) &&
-            sight.y == static_cast<std::int32_t>(sight.y),
-        "a line of sight has a direction in 32-bit integers");
-  return {where, static_cast<std::int32_t>(sight.x), static_cast<std::int32_t>(sight.y)};
+  const auto bits = [](Int128 value) {
+    int count = 0;
+    for (Int128 rest = value < 0 ? -value : value; rest > 0; rest >>= 1) ++count;
+    return count;
+  };
+  Check(2 * std::max(bits(sight.x), bits(sight.y)) + t.k <= kMostWitnessBits,
+        "a line of sight has a direction in moderate integers");
+  return {where, static_cast<std::int64_t>(sight.x), static_cast<std::int64_t>(sight.y)};
 }
 
 }  // namespace

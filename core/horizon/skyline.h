@@ -17,11 +17,12 @@ struct Segment {
 };
 
 /// A line of sight that touches a segment and nowhere meets higher ground.
-/// t: 0 at a, 1 at b; a dyadic number, exact in double. direction: columns and rows, integers.
+/// t: 0 at a, 1 at b; a dyadic number, exact in double. direction: columns and rows, integers below
+/// 2^46 (small ones, unless ground of great height leaves but a hair's breadth).
 struct Witness {
   double t = 0;
-  std::int32_t dc = 0;
-  std::int32_t dr = 0;
+  std::int64_t dc = 0;
+  std::int64_t dr = 0;
 };
 
 /// What level ground does to the sight along it.
@@ -56,11 +57,14 @@ class Skyline {
   void Erase(Id id);
   [[nodiscard]] std::int64_t size() const;
 
-  /// A line of sight that touches `segment` and meets nothing of the set above (kPass) or at or
-  /// above (kBlock) it, on a set of lines with non-empty interior; nullopt if there is none.
-  /// `except` names one member to look through, usually the segment itself. blockers: where not
-  /// null and the answer is nullopt, receives ids that hide all of it, unsorted. Cost: about the
-  /// segments in sight.
+  /// A line of sight that touches `segment` and meets nothing of the set above it, among lines of a
+  /// set with non-empty interior that meet nothing at its height either where ties block; nullopt if
+  /// there is no such set. (The line itself may touch ground of equal height.)
+  ///
+  /// except: one member to look through, usually the segment itself. blockers: where not null and the
+  /// answer is nullopt, receives ids that hide all of it, unsorted. screens: further segments that are
+  /// known not to rise above the set's H; they only save time.
+  /// Cost: about the segments in sight.
   [[nodiscard]] std::optional<Witness> FindSight(const Segment& segment, Ties ties,
                                                  std::optional<Id> except = std::nullopt,
                                                  std::vector<Id>* blockers = nullptr,

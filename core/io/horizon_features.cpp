@@ -50,7 +50,7 @@ std::string Coordinates(const Geodetic& g) {
                     Rounded(g.height_m, kMetreDecimals)});
 }
 
-std::string Pair(std::int32_t first, std::int32_t second) {
+std::string Pair(std::int64_t first, std::int64_t second) {
   return Bracketed({std::to_string(first), std::to_string(second)});
 }
 
@@ -81,7 +81,7 @@ HorizonFeature ReadFeature(const Json& feature) {
   result.from = ReadPosition(line.at(0));
   result.to = ReadPosition(line.at(1));
   result.witness.t = witness.at("t").get<double>();
-  const auto direction = witness.at("direction").get<std::array<std::int32_t, 2>>();
+  const auto direction = witness.at("direction").get<std::array<std::int64_t, 2>>();
   result.witness.dc = direction[0];
   result.witness.dr = direction[1];
   if (properties.contains("level_kept")) {

@@ -24,9 +24,10 @@ struct ReleaseCrs {
 };
 
 constexpr std::pair<const char*, OGRFieldType> kFields[] = {
-    {"a_column", OFTInteger},       {"a_row", OFTInteger},     {"b_column", OFTInteger},
-    {"b_row", OFTInteger},          {"witness_t", OFTReal},    {"direction_columns", OFTInteger},
-    {"direction_rows", OFTInteger}, {"level_kept", OFTInteger}};
+    {"a_column", OFTInteger},         {"a_row", OFTInteger},
+    {"b_column", OFTInteger},         {"b_row", OFTInteger},
+    {"witness_t", OFTReal},           {"direction_columns", OFTInteger64},
+    {"direction_rows", OFTInteger64}, {"level_kept", OFTInteger}};
 
 bool AddFields(OGRLayerH layer) {
   for (const auto& [name, type] : kFields) {
@@ -43,8 +44,8 @@ bool AddFeature(OGRLayerH layer, const HorizonFeature& edge) {
   const std::int32_t numbers[] = {edge.a[0], edge.a[1], edge.b[0], edge.b[1]};
   for (int i = 0; i < 4; ++i) OGR_F_SetFieldInteger(feature.get(), i, numbers[i]);
   OGR_F_SetFieldDouble(feature.get(), 4, edge.witness.t);
-  OGR_F_SetFieldInteger(feature.get(), 5, edge.witness.dc);
-  OGR_F_SetFieldInteger(feature.get(), 6, edge.witness.dr);
+  OGR_F_SetFieldInteger64(feature.get(), 5, edge.witness.dc);
+  OGR_F_SetFieldInteger64(feature.get(), 6, edge.witness.dr);
   if (edge.level_kept) OGR_F_SetFieldInteger(feature.get(), 7, *edge.level_kept);
   const OGRGeometryH line = OGR_G_CreateGeometry(wkbLineString25D);
   for (const Geodetic& g : {edge.from, edge.to}) {

@@ -22,11 +22,12 @@ Placement::Placement(const Dem& dem, GlobeTransform transform, TangentFrame fram
 
 Result<Placement> Placement::Of(const Terrain& terrain, const std::string& vertical_datum) {
   const Dem& dem = terrain.dem();
-  Result<GlobeTransform> transform = GlobeTransform::Open(dem.crs, vertical_datum);
-  if (!transform) return std::move(transform.error());
   // The frame stands in the middle of the grid, on the ellipsoid; its neighbours give the cell's size.
   const double column = (dem.columns - 1) / 2.0;
   const double row = (dem.rows - 1) / 2.0;
+  Result<GlobeTransform> transform =
+      GlobeTransform::Open(dem.crs, vertical_datum, MapPointAt(dem, column, row, 0));
+  if (!transform) return std::move(transform.error());
   Result<std::vector<Geodetic>> middle = transform->ToGeodetic(
       {MapPointAt(dem, column, row, 0), MapPointAt(dem, column - 0.5, row, 0),
        MapPointAt(dem, column + 0.5, row, 0), MapPointAt(dem, column, row - 0.5, 0),
