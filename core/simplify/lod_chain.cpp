@@ -13,6 +13,9 @@
 namespace farhorizon {
 namespace {
 
+// About ten seconds' worth. A count, not a clock, so that the result is the same everywhere.
+constexpr std::int64_t kMostFarProofs = 16384;
+
 class ChainBuilder {
  public:
   ChainBuilder(const Terrain& terrain, const Horizon& horizon)
@@ -23,7 +26,9 @@ class ChainBuilder {
         guard_(terrain, horizon),
         ridges_(terrain, horizon, guard_.scale()) {}
 
-  Status BuildLevel(const LevelBudget& budget, const Watch& watch,
+  /// coarsest: the last level, for which ridges may also go that only far ones make up for. Finer
+  /// levels do without: what leans on far ridges holds them fast in the levels after.
+  Status BuildLevel(const LevelBudget& budget, bool coarsest, const Watch& watch,
                     const std::function<void(double)>& report) {
     const double quantum = terrain_.dem().quantum_m;
     const std::int32_t steps = guard_.scale().Steps(budget.silhouette_error_m / quantum);
@@ -35,6 +40,10 @@ class ChainBuilder {
     rules.may_stand = [this, steps](VertexId p, VertexId q) { return guard_.Hides(p, q, steps); };
     rules.may_move = [this](VertexId v, VertexId b) { return ridges_.MayMove(v, b); };
     rules.move_ridges = [this](VertexId v, VertexId b) { return ridges_.Move(v, b); };
+    Status status = collapser_.Run(rules, watch, report);
+    if (!status || !coarsest || steps == 0) return status;
+    ridges_.SearchFar(kMostFarProofs);
+    ridges_.ShedLooseEnds(watch);
     return collapser_.Run(rules, watch, report);
   }
 
@@ -84,7 +93,8 @@ Result<std::vector<Lod>> BuildLodChain(const Terrain& terrain, const Horizon& ho
   for (const LevelBudget& budget : budgets) {
     const auto done = static_cast<double>(levels.size());
     const auto report = [&](double share) { watch.Report("simplify", (done + share) / count); };
-    Status status = builder.BuildLevel(budget, watch, report);
+    const bool coarsest = levels.size() + 1 == budgets.size();
+    Status status = builder.BuildLevel(budget, coarsest, watch, report);
     if (!status) return std::move(status.error());
     levels.push_back(builder.Level());
   }

@@ -161,6 +161,8 @@ bool RidgeNetwork::Prove(std::int32_t e, std::span<const RidgeId> young) {
   }
   const Segment lowered = Lowered(Scaled(horizon_->edges[Index(e)].edge), allowance_);
   if (ProveNearby(e, lowered, young)) return true;
+  if (far_proofs_left_ == 0) return false;
+  --far_proofs_left_;
   blockers_.clear();
   if (skyline_.FindSight(lowered, Ties::kBlock, std::nullopt, &blockers_)) return false;
   certificate.clear();

@@ -17,7 +17,8 @@ namespace farhorizon {
 ///
 /// Invariant: every horizon edge of the DEM, lowered by the allowance, is hidden behind the network;
 /// so H of any mesh that has the network's edges is at most the allowance below H of the DEM. Each
-/// horizon edge keeps the ridges that hide it, its certificate, and is proven anew when one goes.
+/// horizon edge keeps the ridges that hide it, its certificate, and is proven anew when one goes: by
+/// ridges nearby, or, while the far search lasts, by any.
 class RidgeNetwork {
  public:
   /// Requires: both outlive the network. The allowance is 0: nothing may go.
@@ -25,6 +26,10 @@ class RidgeNetwork {
 
   /// Requires: no less than before, so that what is proven stays proven.
   void Allow(std::int32_t steps) { allowance_ = steps; }
+
+  /// From now on ridges far from a horizon edge may hide it too, for so many proofs more. They are what
+  /// costs: such a proof takes some thirty times as long, and leans on a hundred ridges.
+  void SearchFar(std::int64_t proofs) { far_proofs_left_ = proofs; }
 
   /// Drops ridges from their loose ends, lowest first, as far as the allowance goes.
   /// Leaves off where the watch says stop.
@@ -72,6 +77,7 @@ class RidgeNetwork {
   Skyline skyline_;
   Skyline nothing_;  // stays empty: over it, screens alone decide
   std::int32_t allowance_ = 0;
+  std::int64_t far_proofs_left_ = 0;
   std::vector<Ridge> ridges_;
   std::vector<RidgeId> ridge_of_id_;                              // per Skyline::Id
   std::vector<std::vector<RidgeId>> certificates_;                // per horizon edge, rising
