@@ -1,0 +1,17 @@
+#pragma once
+
+// The one door through which Boost comes in. With g++ 12 and C++20 Boost 1.74's awaitable.hpp uses
+// std::exchange without <utility>, so that has to come first.
+#include <utility>
+
+#include <boost/asio.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
+
+namespace farhorizon {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = boost::beast::http;
+
+}  // namespace farhorizon

@@ -1,0 +1,52 @@
+#include <memory>
+
+#include "service/cli/command.h"
+#include "service/config.h"
+#include "service/http/client.h"
+#include "service/http/server.h"
+
+namespace farhorizon {
+
+namespace {
+
+/// Where this container's own service listens, seen from within.
+Result<std::string> OwnUrl() {
+  Result<LoadedConfig> loaded = LoadConfig({}, OurEnvironment(), {});
+  if (!loaded) return std::move(loaded.error());
+  Result<HostPort> address = ReadHostPort(loaded->config.listen);
+  if (!address) return std::move(address.error());
+  if (address->host == "0.0.0.0") address->host = "127.0.0.1";
+  if (address->host == "::") address->host = "::1";
+  const bool literal = address->host.find(':') != std::string::npos;
+  return "http://" + (literal ? "[" + address->host + "]" : address->host) + ":" +
+         std::to_string(address->port);
+}
+
+int Run(const std::string& given) {
+  Result<std::string> text = given.empty() ? OwnUrl() : Result<std::string>(given);
+  if (!text) return Complain(text.error());
+  Result<ServiceUrl> url = ReadServiceUrl(*text);
+  if (!url) return Complain(url.error());
+  ClientRequest request;
+  request.target = "/healthz";
+  Result<ClientResponse> response = SendRequest(*url, request);
+  if (!response) return Complain(response.error());
+  if (response->status == 200) return kExitDone;
+  return Complain(
+      {ErrorCode::kIo, *text + "/healthz answered " + std::to_string(response->status)});
+}
+
+}  // namespace
+
+void AddHealthcheck(CLI::App& app, Chosen& chosen) {
+  const auto url = std::make_shared<std::string>();
+  CLI::App* command =
+      app.add_subcommand("healthcheck", "Ask a service whether it is alive; exit status 0 if so");
+  command
+      ->add_option("--url", *url,
+                   "the service (http:// and the address in FARHORIZON_LISTEN, or 127.0.0.1:8080)")
+      ->type_name("URL");
+  command->callback([url, &chosen] { chosen = [url] { return Run(*url); }; });
+}
+
+}  // namespace farhorizon

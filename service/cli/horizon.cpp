@@ -1,0 +1,50 @@
+#include <memory>
+
+#include "core/pipeline/horizon_edges.h"
+#include "service/cli/command.h"
+#include "service/cli/reporter.h"
+#include "service/cli/signals.h"
+#include "service/cli/wishes.h"
+
+namespace farhorizon {
+
+namespace {
+
+struct Call {
+  std::string dem;
+  std::string file;
+  Wishes wishes;
+  ReporterOptions reporter;
+};
+
+int Run(const Call& call) {
+  Result<BuildOptions> options = call.wishes.Options();
+  if (!options) return Complain(options.error());
+  const StopOnSignal signals;
+  Reporter reporter(call.reporter);
+  Status written =
+      WriteHorizonEdges(call.dem, call.file, *options, Watch{reporter.progress(), signals.token()});
+  reporter.Clear();
+  return written ? kExitDone : Complain(written.error());
+}
+
+}  // namespace
+
+void AddHorizon(CLI::App& app, Chosen& chosen) {
+  const auto call = std::make_shared<Call>();
+  CLI::App* command = app.add_subcommand("horizon", "Write only the horizon edges of a DEM");
+  command->add_option("DEM", call->dem, "GeoTIFF, ASCII grid, SRTM HGT, DTED, USGS DEM or ENVI")
+      ->required()
+      ->type_name("");
+  command
+      ->add_option("-o,--output", call->file,
+                   "file to write; its ending tells the format: .geojson, .fgb, .gpkg")
+      ->required()
+      ->type_name("FILE");
+  AddReadWishes(*command, call->wishes);
+  AddThreads(*command, call->wishes);
+  AddReporterOptions(*command, call->reporter);
+  command->callback([call, &chosen] { chosen = [call] { return Run(*call); }; });
+}
+
+}  // namespace farhorizon

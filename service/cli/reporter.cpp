@@ -1,0 +1,58 @@
+#include "service/cli/reporter.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <unistd.h>
+
+#include <nlohmann/json.hpp>
+
+#include "service/overall_progress.h"
+
+namespace farhorizon {
+
+namespace {
+constexpr int kBarWidth = 40;
+}  // namespace
+
+void AddReporterOptions(CLI::App& command, ReporterOptions& options) {
+  command
+      .add_option("--progress", options.form,
+                  "auto: a bar on a terminal, nothing on a pipe; json: an object a line on stderr; "
+                  "none")
+      ->check(CLI::IsMember({"auto", "json", "none"}))
+      ->capture_default_str();
+}
+
+Reporter::Reporter(const ReporterOptions& options)
+    : bar_(options.form == "auto" && ::isatty(STDERR_FILENO) != 0), json_(options.form == "json") {}
+
+Reporter::~Reporter() { Clear(); }
+
+Progress Reporter::progress() {
+  if (!bar_ && !json_) return {};
+  return [this](const char* stage, double done) { Show(stage, done, OverallPercent(stage, done)); };
+}
+
+void Reporter::Show(const std::string& stage, double done, int percent) {
+  std::string line;
+  if (json_) {
+    const nlohmann::ordered_json object = {{"stage", stage}, {"done", done}, {"progress", percent}};
+    line = object.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+  } else if (bar_) {
+    const auto filled = static_cast<std::size_t>(std::clamp(percent, 0, 100) * kBarWidth / 100);
+    line = "\r[" + std::string(filled, '#') + std::string(kBarWidth - filled, '.') + "] " +
+           std::to_string(percent) + "% " + stage + "\x1b[K";
+    drawn_ = true;
+  }
+  if (line == last_) return;
+  std::fputs(line.c_str(), stderr);
+  std::fflush(stderr);
+  last_ = line;
+}
+
+void Reporter::Clear() {
+  if (drawn_) std::fputs("\r\x1b[K", stderr);
+  drawn_ = false;
+}
+
+}  // namespace farhorizon

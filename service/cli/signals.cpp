@@ -1,0 +1,55 @@
+#include "service/cli/signals.h"
+
+#include <ctime>
+#include <pthread.h>
+#include <signal.h>
+#include <unistd.h>
+
+namespace farhorizon {
+
+namespace {
+
+sigset_t Ours() {
+  sigset_t set;
+  ::sigemptyset(&set);
+  ::sigaddset(&set, SIGINT);
+  ::sigaddset(&set, SIGTERM);
+  return set;
+}
+
+}  // namespace
+
+void HoldSignals() {
+  const sigset_t set = Ours();
+  ::pthread_sigmask(SIG_BLOCK, &set, nullptr);
+  ::signal(SIGPIPE, SIG_IGN);
+}
+
+std::optional<int> NextSignal(std::chrono::milliseconds most) {
+  const sigset_t set = Ours();
+  struct timespec time {};
+  time.tv_sec = static_cast<std::time_t>(most.count() / 1000);
+  time.tv_nsec = static_cast<decltype(time.tv_nsec)>((most.count() % 1000) * 1'000'000);
+  const int signal = ::sigtimedwait(&set, nullptr, &time);
+  if (signal > 0) return signal;
+  return std::nullopt;
+}
+
+StopOnSignal::StopOnSignal() {
+  HoldSignals();
+  thread_ = std::thread([this] {
+    const sigset_t set = Ours();
+    int signal = 0;
+    while (::sigwait(&set, &signal) == 0 && !ending_) {
+      if (!source_.request_stop()) ::_exit(130);
+    }
+  });
+}
+
+StopOnSignal::~StopOnSignal() {
+  ending_ = true;
+  ::pthread_kill(thread_.native_handle(), SIGTERM);
+  thread_.join();
+}
+
+}  // namespace farhorizon

@@ -1,0 +1,63 @@
+#include "service/cli/wishes.h"
+
+#include <algorithm>
+#include <thread>
+
+namespace farhorizon {
+
+namespace {
+
+void Add(CLI::App& command, Wishes& wishes, const char* flag, const char* parameter,
+         const char* type, const char* help) {
+  command
+      .add_option_function<std::string>(
+          flag,
+          [&wishes, parameter](const std::string& value) { wishes.parameters[parameter] = value; },
+          help)
+      ->type_name(type);
+}
+
+}  // namespace
+
+Result<BuildOptions> Wishes::Options() const {
+  Result<BuildOptions> options = ParseOptions(parameters);
+  if (!options) return options;
+  const int cores = static_cast<int>(std::thread::hardware_concurrency());
+  options->threads = threads > 0 ? threads : std::max(1, cores);
+  Status checked = CheckOptions(*options);
+  if (!checked) return std::move(checked.error());
+  return options;
+}
+
+void AddBuildWishes(CLI::App& command, Wishes& wishes) {
+  Add(command, wishes, "--levels", "levels", "N",
+      "number of levels of detail, 1 to 12; level 0 is the finest (5)");
+  Add(command, wishes, "--max-error", "maxError", "M",
+      "vertical error that level 0 may have, metres; each further level may have twice the one "
+      "before (an eighth of the cell size)");
+  Add(command, wishes, "--silhouette-error", "silhouetteError", "M",
+      "silhouette error that level 0 may have, metres; 0 keeps every horizon edge (0)");
+  Add(command, wishes, "--triangles", "triangles", "A,B,...",
+      "instead of the three above: a level for each number, with at most that many triangles");
+  Add(command, wishes, "--formats", "formats", "a,b,...",
+      "of 3dtiles, drc, quantized-mesh, geojson, flatgeobuf (3dtiles,drc,geojson)");
+  Add(command, wishes, "--skirt", "skirt", "M", "depth of a skirt at the border, metres (none)");
+  AddReadWishes(command, wishes);
+}
+
+void AddReadWishes(CLI::App& command, Wishes& wishes) {
+  Add(command, wishes, "--crs", "crs", "CRS", "reference system, instead of the file's");
+  Add(command, wishes, "--vertical-datum", "verticalDatum", "CRS",
+      "vertical reference system, instead of the file's");
+  Add(command, wishes, "--nodata", "nodata", "H", "height that stands for no data");
+}
+
+void AddThreads(CLI::App& command, Wishes& wishes) {
+  command
+      .add_option("--threads", wishes.threads,
+                  "threads to work with; never changes a byte of the result (all cores)")
+      ->check(CLI::Range(1, 1024))
+      ->type_name("N");
+}
+
+}  // namespace farhorizon

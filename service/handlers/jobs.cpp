@@ -1,0 +1,118 @@
+#include <charconv>
+#include <string_view>
+
+#include "service/handlers/problem.h"
+#include "service/handlers/routes.h"
+#include "service/handlers/status_info.h"
+
+namespace farhorizon {
+
+namespace {
+
+constexpr int kMostJobs = 10000;
+
+Error BadQuery(const std::string& what) {
+  return {ErrorCode::kInvalidArgument, what, "invalid-query-parameter-value"};
+}
+
+Result<int> ReadLimit(const std::string& text) {
+  int limit = 0;
+  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), limit);
+  if (failure != std::errc() || end != text.data() + text.size() || limit < 1 ||
+      limit > kMostJobs) {
+    return BadQuery("limit must be a number from 1 to 10000");
+  }
+  return limit;
+}
+
+Result<std::vector<JobState>> ReadStates(std::string_view text) {
+  std::vector<JobState> states;
+  while (!text.empty()) {
+    const std::size_t comma = text.find(',');
+    const std::optional<JobState> state = JobStateOf(text.substr(0, comma));
+    text = comma == std::string_view::npos ? std::string_view{} : text.substr(comma + 1);
+    if (!state) {
+      return BadQuery("status must be a list of accepted, running, successful, failed, dismissed");
+    }
+    states.push_back(*state);
+  }
+  return states;
+}
+
+Result<JobQuery> ReadQuery(const Parameters& parameters) {
+  JobQuery query;
+  for (const auto& [name, value] : parameters) {
+    if (name == "limit") {
+      Result<int> limit = ReadLimit(value);
+      if (!limit) return std::move(limit.error());
+      query.limit = *limit;
+    } else if (name == "status") {
+      Result<std::vector<JobState>> states = ReadStates(value);
+      if (!states) return std::move(states.error());
+      query.states = *std::move(states);
+    } else if (name == "cursor") {
+      if (!IsJobId(value)) return BadQuery("cursor must come from a next link");
+      query.before = value;
+    } else {
+      return BadQuery("there is no parameter '" + name + "'; known are limit, status and cursor");
+    }
+  }
+  return query;
+}
+
+HttpResponse ListJobs(const HandlerContext& context, const HttpRequest& request) {
+  const std::optional<Parameters> parameters = DecodeQuery(request.query);
+  Result<JobQuery> query =
+      parameters ? ReadQuery(*parameters) : Result<JobQuery>(BadQuery("the query cannot be read"));
+  if (!query) return ProblemResponse(request, ProblemOf(query.error()));
+  Result<JobPage> page = context.jobs.List(*query);
+  if (!page) return ProblemResponse(request, ProblemOf(page.error()));
+  nlohmann::ordered_json document = {{"jobs", nlohmann::ordered_json::array()},
+                                     {"links", nlohmann::ordered_json::array()}};
+  for (const Job& job : page->jobs) document["jobs"].push_back(StatusInfo(job, context.base));
+  const auto link = [&](const char* relation, const Parameters& with) {
+    const std::string text = EncodeQuery(with);
+    document["links"].push_back(
+        {{"rel", relation},
+         {"type", "application/json"},
+         {"href", context.base + "/jobs" + (text.empty() ? "" : "?") + text}});
+  };
+  link("self", *parameters);
+  if (page->next) {
+    Parameters next = *parameters;
+    next["cursor"] = *page->next;
+    link("next", next);
+  }
+  return JsonResponse(document);
+}
+
+/// No other text reaches the store: what is no id is no job either.
+Result<Job> FindJob(const HandlerContext& context, const std::string& id) {
+  if (!IsJobId(id)) {
+    return Error{ErrorCode::kNotFound, "there is no job with this id", "no-such-job"};
+  }
+  return context.jobs.Find(id);
+}
+
+}  // namespace
+
+std::vector<Route> JobRoutes(const HandlerContext& context) {
+  return {{"GET", "/jobs",
+           [context](const HttpRequest& request, BodySink*) { return ListJobs(context, request); }},
+          {"GET", "/jobs/{id}",
+           [context](const HttpRequest& request, BodySink*) {
+             Result<Job> job = FindJob(context, request.parameters.at(0));
+             if (!job) return ProblemResponse(request, ProblemOf(job.error()));
+             HttpResponse response = JsonResponse(StatusInfo(*job, context.base));
+             if (!IsTerminal(job->state)) response.Set("Retry-After", "1");
+             return response;
+           }},
+          {"DELETE", "/jobs/{id}", [context](const HttpRequest& request, BodySink*) {
+             Result<Job> job = FindJob(context, request.parameters.at(0));
+             if (job) job = context.jobs.Dismiss(job->id);
+             if (!job) return ProblemResponse(request, ProblemOf(job.error()));
+             return JsonResponse(StatusInfo(*job, context.base));
+           }}};
+}
+
+}  // namespace farhorizon

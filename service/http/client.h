@@ -1,0 +1,47 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/base/result.h"
+
+namespace farhorizon {
+
+/// Where a service is: of "http://HOST[:PORT][/PREFIX]".
+struct ServiceUrl {
+  std::string host;
+  std::uint16_t port = 80;
+  std::string prefix;  ///< without a slash at its end
+};
+/// Errors: kInvalidArgument, saying what is expected.
+Result<ServiceUrl> ReadServiceUrl(const std::string& text);
+
+struct ClientRequest {
+  std::string method = "GET";
+  std::string target;  ///< after the prefix: "/jobs"
+  std::vector<std::pair<std::string, std::string>> headers = {};
+  std::optional<std::filesystem::path> upload = {};    ///< the body
+  std::optional<std::filesystem::path> download = {};  ///< where the body of a 200 goes
+  std::function<void(double)> uploaded = {};           ///< hears the share that is sent
+};
+
+struct ClientResponse {
+  int status = 0;
+  std::string location;
+  std::string body;  ///< empty where it was downloaded; at most 64 MiB
+};
+
+/// Sends one request on a connection of its own. Every wait has a deadline.
+/// Errors: kIo "connection" where there is no service or it breaks off (trying again may help);
+///   kCancelled.
+Result<ClientResponse> SendRequest(const ServiceUrl& url, const ClientRequest& request,
+                                   std::stop_token stop = {});
+
+}  // namespace farhorizon

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "core/base/result.h"
+#include "service/handlers/router.h"
+
+namespace farhorizon {
+
+struct ServerOptions {
+  std::string host = "127.0.0.1";
+  std::uint16_t port = 8080;  ///< 0: any that is free
+  int io_threads = 2;
+  int handler_threads = 8;
+  std::size_t max_head_bytes = 16384;
+  std::chrono::seconds head_time{10};   ///< from its first byte, and of a connection's first
+  std::chrono::seconds idle_time{60};   ///< between requests
+  std::chrono::seconds body_grace{20};  ///< before body_bytes_per_second counts
+  std::int64_t body_bytes_per_second = 1024;
+  std::chrono::seconds write_time{30};  ///< for each 64 KiB that the client does not take
+  int max_connections = 1024;
+  int max_connections_per_address = 256;
+  std::string cors_origin = "*";  ///< empty: no CORS fields
+};
+
+/// The HTTP server: a gate, then a router.
+class Server {
+ public:
+  /// Binds; clients wait until Serve. Errors: kIo, naming address and remedy.
+  static Result<std::unique_ptr<Server>> Bind(const ServerOptions& options);
+  virtual ~Server() = default;
+  Server(const Server&) = delete;
+  Server& operator=(const Server&) = delete;
+
+  [[nodiscard]] virtual std::uint16_t port() const = 0;
+
+  /// Starts the threads that answer. Requires: `router` outlives Stop.
+  virtual void Serve(const Router& router) = 0;
+
+  /// Takes no further connection, lets answers that are being sent end for at most so long, then
+  /// cuts them.
+  virtual void Stop(std::chrono::milliseconds most) = 0;
+
+ protected:
+  Server() = default;
+};
+
+/// "HOST:PORT" or "[::1]:PORT". Errors: kInvalidArgument.
+struct HostPort {
+  std::string host;
+  std::uint16_t port = 0;
+};
+Result<HostPort> ReadHostPort(const std::string& text);
+
+}  // namespace farhorizon

@@ -1,0 +1,104 @@
+#include "service/jobs/job.h"
+
+#include <algorithm>
+#include <array>
+#include <sys/random.h>
+
+namespace farhorizon {
+
+namespace {
+
+constexpr std::array kStates = {JobState::kAccepted, JobState::kRunning, JobState::kSuccessful,
+                                JobState::kFailed, JobState::kDismissed};
+constexpr std::size_t kLongestFilename = 100;
+
+bool IsLowerHex(char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); }
+
+bool IsFilenameCharacter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' ||
+         c == '_' || c == '-';
+}
+
+}  // namespace
+
+const char* JobStateName(JobState state) {
+  switch (state) {
+    case JobState::kAccepted:
+      return "accepted";
+    case JobState::kRunning:
+      return "running";
+    case JobState::kSuccessful:
+      return "successful";
+    case JobState::kFailed:
+      return "failed";
+    case JobState::kDismissed:
+      return "dismissed";
+  }
+  return "failed";
+}
+
+std::optional<JobState> JobStateOf(std::string_view name) {
+  for (const JobState state : kStates) {
+    if (name == JobStateName(state)) return state;
+  }
+  return std::nullopt;
+}
+
+bool IsTerminal(JobState state) {
+  return state != JobState::kAccepted && state != JobState::kRunning;
+}
+
+bool MayFollow(JobState from, JobState to) {
+  if (from == JobState::kAccepted) return to == JobState::kRunning || to == JobState::kDismissed;
+  if (from == JobState::kRunning) return to != JobState::kRunning;
+  return false;
+}
+
+std::string NewJobId(std::int64_t now_ms) {
+  std::array<unsigned char, 16> bytes{};
+  Check(getrandom(bytes.data(), bytes.size(), 0) == static_cast<ssize_t>(bytes.size()),
+        "the kernel gives 16 random bytes");
+  for (std::size_t i = 0; i < 6; ++i) {
+    bytes[i] = static_cast<unsigned char>(static_cast<std::uint64_t>(now_ms) >> (8U * (5 - i)));
+  }
+  bytes[6] = static_cast<unsigned char>(0x70U | (bytes[6] & 0x0FU));  // RFC 9562: version 7
+  bytes[8] = static_cast<unsigned char>(0x80U | (bytes[8] & 0x3FU));  // and its variant
+  static constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string id;
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    if (i == 4 || i == 6 || i == 8 || i == 10) id += '-';
+    id += kDigits[bytes[i] >> 4U];
+    id += kDigits[bytes[i] & 15U];
+  }
+  return id;
+}
+
+bool IsJobId(std::string_view text) {
+  if (text.size() != 36) return false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool dash = i == 8 || i == 13 || i == 18 || i == 23;
+    if (dash ? text[i] != '-' : !IsLowerHex(text[i])) return false;
+  }
+  return true;
+}
+
+std::string SafeFilename(std::string_view wished) {
+  const std::size_t slash = wished.find_last_of("/\\");
+  if (slash != std::string_view::npos) wished = wished.substr(slash + 1);
+  std::string name;
+  for (const char c : wished) {
+    if (!IsFilenameCharacter(c)) continue;
+    if (name.empty() && (c == '.' || c == '-')) continue;
+    name += c;
+  }
+  if (name.size() > kLongestFilename) name.erase(0, name.size() - kLongestFilename);
+  while (!name.empty() && (name[0] == '.' || name[0] == '-')) name.erase(0, 1);
+  return name.empty() ? "dem" : name;
+}
+
+bool IsArtifactName(std::string_view name) {
+  return !name.empty() && name.size() <= kLongestFilename && name[0] != '.' && name[0] != '-' &&
+         std::all_of(name.begin(), name.end(), IsFilenameCharacter);
+}
+
+}  // namespace farhorizon

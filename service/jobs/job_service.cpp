@@ -1,0 +1,165 @@
+#include "service/jobs/job_service.h"
+
+#include <fcntl.h>
+#include <fstream>
+#include <system_error>
+
+#include "service/clock.h"
+#include "service/jobs/durable_file.h"
+#include "service/jobs/local_object_store.h"
+#include "service/jobs/sqlite_job_store.h"
+#include "service/log.h"
+#include "service/worker/message.h"
+
+namespace farhorizon {
+
+namespace fs = std::filesystem;
+
+Result<std::unique_ptr<JobService>> JobService::Open(JobServiceOptions options) {
+  Result<DataDirectory> directory = OpenDataDirectory(options.data);
+  if (!directory) return std::move(directory.error());
+  Result<std::unique_ptr<JobStore>> jobs = OpenSqliteJobStore(directory->Jobs());
+  if (!jobs) return std::move(jobs.error());
+  Result<std::unique_ptr<ObjectStore>> objects = OpenLocalObjectStore(directory->Objects());
+  if (!objects) return std::move(objects.error());
+  Result<std::int64_t> recovered = (*jobs)->RecoverRunning(NowMs());
+  if (!recovered) return std::move(recovered.error());
+  if (*recovered > 0) Log(LogLevel::kWarning, "jobs taken up again", {{"jobs", *recovered}});
+  Status cleared = ObjectKeeper(**jobs, **objects).RemoveAllUnnamed();
+  if (!cleared) return std::move(cleared.error());
+  return std::unique_ptr<JobService>(new JobService(std::move(options), *std::move(directory),
+                                                    *std::move(jobs), *std::move(objects)));
+}
+
+JobService::JobService(JobServiceOptions options, DataDirectory directory,
+                       std::unique_ptr<JobStore> jobs, std::unique_ptr<ObjectStore> objects)
+    : options_(std::move(options)),
+      directory_(std::move(directory)),
+      jobs_(std::move(jobs)),
+      objects_(std::move(objects)),
+      keeper_(*jobs_, *objects_),
+      probes_(options_.engine.workers),
+      engine_(std::make_unique<JobEngine>(*jobs_, *objects_, keeper_, directory_.Work(),
+                                          options_.engine)) {}
+
+JobService::~JobService() = default;
+
+Status JobService::CheckDisk() {
+  Result<std::int64_t> room = FreeBytes(directory_.root);
+  if (!room) return std::move(room.error());
+  if (*room >= options_.min_free_bytes) return Done{};
+  return Error{ErrorCode::kResourceExhausted,
+               "the disk has less than " + std::to_string(options_.min_free_bytes) +
+                   " bytes left; try later, or dismiss finished jobs",
+               "no-space"};
+}
+
+Status JobService::CheckRoom() {
+  if (draining_) {
+    return Error{ErrorCode::kResourceExhausted, "the service is being stopped; try again soon",
+                 "draining"};
+  }
+  Status disk = CheckDisk();
+  if (!disk) return disk;
+  Result<std::int64_t> waiting = jobs_->CountWaiting();
+  if (!waiting) return std::move(waiting.error());
+  if (*waiting < options_.max_waiting) return Done{};
+  return Error{ErrorCode::kResourceExhausted,
+               std::to_string(*waiting) + " jobs are waiting, as many as may; try again later",
+               "queue-full"};
+}
+
+Status JobService::CheckReady() {
+  if (draining_) return CheckRoom();
+  Status written = jobs_->Ping();
+  if (!written) return written;
+  return CheckDisk();
+}
+
+Status JobService::Probe(const SpoolFile& upload, const Submission& submission) {
+  if (upload.bytes() > options_.probe_max_bytes) return Done{};
+  const fs::path directory = directory_.Work() / ("probe-" + std::to_string(next_probe_++));
+  const fs::path input = fs::path("in") / submission.filename;
+  std::error_code failure;
+  fs::create_directories(directory / "in", failure);
+  // The upload is nobody's object yet: a link will do, and the worker may only harm its own input.
+  if (!failure) fs::create_hard_link(upload.path(), directory / input, failure);
+  std::ofstream task(directory / "task.json", std::ios::binary);
+  task << WriteTask({input.string(), "", submission.parameters, options_.engine.max_posts, 1});
+  task.close();
+  Status verdict = Done{};
+  if (!failure && task) {
+    probes_.acquire();
+    WorkerOutcome outcome =
+        RunWorker({options_.engine.worker_program, true, directory, options_.probe_limits}, {}, {});
+    probes_.release();
+    if (outcome.end == WorkerEnd::kFailed) {
+      verdict = std::move(outcome.error);
+    } else if (outcome.end == WorkerEnd::kCrashed) {
+      Log(LogLevel::kWarning, "probe crashed",
+          {{"code", outcome.error.kind}, {"last_words", outcome.last_words}});
+    }
+  }
+  fs::remove_all(directory, failure);
+  return verdict;
+}
+
+Result<std::pair<Job, bool>> JobService::Submit(const SpoolFile& upload,
+                                                const Submission& submission) {
+  auto held = keeper_.Hold();
+  Result<StoredObject> stored = objects_->PutFile(upload.path());
+  if (!stored) return std::move(stored.error());
+  const std::int64_t now = NowMs();
+  Result<std::pair<Job, bool>> inserted =
+      jobs_->Insert({NewJobId(now), submission.filename, submission.parameters, stored->sha256,
+                     stored->bytes, submission.idempotency_key},
+                    now);
+  held.unlock();
+  if (inserted) {
+    engine_->Wake();
+    return inserted;
+  }
+  Status removed = keeper_.RemoveUnnamed({stored->sha256});  // no row came to name it
+  if (!removed) Log(LogLevel::kWarning, "an object is left", {{"error", removed.error().message}});
+  return inserted;
+}
+
+Result<OpenArtifact> JobService::Open(const std::string& id, const std::string& name) {
+  Result<std::vector<Artifact>> artifacts = jobs_->Artifacts(id);
+  if (!artifacts) return std::move(artifacts.error());
+  for (Artifact& artifact : *artifacts) {
+    if (artifact.name != name) continue;
+    Result<OpenObject> object = objects_->Open(artifact.sha256);
+    if (object && object->bytes == artifact.bytes) {
+      return OpenArtifact{std::move(artifact), *std::move(object)};
+    }
+    // Gone between the two questions: removed with its job. Gone with its row still there: lost.
+    Result<Job> job = jobs_->Find(id);
+    if (!job) return std::move(job.error());
+    return Error{ErrorCode::kIo, "this artifact is damaged or lost; submit the DEM again",
+                 "result-corrupt"};
+  }
+  return Error{ErrorCode::kNotFound, "the job has no artifact of this name", "no-such-output"};
+}
+
+Result<Job> JobService::Dismiss(const std::string& id) {
+  Result<Job> before = jobs_->Find(id);
+  if (!before) return before;
+  Result<std::vector<Artifact>> artifacts = jobs_->Artifacts(id);
+  if (!artifacts) return std::move(artifacts.error());
+  Result<Job> dismissed = jobs_->Dismiss(id, NowMs());
+  if (!dismissed) return dismissed;
+  engine_->Cancel(id);
+  std::vector<std::string> names = {before->input_sha256};
+  for (const Artifact& artifact : *artifacts) names.push_back(artifact.sha256);
+  Status removed = keeper_.RemoveUnnamed(names);
+  if (!removed) Log(LogLevel::kWarning, "objects are left", {{"error", removed.error().message}});
+  return dismissed;
+}
+
+void JobService::Drain() {
+  draining_ = true;
+  engine_->StopTaking();
+}
+
+}  // namespace farhorizon

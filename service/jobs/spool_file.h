@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "core/base/result.h"
+#include "service/unique_fd.h"
+
+namespace farhorizon {
+
+/// An upload on its way: a private file that is removed with this object.
+class SpoolFile {
+ public:
+  /// Makes a new file in `directory`. Errors: kIo, kResourceExhausted "no-space".
+  static Result<SpoolFile> Create(const std::filesystem::path& directory);
+
+  SpoolFile(SpoolFile&&) noexcept = default;
+  SpoolFile& operator=(SpoolFile&&) noexcept = delete;
+  ~SpoolFile();
+
+  Status Write(std::string_view bytes);
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  [[nodiscard]] std::int64_t bytes() const { return bytes_; }
+  /// The first bytes, at most 4096: enough to tell a format.
+  [[nodiscard]] const std::string& beginning() const { return beginning_; }
+
+ private:
+  SpoolFile(std::filesystem::path path, UniqueFd fd) : path_(std::move(path)), fd_(std::move(fd)) {}
+
+  std::filesystem::path path_;
+  UniqueFd fd_;
+  std::int64_t bytes_ = 0;
+  std::string beginning_;
+};
+
+}  // namespace farhorizon

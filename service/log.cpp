@@ -1,0 +1,67 @@
+#include "service/log.h"
+
+#include <atomic>
+#include <unistd.h>
+
+#include <nlohmann/json.hpp>
+
+#include "service/clock.h"
+
+namespace farhorizon {
+
+namespace {
+
+std::atomic<LogLevel> least_level{LogLevel::kInfo};
+std::atomic<bool> as_json{true};
+
+const char* Name(LogLevel level) {
+  switch (level) {
+    case LogLevel::kDebug:
+      return "debug";
+    case LogLevel::kInfo:
+      return "info";
+    case LogLevel::kWarning:
+      return "warning";
+    case LogLevel::kError:
+      return "error";
+  }
+  return "error";
+}
+
+std::string Escaped(const nlohmann::json& value) {
+  return value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+nlohmann::json ValueOf(const LogField& field) {
+  return std::visit([](const auto& value) { return nlohmann::json(value); }, field.second);
+}
+
+}  // namespace
+
+void ConfigureLog(LogLevel least, LogFormat format) {
+  least_level = least;
+  as_json =
+      format == LogFormat::kJson || (format == LogFormat::kAuto && isatty(STDERR_FILENO) == 0);
+}
+
+void Log(LogLevel level, std::string_view message, std::initializer_list<LogField> fields) {
+  if (level < least_level.load()) return;
+  const std::string now = FormatTime(NowMs());
+  std::string line;
+  if (as_json) {
+    nlohmann::ordered_json object = {
+        {"ts", now}, {"level", Name(level)}, {"msg", std::string(message)}};
+    for (const LogField& field : fields) object[std::string(field.first)] = ValueOf(field);
+    line = object.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  } else {
+    line.append(now).append(" ").append(Name(level)).append(" ").append(message);
+    for (const LogField& field : fields) {
+      line.append(" ").append(field.first).append("=").append(Escaped(ValueOf(field)));
+    }
+  }
+  line += '\n';
+  // Nothing can be done about a log that cannot be written.
+  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, line.data(), line.size());
+}
+
+}  // namespace farhorizon

@@ -1,0 +1,3 @@
+#include "service/cli/run.h"
+
+int main(int argc, char** argv) { return farhorizon::RunProgram(argc, argv); }

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <chrono>
+#include <map>
+#include <string>
+
+#include "core/base/progress.h"
+
+namespace farhorizon {
+
+/// Measures how long each stage of watched work takes, by listening to its progress.
+class StageTimer {
+ public:
+  /// A progress that keeps time and passes on to `next`. Requires: this outlives it.
+  Progress Listen(Progress next) {
+    return [this, next = std::move(next)](const char* stage, double done) {
+      if (stage_ != stage) Enter(stage);
+      if (next) next(stage, done);
+    };
+  }
+
+  /// Seconds by stage, the present one up to now.
+  std::map<std::string, double> Seconds() {
+    Enter(stage_);
+    return seconds_;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void Enter(std::string stage) {
+    const Clock::time_point now = Clock::now();
+    if (!stage_.empty()) seconds_[stage_] += std::chrono::duration<double>(now - since_).count();
+    stage_ = std::move(stage);
+    since_ = now;
+  }
+
+  std::string stage_;
+  Clock::time_point since_ = Clock::now();
+  std::map<std::string, double> seconds_;
+};
+
+}  // namespace farhorizon

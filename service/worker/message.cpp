@@ -1,0 +1,108 @@
+#include "service/worker/message.h"
+
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+namespace farhorizon {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr std::size_t kLongestText = 2000;
+
+std::string Line(const json& object) {
+  return object.dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
+}
+
+std::optional<ErrorCode> CodeOf(const std::string& name) {
+  for (const ErrorCode code :
+       {ErrorCode::kInvalidArgument, ErrorCode::kNotFound, ErrorCode::kUnsupportedData,
+        ErrorCode::kResourceExhausted, ErrorCode::kCancelled, ErrorCode::kIo}) {
+    if (name == ErrorCodeName(code)) return code;
+  }
+  return std::nullopt;
+}
+
+std::string TextOf(const json& object, const char* key) {
+  const auto found = object.find(key);
+  if (found == object.end() || !found->is_string()) return {};
+  return found->get<std::string>().substr(0, kLongestText);
+}
+
+bool IsKind(const std::string& kind) {
+  return kind.size() <= 64 &&
+         kind.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-") == std::string::npos;
+}
+
+std::optional<WorkerMessage> ReadError(const json& error) {
+  if (!error.is_object()) return std::nullopt;
+  const std::optional<ErrorCode> code = CodeOf(TextOf(error, "code"));
+  const std::string kind = TextOf(error, "kind");
+  if (!code || !IsKind(kind)) return std::nullopt;
+  return Error{*code, TextOf(error, "message"), kind};
+}
+
+std::optional<WorkerMessage> ReadDone(const json& timings) {
+  if (!timings.is_object() || timings.size() > 100) return std::nullopt;
+  WorkerDone done;
+  for (const auto& [stage, seconds] : timings.items()) {
+    if (!seconds.is_number() || stage.size() > kLongestText) return std::nullopt;
+    done.timings[stage] = seconds.get<double>();
+  }
+  return done;
+}
+
+}  // namespace
+
+std::string WriteTask(const WorkerTask& task) {
+  return Line({{"input", task.input},
+               {"output", task.output},
+               {"parameters", task.parameters},
+               {"maxPosts", task.max_posts},
+               {"threads", task.threads}});
+}
+
+Result<WorkerTask> ReadTask(const std::string& text) {
+  try {
+    const json object = json::parse(text);
+    WorkerTask task;
+    task.input = object.at("input").get<std::string>();
+    task.output = object.at("output").get<std::string>();
+    task.parameters = object.at("parameters").get<Parameters>();
+    task.max_posts = object.at("maxPosts").get<std::int64_t>();
+    task.threads = object.at("threads").get<int>();
+    return task;
+  } catch (const json::exception& failure) {
+    return Error{ErrorCode::kInvalidArgument, std::string("worker's task: ") + failure.what()};
+  }
+}
+
+std::string WriteMessage(const WorkerMessage& message) {
+  if (const auto* progress = std::get_if<WorkerProgress>(&message)) {
+    return Line({{"stage", progress->stage}, {"done", progress->done}});
+  }
+  if (const auto* done = std::get_if<WorkerDone>(&message)) {
+    return Line({{"timings", done->timings}});
+  }
+  const Error& error = std::get<Error>(message);
+  return Line(
+      {{"error",
+        {{"code", ErrorCodeName(error.code)}, {"kind", error.kind}, {"message", error.message}}}});
+}
+
+std::optional<WorkerMessage> ReadMessage(std::string_view line) {
+  const auto shallow = [](int depth, json::parse_event_t, json&) { return depth <= 4; };
+  const json object = json::parse(line, shallow, false);
+  if (!object.is_object()) return std::nullopt;
+  if (const auto error = object.find("error"); error != object.end()) return ReadError(*error);
+  if (const auto times = object.find("timings"); times != object.end()) return ReadDone(*times);
+  const auto done = object.find("done");
+  if (done == object.end() || !done->is_number()) return std::nullopt;
+  const double share = done->get<double>();
+  if (!(share >= 0 && share <= 1)) return std::nullopt;
+  return WorkerProgress{TextOf(object, "stage"), share};
+}
+
+}  // namespace farhorizon
