@@ -28,7 +28,7 @@ struct MeshError {
 /// vertices' distance from their posts can do. Lines that pass the outline closer than that distance,
 /// and so may meet one of the two surfaces only, are not counted. The bound is at most about a
 /// twentieth above the least that can be proven on the posts; `asked_m` is where the search for it
-/// begins. The rms is over lines drawn uniformly in the plan where a column is as wide as a row.
+/// begins; where that can be proven, the bound is no more. The rms is over lines drawn uniformly in the plan where a column is as wide as a row.
 /// Errors: kUnsupportedData where the mesh has a hole, a flipped triangle or a vertex away from its
 ///   post by more than half a cell; kCancelled.
 Result<MeshError> MeasureMeshError(const Terrain& terrain, const Horizon& horizon,

@@ -41,7 +41,8 @@ class BoundSearch {
  private:
   void Raise(std::size_t i, const Hidden& hidden) {
     std::int64_t low = bound_;  // not enough
-    std::int64_t high = std::max<std::int64_t>(asked_, low + low / 16 + 1);
+    // Never past what was asked for where that is enough: a level is seen to keep to its budget.
+    std::int64_t high = low < asked_ ? asked_ : low + low / 16 + 1;
     while (high < most_ && !hidden(i, static_cast<std::int32_t>(high))) {
       low = high;
       high *= 2;
