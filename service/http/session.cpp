@@ -33,7 +33,7 @@ auto Into(error_code& failure) { return asio::redirect_error(asio::use_awaitable
 asio::awaitable<void> Session::Run() {
   const auto self = shared_from_this();
   for (bool first = true;; first = false) {
-    stream_.expires_after(first ? context_.options.head_time : context_.options.idle_time);
+    WaitUntil(Clock::now() + (first ? context_.options.head_time : context_.options.idle_time));
     std::string head;
     const bool whole = co_await ReadHeadBytes(head);
     if (!whole) break;
@@ -55,6 +55,21 @@ asio::awaitable<void> Session::Run() {
   error_code ignored;
   stream_.socket().shutdown(asio::ip::tcp::socket::shutdown_both, ignored);
   stream_.close();
+  deadline_.cancel();
+}
+
+/// What waits on the stream then fails, and late_ tells why. (The deadlines of beast::tcp_stream
+/// close the socket: no 408 could be sent.)
+void Session::WaitUntil(std::chrono::steady_clock::time_point time) {
+  late_ = false;
+  deadline_.expires_at(time);
+  deadline_.async_wait([self = shared_from_this()](const error_code& moved) {
+    // Moved while this was under way already: not the present deadline's end.
+    if (moved || Clock::now() < self->deadline_.expiry()) return;
+    self->late_ = true;
+    error_code ignored;
+    self->stream_.socket().cancel(ignored);
+  });
 }
 
 asio::awaitable<void> Session::Refuse() {
@@ -65,6 +80,7 @@ asio::awaitable<void> Session::Refuse() {
   const bool sent = co_await Send(none, response, false);
   if (sent) co_await Linger();
   stream_.close();
+  deadline_.cancel();
 }
 
 void Session::CloseIfIdle() {
@@ -107,7 +123,7 @@ asio::awaitable<bool> Session::ReadHeadBytes(std::string& head) {
       co_return false;
     }
     if (!begun && !have.empty()) {  // the whole head has to come within its time
-      stream_.expires_after(context_.options.head_time);
+      WaitUntil(Clock::now() + context_.options.head_time);
       begun = true;
     }
     if (context_.stopping && have.empty()) co_return false;
@@ -115,7 +131,7 @@ asio::awaitable<bool> Session::ReadHeadBytes(std::string& head) {
     const auto space = buffer_.prepare(4096);
     const std::size_t size = co_await stream_.async_read_some(space, Into(failure));
     buffer_.commit(size);
-    if (failure == beast::error::timeout && buffer_.size() > 0) {
+    if (failure && late_ && buffer_.size() > 0) {
       const HttpRequest none;
       const HttpResponse response =
           ProblemResponse(none, {408, "request-timeout", "the request's head came too slowly"});
@@ -178,10 +194,10 @@ asio::awaitable<HttpResponse> Session::ReadBody(const HttpRequest& request, cons
   while (!parser.is_done()) {
     parser.get().body() = {piece.data(), piece.size(), true};
     const auto earned = std::chrono::seconds(received / context_.options.body_bytes_per_second);
-    stream_.expires_at(start + context_.options.body_grace + earned);
+    WaitUntil(start + context_.options.body_grace + earned);
     co_await http::async_read_some(stream_, buffer_, parser, Into(failure));
     if (failure == http::error::need_buffer) failure = {};
-    if (failure == beast::error::timeout) {
+    if (failure && late_) {
       co_return ProblemResponse(request, {408, "request-timeout", "the body came too slowly"});
     }
     if (failure) {
@@ -249,7 +265,7 @@ asio::awaitable<bool> Session::Send(const HttpRequest& request, const HttpRespon
 asio::awaitable<bool> Session::SendText(std::string_view text) {
   while (!text.empty()) {
     error_code failure;
-    stream_.expires_after(context_.options.write_time);
+    WaitUntil(Clock::now() + context_.options.write_time);
     const std::string_view piece = text.substr(0, kPieceBytes);
     co_await asio::async_write(stream_, asio::buffer(piece.data(), piece.size()), Into(failure));
     if (failure) co_return false;
@@ -276,7 +292,7 @@ asio::awaitable<bool> Session::SendFile(const FileBody& file) {
 asio::awaitable<void> Session::Linger() {
   error_code failure;
   stream_.socket().shutdown(asio::ip::tcp::socket::shutdown_send, failure);
-  stream_.expires_after(kLingerTime);
+  WaitUntil(Clock::now() + kLingerTime);
   std::array<char, 8192> unread{};
   for (std::size_t total = 0; !failure && total < kLingerBytes;) {
     total += co_await stream_.async_read_some(asio::buffer(unread), Into(failure));

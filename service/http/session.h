@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <string>
@@ -24,7 +25,10 @@ struct SessionContext {
 class Session : public std::enable_shared_from_this<Session> {
  public:
   Session(const SessionContext& context, beast::tcp_stream stream, std::string peer)
-      : context_(context), stream_(std::move(stream)), peer_(std::move(peer)) {}
+      : context_(context),
+        stream_(std::move(stream)),
+        deadline_(stream_.get_executor()),
+        peer_(std::move(peer)) {}
 
   asio::awaitable<void> Run();
   /// Says 503 and closes: there are too many connections.
@@ -40,6 +44,8 @@ class Session : public std::enable_shared_from_this<Session> {
  private:
   enum class Next { kKeepAlive, kClose };
 
+  /// Sets the one deadline that every wait of this connection has.
+  void WaitUntil(std::chrono::steady_clock::time_point time);
   asio::awaitable<bool> ReadHeadBytes(std::string& head);
   asio::awaitable<Next> Exchange(HttpRequest request, const std::string& head);
   asio::awaitable<HttpResponse> ReadBody(const HttpRequest& request, const std::string& head,
@@ -55,6 +61,8 @@ class Session : public std::enable_shared_from_this<Session> {
 
   SessionContext context_;
   beast::tcp_stream stream_;
+  asio::steady_timer deadline_;
+  bool late_ = false;
   std::string peer_;
   beast::flat_buffer buffer_;
   bool idle_ = true;

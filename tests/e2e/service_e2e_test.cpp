@@ -1,0 +1,323 @@
+// The real program, on loopback: as its clients, its enemies and its operators meet it.
+#include <algorithm>
+#include <memory>
+#include <set>
+#include <signal.h>
+#include <sys/socket.h>
+#include <thread>
+#include <unistd.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/support/json_schema.h"
+#include "tests/support/service_process.h"
+#include "tests/support/temp_dir.h"
+
+namespace farhorizon {
+namespace {
+
+using nlohmann::json;
+
+/// Hills of 20 x 20 posts, without a reference system.
+std::string SmallGrid() {
+  std::string text =
+      "ncols 20\nnrows 20\nxllcorner 7\nyllcorner 46\ncellsize 0.001\nNODATA_value -9999\n";
+  for (int i = 0; i < 400; ++i) {
+    text += std::to_string(500 + (i * 37 + i / 20 * 53) % 101) + (i % 20 == 19 ? "\n" : " ");
+  }
+  return text;
+}
+
+class ServiceE2e : public testing::Test {
+ protected:
+  void Start(std::vector<std::string> settings = {}) {
+    std::filesystem::remove(folder_ / "log");
+    settings.push_back("SECRET=1");
+    service_ = std::make_unique<Process>(
+        std::vector<std::string>{FARHORIZON_PROGRAM, "serve", "--listen", "127.0.0.1:0", "--data",
+                                 (folder_ / "data").string()},
+        settings, folder_ / "log");
+    port_ = PortOf(folder_ / "log");
+    ASSERT_NE(port_, 0) << SlurpFile(folder_ / "log");
+  }
+  void StartStandIn(std::vector<std::string> settings = {}) {
+    settings.push_back(std::string("FARHORIZON_WORKER_PROGRAM=") + STAND_IN_WORKER);
+    Start(std::move(settings));
+  }
+  /// The path of a new job.
+  std::string Submit(const std::string& name, const std::string& headers = "") {
+    const RawAnswer answer =
+        Ask(port_, "POST", "/jobs?crs=EPSG:4326&filename=" + name,
+            "Content-Type: application/octet-stream\r\n" + headers, SmallGrid());
+    EXPECT_EQ(answer.status, 201) << answer.head << answer.body;
+    return answer.status == 201 ? "/jobs/" + json::parse(answer.body).value("jobID", "") : "";
+  }
+  json StatusOf(const std::string& path) {
+    const RawAnswer answer = Ask(port_, "GET", path);
+    return answer.status == 200 ? json::parse(answer.body) : json();
+  }
+  std::string WaitFor(const std::string& path, const std::set<std::string>& states,
+                      std::chrono::seconds most = std::chrono::seconds(120)) {
+    const auto deadline = std::chrono::steady_clock::now() + most;
+    std::string state;
+    while (std::chrono::steady_clock::now() < deadline) {
+      const json info = StatusOf(path);
+      state = info.is_object() ? info.value("status", "") : "none";
+      if (states.count(state) != 0) break;
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    return state;
+  }
+  std::string WaitForEnd(const std::string& path) {
+    return WaitFor(path, {"successful", "failed", "dismissed"});
+  }
+  std::string FailureOf(const std::string& path) {
+    return json::parse(Ask(port_, "GET", path + "/results").body).value("code", "");
+  }
+  int Run(std::vector<std::string> words) {
+    words.insert(words.begin(), FARHORIZON_PROGRAM);
+    return Process(words, {}, folder_ / "stderr").Wait(std::chrono::seconds(300));
+  }
+  [[nodiscard]] std::size_t LeftOver(const char* sub) const {
+    const std::filesystem::directory_iterator entries(folder_ / "data" / sub);
+    return static_cast<std::size_t>(std::distance(begin(entries), end(entries)));
+  }
+
+  TempDir folder_;
+  std::unique_ptr<Process> service_;
+  std::uint16_t port_ = 0;
+};
+
+TEST_F(ServiceE2e, AJobLeavesTheBytesThatBuildLeaves) {
+  SpillFile(folder_ / "small.asc", SmallGrid());
+  const std::string dem = (folder_ / "small.asc").string();
+  ASSERT_EQ(Run({"build", dem, "-o", (folder_ / "built").string(), "--crs", "EPSG:4326", "--levels",
+                 "2"}),
+            0)
+      << SlurpFile(folder_ / "stderr");
+  Start();
+  ASSERT_EQ(Run({"submit", dem, "--url", "http://127.0.0.1:" + std::to_string(port_), "-o",
+                 (folder_ / "sent").string(), "--crs", "EPSG:4326", "--levels", "2"}),
+            0)
+      << SlurpFile(folder_ / "stderr");
+  std::size_t files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_ / "built")) {
+    const std::string name = entry.path().filename().string();
+    EXPECT_EQ(SlurpFile(entry.path()), SlurpFile(folder_ / "sent" / name)) << name;
+    ++files;
+  }
+  EXPECT_GE(files, 8U);
+  const std::string root = FARHORIZON_SOURCE_DIR;
+  for (const auto& [file, schema] :
+       std::vector<std::pair<std::string, std::string>>{{"report.json", "report"},
+                                                        {"manifest.json", "manifest"},
+                                                        {"horizon.geojson", "horizon"}}) {
+    const json shape = json::parse(SlurpFile(root + "/proto/schemas/" + schema + ".schema.json"));
+    EXPECT_THAT(SchemaOffences(json::parse(SlurpFile(folder_ / "built" / file)), shape),
+                testing::IsEmpty())
+        << file;
+  }
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_ / "sent"), {}),
+            static_cast<std::ptrdiff_t>(files));
+  EXPECT_EQ(LeftOver("spool") + LeftOver("work"), 0U);
+}
+
+TEST_F(ServiceE2e, BadInputIsRefusedBeforeTheJobAndLeavesNothing) {
+  Start();
+  const RawAnswer bare = Ask(port_, "POST", "/jobs?filename=a.asc",
+                             "Content-Type: application/octet-stream\r\n", SmallGrid());
+  EXPECT_EQ(bare.status, 422);
+  EXPECT_EQ(json::parse(bare.body)["code"], "no-crs");
+  const RawAnswer cut =
+      Ask(port_, "POST", "/jobs", "Content-Type: image/tiff\r\n", std::string("II*\0garbage", 11));
+  EXPECT_TRUE(cut.status == 415 || cut.status == 422) << cut.body;
+  EXPECT_EQ(LeftOver("spool") + LeftOver("work"), 0U);
+  EXPECT_TRUE(json::parse(Ask(port_, "GET", "/jobs").body)["jobs"].empty());
+}
+
+TEST_F(ServiceE2e, ServesPartsAndKnowsWhatTheClientHas) {
+  StartStandIn();
+  const std::string job = Submit("good.asc");
+  ASSERT_EQ(WaitForEnd(job), "successful");
+  const std::string report = job + "/results/report.json";
+  const RawAnswer whole = Ask(port_, "GET", report);
+  EXPECT_EQ(whole.body, R"({"descriptors": -1, "environment": "closed"})");
+  EXPECT_NE(whole.head.find("X-Content-Type-Options: nosniff"), std::string::npos);
+  EXPECT_NE(whole.head.find("Content-Disposition: attachment"), std::string::npos);
+  const std::size_t at = whole.head.find("ETag: ") + 6;
+  const std::string tag = whole.head.substr(at, whole.head.find("\r\n", at) - at);
+  EXPECT_EQ(Ask(port_, "GET", report, "If-None-Match: " + tag + "\r\n").status, 304);
+  const RawAnswer part = Ask(port_, "GET", report, "Range: bytes=1-13\r\n");
+  EXPECT_EQ(part.status, 206);
+  EXPECT_EQ(part.body, "\"descriptors\"");
+  EXPECT_EQ(Ask(port_, "GET", report, "Range: bytes=1000-\r\n").status, 416);
+  const RawAnswer head = Ask(port_, "HEAD", report);
+  EXPECT_EQ(head.status, 200);
+  EXPECT_TRUE(head.body.empty());
+  EXPECT_NE(head.head.find("Content-Length: 44"), std::string::npos);
+  EXPECT_EQ(Ask(port_, "GET", job + "/results/other").status, 404);
+}
+
+TEST_F(ServiceE2e, AWorkerEndsItsOwnJobAlone) {
+  StartStandIn({"FARHORIZON_WORKER_WALL_SECONDS=3", "FARHORIZON_WORKER_CPU_SECONDS=1",
+                "FARHORIZON_WORKER_FILE_BYTES=4194304", "FARHORIZON_WORKERS=3"});
+  const std::vector<std::pair<std::string, std::string>> fates = {
+      {"segv", "worker-crashed"},    {"exit3", "worker-crashed"}, {"nonsense", "worker-crashed"},
+      {"endless", "worker-crashed"}, {"liar", "worker-crashed"},  {"hang", "timeout"},
+      {"spin", "timeout"},           {"large", "file-limit"},     {"refused", "no-crs"}};
+  std::vector<std::string> jobs;
+  for (const auto& [name, code] : fates) jobs.push_back(Submit(name + ".asc"));
+  const std::string good = Submit("good.asc");
+  EXPECT_EQ(WaitForEnd(good), "successful");
+  for (std::size_t i = 0; i < fates.size(); ++i) {
+    EXPECT_EQ(WaitForEnd(jobs[i]), "failed") << fates[i].first;
+    EXPECT_EQ(FailureOf(jobs[i]), fates[i].second) << fates[i].first;
+  }
+  EXPECT_EQ(StatusOf(jobs[0])["attempt"], 2);  // a crash is forgiven once
+  EXPECT_EQ(StatusOf(jobs[8])["attempt"], 1);  // a refusal is final
+  EXPECT_EQ(Ask(port_, "GET", "/readyz").status, 200);
+  EXPECT_EQ(LeftOver("work"), 0U);
+}
+
+TEST_F(ServiceE2e, AProbeRefusesOrLeavesItToTheJob) {
+  StartStandIn();
+  const RawAnswer large = Ask(port_, "POST", "/jobs?filename=unreadable.asc",
+                              "Content-Type: application/octet-stream\r\n", SmallGrid());
+  EXPECT_EQ(large.status, 413);
+  EXPECT_EQ(json::parse(large.body)["code"], "raster-too-large");
+  EXPECT_EQ(WaitForEnd(Submit("probe-segv.asc")), "failed");
+}
+
+TEST_F(ServiceE2e, KillLosesNothingThatWasAcknowledged) {
+  StartStandIn({"FARHORIZON_WORKERS=1"});
+  std::vector<std::string> jobs;
+  for (const char* name : {"slow-1.asc", "good-2.asc", "good-3.asc"}) jobs.push_back(Submit(name));
+  ASSERT_EQ(WaitFor(jobs[0], {"running"}), "running");
+  service_->Signal(SIGKILL);
+  ASSERT_EQ(service_->Wait(), 128 + SIGKILL);
+  StartStandIn({"FARHORIZON_WORKERS=1"});
+  for (const std::string& job : jobs) {
+    EXPECT_EQ(WaitForEnd(job), "successful") << job;
+    EXPECT_EQ(Ask(port_, "GET", job + "/results/report.json").status, 200);
+  }
+  EXPECT_EQ(StatusOf(jobs[0])["attempt"], 2);
+  EXPECT_EQ(LeftOver("spool") + LeftOver("work"), 0U);
+}
+
+TEST_F(ServiceE2e, TermLetsShortJobsEndAndGivesLongOnesBack) {
+  StartStandIn({"FARHORIZON_JOBS_DRAIN_SECONDS=1", "FARHORIZON_WORKERS=1"});
+  const std::string job = Submit("slow.asc");
+  ASSERT_EQ(WaitFor(job, {"running"}), "running");
+  service_->Signal(SIGTERM);
+  int ready = 200;
+  for (int tries = 0; tries < 100 && ready == 200; ++tries)
+    ready = Ask(port_, "GET", "/readyz").status;
+  EXPECT_EQ(ready, 503);
+  EXPECT_EQ(service_->Wait(std::chrono::seconds(15)), 0);
+  StartStandIn();
+  EXPECT_EQ(WaitForEnd(job), "successful");
+}
+
+TEST_F(ServiceE2e, DismissalStopsTheWorker) {
+  StartStandIn({"FARHORIZON_WORKERS=1"});
+  const std::string job = Submit("hang.asc");
+  ASSERT_EQ(WaitFor(job, {"running"}), "running");
+  EXPECT_EQ(json::parse(Ask(port_, "DELETE", job).body)["status"], "dismissed");
+  EXPECT_EQ(WaitForEnd(Submit("good.asc")), "successful");  // the only slot is free again
+  EXPECT_EQ(StatusOf(job)["status"], "dismissed");
+  EXPECT_EQ(Ask(port_, "GET", job + "/results").status, 404);
+}
+
+TEST_F(ServiceE2e, OneKeyMakesOneJob) {
+  StartStandIn();
+  const std::string first = Submit("good.asc", "Idempotency-Key: \"k\"\r\n");
+  EXPECT_EQ(Submit("good.asc", "Idempotency-Key: \"k\"\r\n"), first);
+  EXPECT_EQ(json::parse(Ask(port_, "GET", "/jobs").body)["jobs"].size(), 1U);
+}
+
+TEST_F(ServiceE2e, HostileRequestsAreRefusedAndTheServiceLives) {
+  StartStandIn({"FARHORIZON_HTTP_MAX_BODY_BYTES=1000", "FARHORIZON_HTTP_HEAD_SECONDS=1",
+                "FARHORIZON_HTTP_BODY_GRACE_SECONDS=1", "FARHORIZON_HTTP_MAX_HEAD_BYTES=4096"});
+  const auto status = [&](const std::string& bytes) { return Exchange(port_, bytes).status; };
+  const std::string post = "POST /jobs HTTP/1.1\r\nHost: a\r\nContent-Type: image/tiff\r\n";
+  EXPECT_EQ(status("GET / HTTP/1.1\r\n\r\n"), 400);
+  EXPECT_EQ(status(post + "Content-Length: 3\r\nTransfer-Encoding: chunked\r\n\r\n"), 400);
+  EXPECT_EQ(status(post + "Transfer-Encoding: chunked, identity\r\n\r\n"), 501);
+  EXPECT_EQ(status(post + "Transfer-Encoding: chunked\r\n\r\nzz\r\n"), 400);
+  EXPECT_EQ(status(post + "Content-Length: 1001\r\n\r\n"), 413);
+  EXPECT_EQ(status(post + "Transfer-Encoding: chunked\r\n\r\n7d0\r\n" + std::string(2000, 'I') +
+                   "\r\n0\r\n\r\n"),
+            413);
+  EXPECT_EQ(status("GET / HTTP/1.1\r\nX: " + std::string(5000, 'a')), 431);
+  EXPECT_EQ(status("GET / HT"), 408);                               // never goes on
+  EXPECT_EQ(status(post + "Content-Length: 100\r\n\r\nII*"), 408);  // nor this
+  EXPECT_EQ(status(post + "Content-Length: 1001\r\nExpect: 100-continue\r\n\r\n"), 413);
+  EXPECT_EQ(status("GET /healthz HTTP/1.1\r\nHost: a\r\nConnection: close\r\n\r\n"), 200);
+  EXPECT_EQ(LeftOver("spool"), 0U);
+}
+
+TEST_F(ServiceE2e, AsksForABodyOnlyWhenItWillTakeIt) {
+  StartStandIn();
+  const std::string grid = SmallGrid();
+  const std::string head =
+      "POST /jobs?crs=EPSG:4326&filename=good.asc HTTP/1.1\r\nHost: a\r\n"
+      "Connection: close\r\nContent-Type: application/octet-stream\r\n"
+      "Expect: 100-continue\r\nContent-Length: " +
+      std::to_string(grid.size()) + "\r\n\r\n";
+  const RawAnswer answer = Exchange(port_, head + grid);
+  EXPECT_EQ(answer.status, 100);
+  EXPECT_NE(answer.body.find("HTTP/1.1 201 Created"), std::string::npos);
+}
+
+TEST_F(ServiceE2e, AnswersRequestAfterRequestOnOneConnection) {
+  StartStandIn();
+  const std::string get = "GET /healthz HTTP/1.1\r\nHost: a\r\n";
+  const RawAnswer answer =
+      Exchange(port_, get + "\r\n" + get + "\r\n" + get + "Connection: close\r\n\r\n");
+  std::size_t count = 0;
+  const std::string all = answer.head + answer.body;
+  for (std::size_t at = 0; (at = all.find("HTTP/1.1 200 OK", at)) != std::string::npos; ++at)
+    ++count;
+  EXPECT_EQ(count, 3U);
+}
+
+TEST_F(ServiceE2e, BoundsConnections) {
+  StartStandIn({"FARHORIZON_HTTP_MAX_CONNECTIONS=4"});
+  std::vector<int> idle;
+  for (int i = 0; i < 4; ++i) idle.push_back(Connect(port_));
+  EXPECT_EQ(Ask(port_, "GET", "/healthz").status, 503);
+  for (const int fd : idle) ::close(fd);
+  int status = 503;
+  for (int tries = 0; tries < 200 && status != 200; ++tries) {
+    status = Ask(port_, "GET", "/healthz").status;
+  }
+  EXPECT_EQ(status, 200);
+}
+
+TEST_F(ServiceE2e, RefusesToStartWhereItCannotWork) {
+  StartStandIn();
+  const auto serve = [&](const std::string& data, const std::string& listen) {
+    return Run({"serve", "--listen", listen, "--data", data});
+  };
+  EXPECT_EQ(serve((folder_ / "data").string(), "127.0.0.1:0"), 1);
+  EXPECT_NE(SlurpFile(folder_ / "stderr").find("in use by another farhorizon"), std::string::npos);
+  EXPECT_EQ(serve((folder_ / "d2").string(), "127.0.0.1:" + std::to_string(port_)), 1);
+  EXPECT_EQ(serve((folder_ / "d2").string(), "nowhere"), 2);
+  EXPECT_EQ(serve("/proc/farhorizon", "127.0.0.1:0"), 1);
+}
+
+TEST_F(ServiceE2e, ExitStatusTellsWhoseFaultItIs) {
+  EXPECT_EQ(Run({"build"}), 2);
+  EXPECT_EQ(Run({"build", "x", "-o", "y", "--levels", "99"}), 2);
+  EXPECT_EQ(Run({"nothing"}), 2);
+  EXPECT_EQ(Run({"build", (folder_ / "none.tif").string(), "-o", (folder_ / "o").string()}), 1);
+  EXPECT_EQ(Run({"submit", __FILE__, "--url", "ftp://x", "-o", (folder_ / "o").string()}), 2);
+  EXPECT_EQ(Run({"healthcheck", "--url", "http://127.0.0.1:1"}), 1);
+  StartStandIn();
+  EXPECT_EQ(Run({"healthcheck", "--url", "http://127.0.0.1:" + std::to_string(port_)}), 0);
+}
+
+}  // namespace
+}  // namespace farhorizon

@@ -1,0 +1,67 @@
+#include "service/config.h"
+
+#include <fstream>
+#include <iterator>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/temp_dir.h"
+
+namespace farhorizon {
+namespace {
+
+TEST(Config, TheDefaultFileIsComplete) {
+  std::ifstream file(std::string(FARHORIZON_SOURCE_DIR) + "/config/default.json");
+  const std::string text((std::istreambuf_iterator<char>(file)), {});
+  EXPECT_EQ(text, WriteConfig(Config{}))
+      << "run: farhorizon serve --print-config > config/default.json";
+}
+
+TEST(Config, EveryKeyHasItsOwnNameVariableAndHelp) {
+  std::set<std::string> names;
+  std::set<std::string> variables;
+  for (const ConfigKey& key : ConfigKeys()) {
+    EXPECT_TRUE(names.insert(key.name).second) << key.name;
+    EXPECT_TRUE(variables.insert(key.Environment()).second) << key.name;
+    EXPECT_FALSE(key.help.empty()) << key.name;
+  }
+  EXPECT_TRUE(variables.count("FARHORIZON_HTTP_MAX_BODY_BYTES"));
+}
+
+TEST(Config, FlagsComeBeforeEnvironmentBeforeFileBeforeDefaults) {
+  const TempDir folder;
+  std::ofstream(folder.path() / "c.json")
+      << R"({"workers": 2, "data": "f", "http": {"ioThreads": 3}})";
+  const auto loaded =
+      LoadConfig(folder.path() / "c.json", {{"FARHORIZON_DATA", "e"}, {"FARHORIZON_WORKERS", "4"}},
+                 {{"workers", "5"}});
+  ASSERT_TRUE(loaded);
+  EXPECT_EQ(loaded->config.workers, 5);
+  EXPECT_EQ(loaded->config.data, "e");
+  EXPECT_EQ(loaded->config.http_io_threads, 3);
+  EXPECT_EQ(loaded->config.listen, "127.0.0.1:8080");
+  EXPECT_EQ(loaded->origins.at("workers"), "the command line");
+  EXPECT_EQ(loaded->origins.at("data"), "FARHORIZON_DATA");
+}
+
+TEST(Config, RefusesWhatItDoesNotKnow) {
+  const TempDir folder;
+  const auto refuses = [&](const std::string& text) {
+    std::ofstream(folder.path() / "c.json") << text;
+    Result<LoadedConfig> loaded = LoadConfig(folder.path() / "c.json", {}, {});
+    return !loaded && loaded.error().code == ErrorCode::kInvalidArgument;
+  };
+  EXPECT_TRUE(refuses(R"({"worker": {"threads": 0}})"));
+  EXPECT_TRUE(refuses(R"({"workerz": 1})"));
+  EXPECT_TRUE(refuses(R"({"http": {"port": 1}})"));
+  EXPECT_TRUE(refuses(R"({"workers": "2"})"));
+  EXPECT_TRUE(refuses(R"({"workers": 1.5})"));
+  EXPECT_TRUE(refuses(R"({"log": {"level": "loud"}})"));
+  EXPECT_TRUE(refuses("[]"));
+  EXPECT_TRUE(refuses("{"));
+  EXPECT_FALSE(LoadConfig({}, {{"FARHORIZON_WORKER", "1"}}, {}));
+}
+
+}  // namespace
+}  // namespace farhorizon

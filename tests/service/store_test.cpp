@@ -1,0 +1,329 @@
+// What every JobStore and ObjectStore must do, whatever it is made of. A new implementation adds a
+// line to the lists at the end.
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "service/jobs/local_object_store.h"
+#include "service/jobs/object_keeper.h"
+#include "service/jobs/sqlite_job_store.h"
+#include "tests/support/temp_dir.h"
+
+namespace farhorizon {
+namespace {
+
+using OpenJobs = std::function<Result<std::unique_ptr<JobStore>>(const std::filesystem::path&)>;
+
+class JobStoreConformance : public testing::TestWithParam<OpenJobs> {
+ protected:
+  void SetUp() override { Reopen(); }
+  void Reopen() {
+    store_.reset();
+    auto opened = GetParam()(folder_.path());
+    ASSERT_TRUE(opened) << opened.error().message;
+    store_ = *std::move(opened);
+  }
+  Job Insert(const std::string& content = "a", std::optional<std::string> key = {}) {
+    NewJob job{NewJobId(++time_),           "dem.tif", {{"levels", "2"}},
+               std::string(64, content[0]), 5,         key};
+    auto inserted = store_->Insert(job, time_);
+    EXPECT_TRUE(inserted);
+    return inserted->first;
+  }
+  Job Claim() {
+    auto claimed = store_->ClaimNext(++time_);
+    EXPECT_TRUE(claimed && *claimed);
+    return **claimed;
+  }
+  JobState StateOf(const Job& job) { return store_->Find(job.id)->state; }
+
+  TempDir folder_;
+  std::unique_ptr<JobStore> store_;
+  std::int64_t time_ = 1'700'000'000'000;
+};
+
+TEST_P(JobStoreConformance, KeepsAJobOverAReopen) {
+  const Job job = Insert();
+  Reopen();
+  const auto found = store_->Find(job.id);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->state, JobState::kAccepted);
+  EXPECT_EQ(found->parameters, job.parameters);
+  EXPECT_EQ(found->filename, "dem.tif");
+  EXPECT_EQ(found->input_bytes, 5);
+}
+
+TEST_P(JobStoreConformance, HandsOutEachJobOnceOldestFirst) {
+  const Job first = Insert();
+  const Job second = Insert();
+  EXPECT_EQ(Claim().id, first.id);
+  EXPECT_EQ(Claim().id, second.id);
+  const auto none = store_->ClaimNext(++time_);
+  ASSERT_TRUE(none);
+  EXPECT_FALSE(*none);
+}
+
+TEST_P(JobStoreConformance, HandsOutEachJobOnceToManyThreads) {
+  constexpr int kJobs = 60;
+  for (int i = 0; i < kJobs; ++i) Insert();
+  std::atomic<int> claimed{0};
+  std::vector<std::thread> threads;
+  for (int i = 0; i < 4; ++i) {
+    threads.emplace_back([&] {
+      for (;;) {
+        auto job = store_->ClaimNext(time_);
+        if (!job || !*job) return;
+        ++claimed;
+      }
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(claimed, kJobs);
+}
+
+TEST_P(JobStoreConformance, PublishesArtifactsWithTheState) {
+  Insert();
+  const Job job = Claim();
+  EXPECT_TRUE(store_->Artifacts(job.id)->empty());
+  const std::vector<Artifact> artifacts = {{"b", "x/y", 1, std::string(64, 'b')},
+                                           {"a", "x/z", 2, std::string(64, 'c')}};
+  ASSERT_TRUE(*store_->Publish(job.id, job.attempt, artifacts, {{"sweep", 1.5}}, ++time_));
+  const auto found = store_->Find(job.id);
+  EXPECT_EQ(found->state, JobState::kSuccessful);
+  EXPECT_EQ(found->progress, 100);
+  EXPECT_EQ(found->finished_ms, time_);
+  EXPECT_EQ(found->timings.at("sweep"), 1.5);
+  const auto stored = store_->Artifacts(job.id);
+  ASSERT_EQ(stored->size(), 2U);
+  EXPECT_EQ(stored->at(0).name, "a");
+  EXPECT_EQ(stored->at(1).sha256, std::string(64, 'b'));
+}
+
+TEST_P(JobStoreConformance, KeepsTheFailure) {
+  Insert();
+  const Job job = Claim();
+  ASSERT_TRUE(*store_->Fail(job.id, job.attempt,
+                            {ErrorCode::kUnsupportedData, "no reference system", "no-crs"},
+                            ++time_));
+  const auto found = store_->Find(job.id);
+  ASSERT_TRUE(found->failure);
+  EXPECT_EQ(found->failure->code, ErrorCode::kUnsupportedData);
+  EXPECT_EQ(found->failure->kind, "no-crs");
+  EXPECT_EQ(found->failure->message, "no reference system");
+}
+
+TEST_P(JobStoreConformance, HearsNoWordOfAnEarlierAttempt) {
+  Insert();
+  const Job earlier = Claim();
+  ASSERT_TRUE(
+      *store_->Requeue(earlier.id, earlier.attempt, RequeueReason::kWorkerCrashed, ++time_));
+  const Job later = Claim();
+  EXPECT_EQ(later.id, earlier.id);
+  EXPECT_EQ(later.attempt, earlier.attempt + 1);
+  EXPECT_EQ(later.crash_count, 1);
+  EXPECT_FALSE(*store_->ReportProgress(earlier.id, earlier.attempt, 50, "late", ++time_));
+  EXPECT_FALSE(*store_->Publish(earlier.id, earlier.attempt, {}, {}, ++time_));
+  EXPECT_FALSE(*store_->Fail(earlier.id, earlier.attempt, {ErrorCode::kIo, "x"}, ++time_));
+  EXPECT_FALSE(
+      *store_->Requeue(earlier.id, earlier.attempt, RequeueReason::kServiceStopped, ++time_));
+  EXPECT_TRUE(*store_->Publish(later.id, later.attempt, {}, {}, ++time_));
+}
+
+TEST_P(JobStoreConformance, ADismissedJobNeverBecomesSuccessful) {
+  Insert();
+  const Job job = Claim();
+  EXPECT_EQ(store_->Dismiss(job.id, ++time_)->state, JobState::kDismissed);
+  EXPECT_FALSE(*store_->Publish(job.id, job.attempt, {}, {}, ++time_));
+  EXPECT_FALSE(*store_->Requeue(job.id, job.attempt, RequeueReason::kServiceStopped, ++time_));
+  EXPECT_EQ(StateOf(job), JobState::kDismissed);
+}
+
+TEST_P(JobStoreConformance, DismissalAndPublicationHaveOneWinner) {
+  for (int round = 0; round < 50; ++round) {
+    Insert();
+    const Job job = Claim();
+    bool published = false;
+    std::thread publisher(
+        [&] { published = *store_->Publish(job.id, job.attempt, {}, {}, time_); });
+    ASSERT_TRUE(store_->Dismiss(job.id, time_));
+    publisher.join();
+    const auto found = store_->Find(job.id);
+    // Published first: the dismissal removed it. Dismissed first: it stays so.
+    EXPECT_EQ(found.has_value(), !published);
+    if (found) {
+      EXPECT_EQ(found->state, JobState::kDismissed);
+    }
+  }
+}
+
+TEST_P(JobStoreConformance, RemovesAFinishedJob) {
+  Insert();
+  const Job job = Claim();
+  const std::string object(64, 'b');
+  ASSERT_TRUE(*store_->Publish(job.id, job.attempt, {{"a", "x/y", 1, object}}, {}, ++time_));
+  EXPECT_TRUE(*store_->IsReferenced(object));
+  EXPECT_EQ(store_->Dismiss(job.id, ++time_)->state, JobState::kDismissed);
+  EXPECT_EQ(store_->Find(job.id).error().code, ErrorCode::kNotFound);
+  EXPECT_EQ(store_->Dismiss(job.id, ++time_).error().code, ErrorCode::kNotFound);
+  EXPECT_FALSE(*store_->IsReferenced(object));
+  EXPECT_FALSE(*store_->IsReferenced(job.input_sha256));
+}
+
+TEST_P(JobStoreConformance, ProgressNeverFalls) {
+  Insert();
+  const Job job = Claim();
+  ASSERT_TRUE(*store_->ReportProgress(job.id, job.attempt, 60, "sweep", ++time_));
+  ASSERT_TRUE(*store_->ReportProgress(job.id, job.attempt, 40, "encode", ++time_));
+  EXPECT_EQ(store_->Find(job.id)->progress, 60);
+  EXPECT_EQ(store_->Find(job.id)->message, "encode");
+}
+
+TEST_P(JobStoreConformance, TakesUpWhatWasRunning) {
+  const Job waiting = Insert();
+  const Job running = Claim();
+  Reopen();
+  EXPECT_EQ(*store_->RecoverRunning(++time_), 1);
+  EXPECT_EQ(StateOf(running), JobState::kAccepted);
+  EXPECT_EQ(Claim().id, waiting.id);
+}
+
+TEST_P(JobStoreConformance, OneKeyMakesOneJob) {
+  const Job first = Insert("a", "key");
+  NewJob again{NewJobId(++time_), "dem.tif", {{"levels", "2"}}, first.input_sha256, 5, "key"};
+  const auto replayed = store_->Insert(again, time_);
+  ASSERT_TRUE(replayed);
+  EXPECT_TRUE(replayed->second);
+  EXPECT_EQ(replayed->first.id, first.id);
+  again.input_sha256 = std::string(64, 'f');
+  EXPECT_EQ(store_->Insert(again, time_).error().kind, "idempotency-key-reused");
+  again.input_sha256 = first.input_sha256;
+  again.parameters = {{"levels", "3"}};
+  EXPECT_EQ(store_->Insert(again, time_).error().kind, "idempotency-key-reused");
+  EXPECT_EQ(store_->List({{}, {}, 10})->jobs.size(), 1U);
+}
+
+TEST_P(JobStoreConformance, PagesThroughAllJobsNewestFirst) {
+  std::vector<std::string> ids;
+  for (int i = 0; i < 7; ++i) ids.insert(ids.begin(), Insert().id);
+  std::vector<std::string> seen;
+  JobQuery query{{}, {}, 3};
+  for (;;) {
+    const auto page = store_->List(query);
+    ASSERT_TRUE(page);
+    for (const Job& job : page->jobs) seen.push_back(job.id);
+    if (!page->next) break;
+    query.before = page->next;
+    Insert();  // what comes meanwhile moves nothing
+  }
+  EXPECT_EQ(seen, ids);
+}
+
+TEST_P(JobStoreConformance, FiltersByState) {
+  Insert();
+  Insert();
+  Claim();
+  EXPECT_EQ(store_->List({{JobState::kRunning}, {}, 10})->jobs.size(), 1U);
+  EXPECT_EQ(store_->List({{JobState::kRunning, JobState::kAccepted}, {}, 10})->jobs.size(), 2U);
+  EXPECT_EQ(store_->List({{JobState::kFailed}, {}, 10})->jobs.size(), 0U);
+  EXPECT_EQ(*store_->CountWaiting(), 1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Sqlite, JobStoreConformance,
+                         testing::Values([](const std::filesystem::path& folder) {
+                           return OpenSqliteJobStore(folder / "jobs.sqlite");
+                         }));
+
+TEST(SqliteJobStore, NeverStartsAfreshOverAFileThatItCannotRead) {
+  const TempDir folder;
+  const auto path = folder / "jobs.sqlite";
+  SpillFile(path, std::string(8192, 'x'));
+  auto opened = OpenSqliteJobStore(path);
+  ASSERT_FALSE(opened);
+  EXPECT_NE(opened.error().message.find("backup"), std::string::npos);
+  EXPECT_EQ(SlurpFile(path), std::string(8192, 'x'));
+}
+
+TEST(SqliteJobStore, SeesAByteTurnedInItsPages) {
+  const TempDir folder;
+  const auto path = folder / "jobs.sqlite";
+  {
+    auto store = OpenSqliteJobStore(path);
+    ASSERT_TRUE(store);
+    ASSERT_TRUE((*store)->Insert({NewJobId(1), "a", {}, std::string(64, 'a'), 1, {}}, 1));
+  }
+  std::string bytes = SlurpFile(path);
+  for (std::size_t i = 4096; i < 4096 + 64 && i < bytes.size(); ++i) bytes[i] = '\x5A';
+  SpillFile(path, bytes);
+  EXPECT_FALSE(OpenSqliteJobStore(path));
+}
+
+class ObjectStoreTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    auto opened = OpenLocalObjectStore(folder_ / "objects");
+    ASSERT_TRUE(opened);
+    store_ = *std::move(opened);
+  }
+  std::string Put(const std::string& bytes) {
+    SpillFile(folder_ / "file", bytes);
+    auto stored = store_->PutFile(folder_ / "file");
+    EXPECT_TRUE(stored);
+    return stored->sha256;
+  }
+
+  TempDir folder_;
+  std::unique_ptr<ObjectStore> store_;
+};
+
+TEST_F(ObjectStoreTest, GivesBackWhatItWasGiven) {
+  const std::string name = Put("hello");
+  EXPECT_EQ(name, "2cf24dba5fb0a30e26e83b2ac5b9e29e1b161e5c1fa7425e73043362938b9824");
+  EXPECT_EQ(store_->Open(name)->bytes, 5);
+  ASSERT_TRUE(store_->Materialise(name, folder_ / "copy"));
+  EXPECT_EQ(SlurpFile(folder_ / "copy"), "hello");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "file"));
+}
+
+TEST_F(ObjectStoreTest, StoresTheSameBytesOnce) {
+  EXPECT_EQ(Put("a"), Put("a"));
+  EXPECT_EQ(store_->List()->size(), 1U);
+}
+
+TEST_F(ObjectStoreTest, ForgetsWhatIsRemoved) {
+  const std::string name = Put("a");
+  EXPECT_TRUE(store_->Remove(name));
+  EXPECT_TRUE(store_->Remove(name));
+  EXPECT_EQ(store_->Open(name).error().code, ErrorCode::kNotFound);
+}
+
+TEST_F(ObjectStoreTest, FollowsNoLink) {
+  SpillFile(folder_ / "secret", "s");
+  std::filesystem::create_symlink(folder_ / "secret", folder_ / "link");
+  EXPECT_FALSE(store_->PutFile(folder_ / "link"));
+  EXPECT_FALSE(store_->Open("../secret"));
+}
+
+TEST_F(ObjectStoreTest, SeesADamagedObjectBeforeAWorkerDoes) {
+  const std::string name = Put("hello");
+  const auto path = folder_ / "objects" / name.substr(0, 2) / name;
+  std::filesystem::permissions(path, std::filesystem::perms::owner_all);
+  SpillFile(path, "hellp");
+  EXPECT_EQ(store_->Materialise(name, folder_ / "copy").error().kind, "input-corrupt");
+}
+
+TEST_F(ObjectStoreTest, KeepsWhatARowNamesAndNothingElse) {
+  auto jobs = OpenSqliteJobStore(folder_ / "jobs.sqlite");
+  ASSERT_TRUE(jobs);
+  const std::string named = Put("named");
+  Put("unnamed");
+  ASSERT_TRUE((*jobs)->Insert({NewJobId(1), "a", {}, named, 5, {}}, 1));
+  ASSERT_TRUE(ObjectKeeper(**jobs, *store_).RemoveAllUnnamed());
+  EXPECT_EQ(*store_->List(), std::vector<std::string>{named});
+}
+
+}  // namespace
+}  // namespace farhorizon

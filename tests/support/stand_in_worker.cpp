@@ -1,0 +1,91 @@
+// A worker that does what its input's name says, to see what the service makes of it.
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <string>
+#include <sys/resource.h>
+#include <thread>
+#include <unistd.h>
+#include <vector>
+
+#include "core/io/files.h"
+#include "service/worker/message.h"
+
+namespace {
+
+using namespace farhorizon;
+
+void Say(const std::string& line) {
+  if (::write(3, line.data(), line.size()) < 0) std::_Exit(3);
+}
+
+void WriteOne(const std::string& folder, const std::string& bytes) {
+  if (!WriteFile(folder + "/report.json", bytes)) std::_Exit(4);
+  const std::string manifest =
+      WriteManifest({{"report.json", "application/json", bytes.size(), Sha256Hex(bytes)}});
+  if (!WriteFile(folder + "/manifest.json", manifest)) std::_Exit(4);
+}
+
+bool Named(const WorkerTask& task, const char* word) {
+  return task.input.find(word) != std::string::npos;
+}
+
+int Misbehave(const WorkerTask& task) {
+  if (Named(task, "segv")) std::raise(SIGSEGV);
+  if (Named(task, "exit3")) return 3;
+  if (Named(task, "hang")) std::this_thread::sleep_for(std::chrono::hours(1));
+  if (Named(task, "nonsense")) Say("{\"done\": [[[[[[[[]]]]]]]]}\n");
+  if (Named(task, "endless")) {
+    for (;;) Say(std::string(4096, 'x'));
+  }
+  if (Named(task, "spin")) {
+    for (volatile bool forever = true; forever;) {
+    }
+  }
+  if (Named(task, "large")) {
+    std::ofstream file(task.output + "/large");
+    const std::string piece(1 << 20, 'x');
+    while (file) file << piece << std::flush;
+  }
+  if (Named(task, "liar")) {
+    WriteOne(task.output, "{}");
+    if (!WriteFile(task.output + "/report.json", "{ }")) return 4;
+    Say(WriteMessage(WorkerDone{}));
+    return 0;
+  }
+  if (Named(task, "refused")) {
+    Say(WriteMessage(
+        Error{ErrorCode::kUnsupportedData, "the DEM has no reference system", "no-crs"}));
+    return 1;
+  }
+  if (Named(task, "slow")) {
+    for (int i = 0; i < 20; ++i) {
+      Say(WriteMessage(WorkerProgress{"sweep", i / 20.0}));
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    }
+  }
+  WriteOne(task.output, "{\"descriptors\": " + std::to_string(::access("/proc/self/fd/4", F_OK)) +
+                            ", \"environment\": " +
+                            (std::getenv("SECRET") != nullptr ? "\"open\"" : "\"closed\"") + "}");
+  Say(WriteMessage(WorkerDone{{{"sweep", 0.5}}}));
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::vector<std::string> words(argv, argv + argc);
+  Result<std::string> text = ReadFile("task.json");
+  if (!text) return 70;
+  Result<WorkerTask> task = ReadTask(*text);
+  if (!task) return 70;
+  if (words.back() != "--probe") return Misbehave(*task);
+  if (Named(*task, "unreadable")) {
+    Say(WriteMessage(Error{ErrorCode::kResourceExhausted, "too large", "raster-too-large"}));
+    return 1;
+  }
+  if (Named(*task, "probe-segv")) std::raise(SIGSEGV);
+  Say(WriteMessage(WorkerDone{}));
+  return 0;
+}
