@@ -59,7 +59,7 @@ Result<std::vector<LevelPlan>> PlanLevels(const Source& source, const BuildOptio
     plan.silhouette_error_m = level == 0 ? options.silhouette_error_m
                                          : std::max(options.silhouette_error_m, max_error_m / 8);
     Result<QuantizationLattice> lattice =
-        LatticeFor(source.terrain(), source.placement(), max_error_m / 32);
+        LatticeFor(source.terrain(), source.placement(), max_error_m / 128);
     if (!lattice) return std::move(lattice.error());
     plan.lattice = *lattice;
     const double step_m = plan.lattice.step_m;

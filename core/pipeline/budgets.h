@@ -19,7 +19,7 @@ struct LevelPlan {
 };
 
 /// A plan for each level: level 0 as asked, each further one twice the vertical error of the one before
-/// and an eighth of that as silhouette error. The lattice's step is a 32nd of the vertical error where 16
+/// and an eighth of that as silhouette error. The lattice's step is a 16th of the silhouette error where 16
 /// bits reach over the terrain, and what it can do to heights is kept back from the simplifier.
 /// Errors: kInvalidArgument "max-error-too-small" where the lattice alone would use up the error asked
 ///   for, naming the least possible.

@@ -145,6 +145,8 @@ Result<std::vector<LevelReport>> WriteLevels(const LevelContext& context,
     Result<LevelArtifact> level = EncodeLevel(context, chain[i], static_cast<int>(i),
                                               plans[i].lattice, plans[i].silhouette_error_m);
     if (!level) return std::move(level.error());
+    level->report.asked_vertical_m = plans[i].max_error_m;
+    level->report.asked_silhouette_m = plans[i].silhouette_error_m;
     const std::string name = "lod" + std::to_string(i);
     if (Asks(options, "3dtiles")) {
       Status added = writer.Add(name + ".glb", AsText(level->glb));

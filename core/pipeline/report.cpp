@@ -82,16 +82,18 @@ void ReadHorizon(const Json& json, Report& report) {
 }
 
 Json ToJson(const LevelReport& level) {
-  return {{"level", level.level},
-          {"triangles", level.triangles},
-          {"vertices", level.vertices},
-          {"horizon_edges", level.horizon_edges},
-          {"vertical_error_m", ToJson(level.vertical)},
-          {"silhouette_error_m", ToJson(level.silhouette)},
-          {"geometric_error_m", level.geometric_error_m},
-          {"quantization_step_m", level.quantization_step_m},
-          {"glb_bytes", level.glb_bytes},
-          {"drc_bytes", level.drc_bytes}};
+  return {
+      {"level", level.level},
+      {"triangles", level.triangles},
+      {"vertices", level.vertices},
+      {"horizon_edges", level.horizon_edges},
+      {"asked_m", {{"vertical", level.asked_vertical_m}, {"silhouette", level.asked_silhouette_m}}},
+      {"vertical_error_m", ToJson(level.vertical)},
+      {"silhouette_error_m", ToJson(level.silhouette)},
+      {"geometric_error_m", level.geometric_error_m},
+      {"quantization_step_m", level.quantization_step_m},
+      {"glb_bytes", level.glb_bytes},
+      {"drc_bytes", level.drc_bytes}};
 }
 
 LevelReport ReadLevel(const Json& json) {
@@ -100,6 +102,8 @@ LevelReport ReadLevel(const Json& json) {
   json.at("triangles").get_to(level.triangles);
   json.at("vertices").get_to(level.vertices);
   json.at("horizon_edges").get_to(level.horizon_edges);
+  json.at("asked_m").at("vertical").get_to(level.asked_vertical_m);
+  json.at("asked_m").at("silhouette").get_to(level.asked_silhouette_m);
   level.vertical = ReadMeasure(json.at("vertical_error_m"));
   level.silhouette = ReadMeasure(json.at("silhouette_error_m"));
   json.at("geometric_error_m").get_to(level.geometric_error_m);

@@ -30,6 +30,8 @@ struct LevelReport {
   std::int64_t triangles = 0;
   std::int64_t vertices = 0;
   std::int64_t horizon_edges = 0;
+  double asked_vertical_m = 0;    ///< what the level was allowed
+  double asked_silhouette_m = 0;  ///< and where the search for the certified bound began
   ErrorMeasure vertical;
   ErrorMeasure silhouette;
   double geometric_error_m = 0;

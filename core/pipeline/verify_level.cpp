@@ -112,7 +112,7 @@ std::vector<Edge> VerifyLevel(const LevelContext& context, const std::filesystem
   if (stream->glb) VerifyAccessors(name, *stream->glb, *mesh, claims);
   claims.Add(AllTurnLeft(*mesh), name + ": no triangle is flipped or without area");
   Result<LevelReport> found = MeasureLevel(context, *mesh, claimed.level,
-                                           claimed.quantization_step_m, claimed.silhouette.max_m);
+                                           claimed.quantization_step_m, claimed.asked_silhouette_m);
   claims.Add(found.has_value(),
              name + " covers the DEM without cracks" + (found ? "" : ": " + found.error().message));
   if (!found) return {};

@@ -14,7 +14,8 @@ Report SomeReport() {
   report.statistics.candidates = 60000;
   report.statistics.peaks = 12;
   report.statistics.predicates = {1, 2, 3};
-  report.levels.push_back({0, 10, 11, 12, {1.5, 0.5}, {0.25, 0.125}, 3.5, 0.0625, 1000, 900});
+  report.levels.push_back(
+      {0, 10, 11, 12, 2.5, 0.5, {1.5, 0.5}, {0.25, 0.125}, 3.5, 0.0625, 1000, 900});
   return report;
 }
 
