@@ -12,31 +12,24 @@ namespace {
 
 constexpr double kEarthRadiusM = 6371000;
 
-// The steepest slope of the terrain's triangles, metres up a metre along.
-double SteepestSlope(const Source& source) {
-  const Dem& dem = source.dem();
-  double steepest = 0;
-  for (const Triangle& t : source.terrain().Triangles()) {
-    const Point3i a = source.terrain().Point(t[0]);
-    const Point3i b = source.terrain().Point(t[1]);
-    const Point3i c = source.terrain().Point(t[2]);
-    const double ux = (b.x - a.x) * source.placement().column_step_m();
-    const double uy = (b.y - a.y) * source.placement().row_step_m();
-    const double uz = (static_cast<double>(b.z) - a.z) * dem.quantum_m;
-    const double vx = (c.x - a.x) * source.placement().column_step_m();
-    const double vy = (c.y - a.y) * source.placement().row_step_m();
-    const double vz = (static_cast<double>(c.z) - a.z) * dem.quantum_m;
-    const double area = ux * vy - uy * vx;
-    steepest =
-        std::max(steepest, std::hypot(uy * vz - uz * vy, uz * vx - ux * vz) / std::abs(area));
+// The terrain's steepest slopes along columns and along rows together, metres up a metre along.
+double SteepestSlopes(const Source& source) {
+  const double quantum_m = source.dem().quantum_m;
+  double by_column = 0;
+  double by_row = 0;
+  for (const Edge& edge : source.terrain().Edges()) {
+    const Point3i a = source.terrain().Point(edge.a);
+    const Point3i b = source.terrain().Point(edge.b);
+    const double rise_m = std::abs(static_cast<double>(b.z) - a.z) * quantum_m;
+    // Every triangle has a side along each axis.
+    if (a.y == b.y) by_column = std::max(by_column, rise_m / source.placement().column_step_m());
+    if (a.x == b.x) by_row = std::max(by_row, rise_m / source.placement().row_step_m());
   }
-  return steepest;
+  return by_column + by_row;
 }
 
 // What rounding a vertex by half a step on each axis does to the height over a fixed place.
-double HeightLost(double step_m, double slope) {
-  return 0.5 * step_m + slope * step_m * std::sqrt(0.5);
-}
+double HeightLost(double step_m, double slopes) { return 0.5 * step_m * (1 + slopes); }
 
 std::string Metres(double value) {
   std::string text = std::to_string(value);
@@ -50,7 +43,7 @@ std::string Metres(double value) {
 Result<std::vector<LevelPlan>> PlanLevels(const Source& source, const BuildOptions& options) {
   const double cell_m =
       std::sqrt(source.placement().column_step_m() * source.placement().row_step_m());
-  const double slope = SteepestSlope(source);
+  const double slopes = SteepestSlopes(source);
   std::vector<LevelPlan> plans;
   double max_error_m = options.max_error_m.value_or(cell_m / 8);
   for (int level = 0; level < options.levels; ++level, max_error_m *= 2) {
@@ -63,7 +56,7 @@ Result<std::vector<LevelPlan>> PlanLevels(const Source& source, const BuildOptio
     if (!lattice) return std::move(lattice.error());
     plan.lattice = *lattice;
     const double step_m = plan.lattice.step_m;
-    const double lost = HeightLost(step_m, slope);
+    const double lost = HeightLost(step_m, slopes);
     if (lost >= max_error_m && options.max_error_m) {
       return Error{ErrorCode::kInvalidArgument,
                    "a vertical error of " + Metres(max_error_m) +

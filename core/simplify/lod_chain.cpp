@@ -7,14 +7,24 @@
 
 #include "core/simplify/border.h"
 #include "core/simplify/collapse.h"
+#include "core/simplify/plan.h"
 #include "core/simplify/ridge_network.h"
 #include "core/simplify/skyline_guard.h"
 
 namespace farhorizon {
 namespace {
 
-// About ten seconds' worth. A count, not a clock, so that the result is the same everywhere.
-constexpr std::int64_t kMostFarProofs = 16384;
+// No triangle of a level is steeper than the DEM's own: what rounding a vertex's place does to heights
+// then stays what it would be on the DEM, and slivers do not stand on end.
+Slope SteepestSlope(const Terrain& terrain) {
+  Slope steepest;
+  for (const Triangle& t : terrain.Triangles()) {
+    const Slope slope = SlopeOf(terrain.Point(t[0]), terrain.Point(t[1]), terrain.Point(t[2]));
+    steepest.by_column = std::max(steepest.by_column, slope.by_column);
+    steepest.by_row = std::max(steepest.by_row, slope.by_row);
+  }
+  return steepest;
+}
 
 class ChainBuilder {
  public:
@@ -22,28 +32,24 @@ class ChainBuilder {
       : terrain_(terrain),
         horizon_(horizon),
         outline_(OutlinePosts(terrain)),
+        steepest_(SteepestSlope(terrain)),
         collapser_(terrain),
         guard_(terrain, horizon),
         ridges_(terrain, horizon, guard_.scale()) {}
 
-  /// coarsest: the last level, for which ridges may also go that only far ones make up for. Finer
-  /// levels do without: what leans on far ridges holds them fast in the levels after.
-  Status BuildLevel(const LevelBudget& budget, bool coarsest, const Watch& watch,
+  Status BuildLevel(const LevelBudget& budget, const Watch& watch,
                     const std::function<void(double)>& report) {
     const double quantum = terrain_.dem().quantum_m;
     const std::int32_t steps = guard_.scale().Steps(budget.silhouette_error_m / quantum);
     ridges_.Allow(steps);
     ridges_.ShedLooseEnds(watch);
     CollapseRules rules;
-    rules.limits = {budget.vertical_error_m / quantum, budget.longest_edge, budget.least_altitude};
+    rules.limits = {budget.vertical_error_m / quantum, budget.longest_edge, budget.least_altitude,
+                    steepest_};
     rules.may_leave = PostsThatMayLeave(steps);
     rules.may_stand = [this, steps](VertexId p, VertexId q) { return guard_.Hides(p, q, steps); };
     rules.may_move = [this](VertexId v, VertexId b) { return ridges_.MayMove(v, b); };
     rules.move_ridges = [this](VertexId v, VertexId b) { return ridges_.Move(v, b); };
-    Status status = collapser_.Run(rules, watch, report);
-    if (!status || !coarsest || steps == 0) return status;
-    ridges_.SearchFar(kMostFarProofs);
-    ridges_.ShedLooseEnds(watch);
     return collapser_.Run(rules, watch, report);
   }
 
@@ -77,6 +83,7 @@ class ChainBuilder {
   const Terrain& terrain_;
   const Horizon& horizon_;
   std::vector<bool> outline_;
+  Slope steepest_;
   Collapser collapser_;
   SkylineGuard guard_;
   RidgeNetwork ridges_;
@@ -93,8 +100,7 @@ Result<std::vector<Lod>> BuildLodChain(const Terrain& terrain, const Horizon& ho
   for (const LevelBudget& budget : budgets) {
     const auto done = static_cast<double>(levels.size());
     const auto report = [&](double share) { watch.Report("simplify", (done + share) / count); };
-    const bool coarsest = levels.size() + 1 == budgets.size();
-    Status status = builder.BuildLevel(budget, coarsest, watch, report);
+    Status status = builder.BuildLevel(budget, watch, report);
     if (!status) return std::move(status.error());
     levels.push_back(builder.Level());
   }

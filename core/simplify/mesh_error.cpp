@@ -22,7 +22,9 @@ Error BadMesh(const std::string& what, const char* kind) {
 
 /// What moving the vertices from their posts has done.
 struct Displacement {
-  double greatest = 0;    ///< in plan, columns or rows
+  double greatest = 0;   ///< in plan, columns or rows
+  double by_column = 0;  ///< along each axis, columns or rows
+  double by_row = 0;
   double greatest_m = 0;  ///< in height
 };
 
@@ -49,6 +51,9 @@ Result<Displacement> MeasureDisplacement(const Terrain& terrain, const GridMesh&
                      "displaced-vertex");
     }
     displacement.greatest = std::max(displacement.greatest, off);
+    displacement.by_column =
+        std::max(displacement.by_column, std::abs(p.column - terrain.dem().Column(v)));
+    displacement.by_row = std::max(displacement.by_row, std::abs(p.row - terrain.dem().Row(v)));
     displacement.greatest_m =
         std::max(displacement.greatest_m, std::abs(p.height_m - terrain.dem().HeightM(v)));
   }
@@ -96,21 +101,17 @@ Result<std::vector<Triangle>> TrianglesOverPosts(const Terrain& terrain, const G
   return triangles;
 }
 
-/// The steepest a triangle over posts is, metres a column or row.
-double SteepestSlope(const Terrain& terrain, const std::vector<Triangle>& triangles) {
-  double steepest = 0;
+/// What moving the vertices along the grid does to the height over a fixed place, metres: the most on
+/// any triangle over posts.
+double HeightLost(const Terrain& terrain, const std::vector<Triangle>& triangles,
+                  const Displacement& displacement) {
+  double most = 0;
   for (const Triangle& t : triangles) {
-    const Point3i a = terrain.Point(t[0]);
-    const Point3i b = terrain.Point(t[1]);
-    const Point3i c = terrain.Point(t[2]);
-    const auto area = static_cast<double>(TwiceArea(a, b, c));
-    const double rise_b = static_cast<double>(b.z) - a.z;
-    const double rise_c = static_cast<double>(c.z) - a.z;
-    const double by_x = rise_b * (c.y - a.y) - rise_c * (b.y - a.y);
-    const double by_y = rise_b * (c.x - a.x) - rise_c * (b.x - a.x);
-    steepest = std::max(steepest, std::hypot(by_x, by_y) / area);
+    const Slope slope = SlopeOf(terrain.Point(t[0]), terrain.Point(t[1]), terrain.Point(t[2]));
+    most = std::max(most,
+                    slope.by_column * displacement.by_column + slope.by_row * displacement.by_row);
   }
-  return steepest * terrain.dem().quantum_m;
+  return most * terrain.dem().quantum_m;
 }
 
 std::vector<GridSegment> SkylineOf(const Terrain& terrain, const Horizon& horizon) {
@@ -165,12 +166,13 @@ Result<MeshError> MeasureMeshError(const Terrain& terrain, const Horizon& horizo
                                         terrain.dem().columns, terrain.dem().rows);
   watch.Report("measure", 0.4);
   const double quantum = terrain.dem().quantum_m;
-  Result<double> bound = SilhouetteBound(terrain, horizon, *edges, asked_m / quantum, watch);
+  // A point of the mesh is at most `by_column`, `by_row` in plan and `greatest_m` in height away from
+  // its place on the mesh over posts, whose height changes by no more than its slopes on the way.
+  const double lost_m = displacement->greatest_m + HeightLost(terrain, *triangles, *displacement);
+  Result<double> bound =
+      SilhouetteBound(terrain, horizon, *edges, (asked_m - lost_m) / quantum, watch);
   if (!bound) return std::move(bound.error());
-  // A point of the mesh is at most `greatest` in plan and `greatest_m` in height away from its place
-  // on the mesh over posts, whose height changes by no more than its steepest slope on the way.
-  error.silhouette.max_m = *bound * quantum + displacement->greatest_m +
-                           SteepestSlope(terrain, *triangles) * displacement->greatest;
+  error.silhouette.max_m = *bound * quantum + lost_m;
   watch.Report("measure", 1.0);
   return error;
 }

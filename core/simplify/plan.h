@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include "core/exact/wide.h"
 #include "core/terrain/terrain.h"
@@ -23,6 +25,24 @@ inline std::int64_t SquaredLength(Point3i p, Point3i q) {
   const std::int64_t dx = q.x - p.x;
   const std::int64_t dy = q.y - p.y;
   return dx * dx + dy * dy;
+}
+
+/// How much a triangle rises, at most, along the two axes of the grid: quanta a column, quanta a row.
+struct Slope {
+  double by_column = 0;
+  double by_row = 0;
+};
+
+inline constexpr Slope kAnySlope = {std::numeric_limits<double>::infinity(),
+                                    std::numeric_limits<double>::infinity()};
+
+/// Sizes only, no signs. Requires: a, b, c turn counter-clockwise in plan.
+inline Slope SlopeOf(Point3i a, Point3i b, Point3i c) {
+  const auto area = static_cast<double>(TwiceArea(a, b, c));
+  const double rise_b = static_cast<double>(b.z) - a.z;
+  const double rise_c = static_cast<double>(c.z) - a.z;
+  return {std::abs(rise_b * (c.y - a.y) - rise_c * (b.y - a.y)) / area,
+          std::abs(rise_b * (c.x - a.x) - rise_c * (b.x - a.x)) / area};
 }
 
 /// Sign of the height of the segment v, w over the segment p, q where they cross in plan.

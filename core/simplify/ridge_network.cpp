@@ -21,7 +21,6 @@ RidgeNetwork::RidgeNetwork(const Terrain& terrain, const Horizon& horizon, Heigh
     : terrain_(&terrain),
       horizon_(&horizon),
       scale_(scale),
-      skyline_(terrain.dem().columns, terrain.dem().rows),
       nothing_(terrain.dem().columns, terrain.dem().rows) {
   ridges_.reserve(horizon.edges.size() * 2);
   certificates_.resize(horizon.edges.size());
@@ -47,18 +46,13 @@ RidgeNetwork::RidgeId RidgeNetwork::Add(Edge edge) {
 
 void RidgeNetwork::Stand(RidgeId r) {
   Ridge& ridge = ridges_[Index(r)];
-  ridge.id = skyline_.Insert(
-      {scale_.Scale(terrain_->Point(ridge.edge.a)), scale_.Scale(terrain_->Point(ridge.edge.b))});
   ridge.stands = true;
-  if (ridge_of_id_.size() <= Index(ridge.id)) ridge_of_id_.resize(Index(ridge.id) + 1, -1);
-  ridge_of_id_[Index(ridge.id)] = r;
   ridges_of_[ridge.edge.a].push_back(r);
   ridges_of_[ridge.edge.b].push_back(r);
 }
 
 void RidgeNetwork::Fall(RidgeId r) {
   Ridge& ridge = ridges_[Index(r)];
-  skyline_.Erase(ridge.id);
   ridge.stands = false;
   for (const VertexId v : {ridge.edge.a, ridge.edge.b}) {
     std::vector<RidgeId>& around = ridges_of_[v];
@@ -160,16 +154,7 @@ bool RidgeNetwork::Prove(std::int32_t e, std::span<const RidgeId> young) {
     return true;
   }
   const Segment lowered = Lowered(Scaled(horizon_->edges[Index(e)].edge), allowance_);
-  if (ProveNearby(e, lowered, young)) return true;
-  if (far_proofs_left_ == 0) return false;
-  --far_proofs_left_;
-  blockers_.clear();
-  if (skyline_.FindSight(lowered, Ties::kBlock, std::nullopt, &blockers_)) return false;
-  certificate.clear();
-  for (const Skyline::Id id : blockers_) certificate.push_back(ridge_of_id_[Index(id)]);
-  std::sort(certificate.begin(), certificate.end());
-  certificate.erase(std::unique(certificate.begin(), certificate.end()), certificate.end());
-  return true;
+  return ProveNearby(e, lowered, young);
 }
 
 bool RidgeNetwork::Replace(std::span<const RidgeId> old, const std::vector<Edge>& young) {
@@ -186,7 +171,7 @@ bool RidgeNetwork::Replace(std::span<const RidgeId> old, const std::vector<Edge>
   for (const std::int32_t e : leaning) {
     before.push_back(certificates_[Index(e)]);
     if (Prove(e, young_ids)) continue;
-    // Back to where we were; the old ridges stand again under new names in the skyline.
+    // Back to where we were.
     for (std::size_t i = 0; i < before.size(); ++i) {
       certificates_[Index(leaning[i])] = std::move(before[i]);
     }

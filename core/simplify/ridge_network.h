@@ -17,8 +17,9 @@ namespace farhorizon {
 ///
 /// Invariant: every horizon edge of the DEM, lowered by the allowance, is hidden behind the network;
 /// so H of any mesh that has the network's edges is at most the allowance below H of the DEM. Each
-/// horizon edge keeps the ridges that hide it, its certificate, and is proven anew when one goes: by
-/// ridges nearby, or, while the far search lasts, by any.
+/// horizon edge keeps the ridges that hide it, its certificate, and is proven anew when one goes, by
+/// ridges nearby. (Far ones could hide more, but such a proof takes some thirty times as long and leans
+/// on a hundred ridges.)
 class RidgeNetwork {
  public:
   /// Requires: both outlive the network. The allowance is 0: nothing may go.
@@ -26,10 +27,6 @@ class RidgeNetwork {
 
   /// Requires: no less than before, so that what is proven stays proven.
   void Allow(std::int32_t steps) { allowance_ = steps; }
-
-  /// From now on ridges far from a horizon edge may hide it too, for so many proofs more. They are what
-  /// costs: such a proof takes some thirty times as long, and leans on a hundred ridges.
-  void SearchFar(std::int64_t proofs) { far_proofs_left_ = proofs; }
 
   /// Drops ridges from their loose ends, lowest first, as far as the allowance goes.
   /// Leaves off where the watch says stop.
@@ -50,7 +47,6 @@ class RidgeNetwork {
   using RidgeId = std::int32_t;
   struct Ridge {
     Edge edge;
-    Skyline::Id id = -1;
     bool stands = false;
     std::vector<std::int32_t>
         leaning;  // horizon edges with this ridge in their certificate, or once
@@ -74,15 +70,11 @@ class RidgeNetwork {
   const Terrain* terrain_;
   const Horizon* horizon_;
   HeightScale scale_;
-  Skyline skyline_;
   Skyline nothing_;  // stays empty: over it, screens alone decide
   std::int32_t allowance_ = 0;
-  std::int64_t far_proofs_left_ = 0;
   std::vector<Ridge> ridges_;
-  std::vector<RidgeId> ridge_of_id_;                              // per Skyline::Id
   std::vector<std::vector<RidgeId>> certificates_;                // per horizon edge, rising
   std::unordered_map<VertexId, std::vector<RidgeId>> ridges_of_;  // only looked up, never walked
-  std::vector<Skyline::Id> blockers_;
   std::vector<Segment> screens_;
 };
 

@@ -43,8 +43,12 @@ bool Star::WithinShape(const Side& side, Point3i b, std::int64_t twice_area,
   }
   const std::int64_t longest = std::max({to_w, to_x, SquaredLength(side.w_at, side.x_at)});
   // altitude = twice the area / longest side, compared in squares.
-  return static_cast<double>(twice_area) * static_cast<double>(twice_area) >=
-         limits.least_altitude * limits.least_altitude * static_cast<double>(longest);
+  if (static_cast<double>(twice_area) * static_cast<double>(twice_area) <
+      limits.least_altitude * limits.least_altitude * static_cast<double>(longest)) {
+    return false;
+  }
+  const Slope slope = SlopeOf(b, side.w_at, side.x_at);
+  return slope.by_column <= limits.steepest.by_column && slope.by_row <= limits.steepest.by_row;
 }
 
 bool Star::BuildFan(VertexId b, const TriangleLimits& limits) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/simplify/coverage.h"
+#include "core/simplify/plan.h"
 #include "core/simplify/surface.h"
 #include "core/terrain/terrain.h"
 
@@ -15,6 +16,7 @@ struct TriangleLimits {
   double vertical_error = 0;  ///< at every post, quanta
   double longest_edge = 0;    ///< in plan, columns or rows; 0: any
   double least_altitude = 0;  ///< in plan, columns or rows
+  Slope steepest = kAnySlope;
 };
 
 /// The triangles around one vertex with the posts under them, laid out for trying collapses.

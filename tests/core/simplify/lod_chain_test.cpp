@@ -6,6 +6,7 @@
 
 #include "core/io/dem_reader.h"
 #include "core/simplify/border.h"
+#include "core/simplify/plan.h"
 #include "tests/support/drawn_dem.h"
 #include "tests/support/line_heights.h"
 #include "tests/support/mesh_checks.h"
@@ -95,6 +96,27 @@ TEST(LodChain, EachLevelStaysWithinBothBudgetsAndCoversTheDomain) {
                 budgets[i].silhouette_error_m + kRounding)
           << "seed " << seed << ", level " << i;
     }
+  }
+}
+
+TEST(LodChain, NoTriangleIsSteeperThanTheDem) {
+  const Dem dem = FractalDem(5, 25);
+  const Chain chain = Build(dem, Budgets(10, 4));
+  const auto steepest = [&](const std::vector<Triangle>& mesh) {
+    Slope most;
+    for (const Triangle& t : mesh) {
+      const Slope slope = SlopeOf(chain.terrain.Point(t[0]), chain.terrain.Point(t[1]),
+                                  chain.terrain.Point(t[2]));
+      most.by_column = std::max(most.by_column, slope.by_column);
+      most.by_row = std::max(most.by_row, slope.by_row);
+    }
+    return most;
+  };
+  const Slope allowed = steepest(chain.terrain.Triangles());
+  for (const Lod& level : chain.levels) {
+    const Slope found = steepest(level.mesh.triangles);
+    EXPECT_LE(found.by_column, allowed.by_column);
+    EXPECT_LE(found.by_row, allowed.by_row);
   }
 }
 
