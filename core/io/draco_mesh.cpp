@@ -17,8 +17,14 @@ constexpr int kMaxBits = 16;
 constexpr int kFloatBits = 24;
 constexpr int kPositionId = 0;
 constexpr int kSourceId = 1;
+constexpr int kNormalId = 2;
+// Half a degree is no visible shade; each further bit costs a quarter byte a vertex or more.
+constexpr int kNormalBits = 8;
 // Draco's scale runs from 0 (slowest, smallest) to 10; its own default is 5.
 constexpr int kEncodingSpeed = 3;
+constexpr std::array<const char*, 3> kOriginNames = {"lattice_origin_east", "lattice_origin_north",
+                                                     "lattice_origin_up"};
+constexpr char kStepName[] = "lattice_step";
 
 std::array<double, 3> Axes(const Enu& p) { return {p.east, p.north, p.up}; }
 
@@ -61,7 +67,7 @@ QuantizationLattice LatticeOver(const Box& box, double step) {
   return lattice;
 }
 
-// Every position is a sum that float holds without rounding.
+// Every position is a sum that float holds without rounding, as renderers' matrices do.
 bool ExactInFloat(const QuantizationLattice& lattice) {
   const double limit = std::ldexp(1.0, kFloatBits);
   return std::ranges::all_of(lattice.origin, [&](double origin) {
@@ -75,6 +81,11 @@ Error BadMesh(const std::string& message) {
 
 Status CheckMesh(const LocalMesh& mesh) {
   Check(mesh.positions.size() == mesh.sources.size(), "as many sources as positions");
+  Check(mesh.positions.size() == mesh.normals.size(), "as many normals as positions");
+  for (const auto& [east, north, up] : mesh.normals) {
+    Check(up >= kLeastNormalUp, "a normal points upwards");
+    Check(std::abs(std::hypot(east, north, up) - 1) < 1e-6, "a normal has length 1");
+  }
   if (mesh.triangles.empty() || mesh.sources.empty()) return BadMesh("the mesh has no triangle");
   const std::uint32_t greatest = *std::ranges::max_element(mesh.sources);
   if (greatest > kMaxSource) {
@@ -105,6 +116,19 @@ int AddAttribute(draco::Mesh& mesh, draco::GeometryAttribute::Type type, std::in
   return mesh.AddAttribute(attribute, true, static_cast<std::uint32_t>(count));
 }
 
+std::array<float, 3> ToFloat(const std::array<double, 3>& v) {
+  return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
+}
+
+std::unique_ptr<draco::GeometryMetadata> MetadataOf(const QuantizationLattice& lattice) {
+  auto metadata = std::make_unique<draco::GeometryMetadata>();
+  for (std::size_t i = 0; i < 3; ++i) {
+    metadata->AddEntryDouble(kOriginNames[i], lattice.origin[i]);
+  }
+  metadata->AddEntryDouble(kStepName, lattice.step_m);
+  return metadata;
+}
+
 std::unique_ptr<draco::Mesh> ToDraco(const LocalMesh& mesh, const QuantizationLattice& lattice) {
   auto result = std::make_unique<draco::Mesh>();
   const std::size_t count = mesh.positions.size();
@@ -113,14 +137,17 @@ std::unique_ptr<draco::Mesh> ToDraco(const LocalMesh& mesh, const QuantizationLa
       AddAttribute(*result, draco::GeometryAttribute::POSITION, 3, draco::DT_FLOAT32, count);
   const int source =
       AddAttribute(*result, draco::GeometryAttribute::GENERIC, 1, draco::DT_UINT32, count);
-  Check(position == kPositionId && source == kSourceId, "Draco numbers attributes as they come");
+  const int normal =
+      AddAttribute(*result, draco::GeometryAttribute::NORMAL, 3, draco::DT_FLOAT32, count);
+  Check(position == kPositionId && source == kSourceId && normal == kNormalId,
+        "Draco numbers attributes as they come");
   for (std::size_t i = 0; i < count; ++i) {
     const draco::AttributeValueIndex index(static_cast<std::uint32_t>(i));
-    const Enu p = SnapToLattice(mesh.positions[i], lattice);
-    const std::array<float, 3> xyz = {static_cast<float>(p.east), static_cast<float>(p.north),
-                                      static_cast<float>(p.up)};
+    const std::array<float, 3> xyz = ToFloat(LatticeNumbers(mesh.positions[i], lattice));
+    const std::array<float, 3> upwards = ToFloat(mesh.normals[i]);
     result->attribute(position)->SetAttributeValue(index, xyz.data());
     result->attribute(source)->SetAttributeValue(index, &mesh.sources[i]);
+    result->attribute(normal)->SetAttributeValue(index, upwards.data());
   }
   result->SetNumFaces(mesh.triangles.size());
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
@@ -128,11 +155,91 @@ std::unique_ptr<draco::Mesh> ToDraco(const LocalMesh& mesh, const QuantizationLa
     result->SetFace(draco::FaceIndex(static_cast<std::uint32_t>(i)),
                     {draco::PointIndex(a), draco::PointIndex(b), draco::PointIndex(c)});
   }
+  result->AddMetadata(MetadataOf(lattice));
   return result;
 }
 
 Error BadDraco(const std::string& message) {
   return {ErrorCode::kUnsupportedData, "no Draco mesh of ours: " + message, "bad-draco"};
+}
+
+struct Attributes {
+  const draco::PointAttribute* position = nullptr;
+  const draco::PointAttribute* source = nullptr;
+  const draco::PointAttribute* normal = nullptr;
+};
+
+Result<Attributes> AttributesOf(const draco::Mesh& mesh) {
+  const auto find = [&](int id, draco::GeometryAttribute::Type type, int components,
+                        draco::DataType data_type) -> const draco::PointAttribute* {
+    const draco::PointAttribute* found =
+        mesh.GetAttributeByUniqueId(static_cast<std::uint32_t>(id));
+    const bool fits = found != nullptr && found->attribute_type() == type &&
+                      found->num_components() == components && found->data_type() == data_type;
+    return fits ? found : nullptr;
+  };
+  const Attributes result = {
+      find(kPositionId, draco::GeometryAttribute::POSITION, 3, draco::DT_FLOAT32),
+      find(kSourceId, draco::GeometryAttribute::GENERIC, 1, draco::DT_UINT32),
+      find(kNormalId, draco::GeometryAttribute::NORMAL, 3, draco::DT_FLOAT32)};
+  if (result.position == nullptr) return BadDraco("attribute 0 is not POSITION in three floats");
+  if (result.source == nullptr) return BadDraco("attribute 1 is not GENERIC in one 32-bit number");
+  if (result.normal == nullptr) return BadDraco("attribute 2 is not NORMAL in three floats");
+  return result;
+}
+
+// The lattice that the metadata names; its bits are left to the positions.
+Result<QuantizationLattice> LatticeOf(const draco::Mesh& mesh) {
+  const draco::GeometryMetadata* metadata = mesh.GetMetadata();
+  QuantizationLattice lattice;
+  lattice.bits = 1;
+  bool there = metadata != nullptr && metadata->GetEntryDouble(kStepName, &lattice.step_m);
+  for (std::size_t i = 0; there && i < 3; ++i) {
+    there = metadata->GetEntryDouble(kOriginNames[i], &lattice.origin[i]);
+  }
+  if (!there) return BadDraco("its metadata do not name the lattice's origin and step");
+  int exponent = 0;
+  const bool power = std::isfinite(lattice.step_m) && std::frexp(lattice.step_m, &exponent) == 0.5;
+  const bool multiples = power && std::ranges::all_of(lattice.origin, [&](double origin) {
+                           return std::isfinite(origin) && std::fmod(origin, lattice.step_m) == 0;
+                         });
+  if (!multiples || !ExactInFloat(lattice)) {
+    return BadDraco("its lattice's step is no power of two, or the origin no small multiple of it");
+  }
+  return lattice;
+}
+
+bool IsLatticeNumber(float x) { return x >= 0 && x < 65536 && std::floor(x) == x; }
+
+// Fills in what vertices have; the lattice's bits grow to hold the positions.
+Status ReadVertices(const draco::Mesh& mesh, const Attributes& attributes, DecodedMesh& result) {
+  QuantizationLattice& lattice = result.lattice;
+  LocalMesh& local = result.mesh;
+  local.positions.reserve(mesh.num_points());
+  local.sources.reserve(mesh.num_points());
+  local.normals.reserve(mesh.num_points());
+  float last = 1;
+  for (std::uint32_t i = 0; i < mesh.num_points(); ++i) {
+    const draco::PointIndex point(i);
+    std::array<float, 3> number{};
+    std::array<float, 3> normal{};
+    std::uint32_t source = 0;
+    attributes.position->GetMappedValue(point, number.data());
+    attributes.source->GetMappedValue(point, &source);
+    attributes.normal->GetMappedValue(point, normal.data());
+    if (!std::ranges::all_of(number, IsLatticeNumber)) {
+      return BadDraco("a position is no lattice number of 16 bits");
+    }
+    last = std::max(last, *std::ranges::max_element(number));
+    const auto place = [&](std::size_t axis) {
+      return lattice.origin[axis] + number[axis] * lattice.step_m;
+    };
+    local.positions.push_back({place(0), place(1), place(2)});
+    local.sources.push_back(source);
+    local.normals.push_back({normal[0], normal[1], normal[2]});
+  }
+  std::frexp(last, &lattice.bits);  // last < 2^bits
+  return Done{};
 }
 
 }  // namespace
@@ -148,13 +255,20 @@ QuantizationLattice ChooseLattice(const std::vector<Enu>& points, double wanted_
   }
 }
 
+std::array<double, 3> LatticeNumbers(const Enu& point, const QuantizationLattice& lattice) {
+  std::array<double, 3> numbers = Axes(point);
+  for (std::size_t i = 0; i < 3; ++i) {
+    numbers[i] = IndexOf(numbers[i], lattice.origin[i], lattice.step_m);
+    Check(numbers[i] >= 0 && numbers[i] < std::ldexp(1.0, lattice.bits),
+          "a position outside its lattice");
+  }
+  return numbers;
+}
+
 Enu SnapToLattice(const Enu& point, const QuantizationLattice& lattice) {
-  const auto snap = [&](double value, std::size_t axis) {
-    const double index = IndexOf(value, lattice.origin[axis], lattice.step_m);
-    Check(index >= 0 && index < std::ldexp(1.0, lattice.bits), "a position outside its lattice");
-    return lattice.origin[axis] + index * lattice.step_m;
-  };
-  return {snap(point.east, 0), snap(point.north, 1), snap(point.up, 2)};
+  const std::array<double, 3> n = LatticeNumbers(point, lattice);
+  return {lattice.origin[0] + n[0] * lattice.step_m, lattice.origin[1] + n[1] * lattice.step_m,
+          lattice.origin[2] + n[2] * lattice.step_m};
 }
 
 Result<std::vector<std::uint8_t>> EncodeDraco(const LocalMesh& mesh,
@@ -167,13 +281,12 @@ Result<std::vector<std::uint8_t>> EncodeDraco(const LocalMesh& mesh,
   encoder.SetEncodingMethod(draco::MESH_EDGEBREAKER_ENCODING);
   encoder.SetSpeedOptions(kEncodingSpeed, kEncodingSpeed);
   encoder.SetTrackEncodedProperties(true);
-  const std::array<float, 3> origin = {static_cast<float>(lattice.origin[0]),
-                                       static_cast<float>(lattice.origin[1]),
-                                       static_cast<float>(lattice.origin[2])};
-  // Draco's step is range / (2^bits - 1): a power of two, so its float arithmetic is exact.
-  const double range = lattice.step_m * (std::ldexp(1.0, lattice.bits) - 1);
-  encoder.SetAttributeExplicitQuantization(kPositionId, lattice.bits, 3, origin.data(),
+  // Draco's step is range / (2^bits - 1): 1, so that it changes no lattice number.
+  constexpr std::array<float, 3> kOrigin = {0, 0, 0};
+  const double range = std::ldexp(1.0, lattice.bits) - 1;
+  encoder.SetAttributeExplicitQuantization(kPositionId, lattice.bits, 3, kOrigin.data(),
                                            static_cast<float>(range));
+  encoder.SetAttributeQuantization(kNormalId, kNormalBits);
   draco::EncoderBuffer buffer;
   const draco::Status status = encoder.EncodeToBuffer(&buffer);
   if (!status.ok()) return BadMesh("Draco refuses the mesh: " + status.error_msg_string());
@@ -184,42 +297,30 @@ Result<std::vector<std::uint8_t>> EncodeDraco(const LocalMesh& mesh,
   return std::vector<std::uint8_t>(buffer.data(), buffer.data() + buffer.size());
 }
 
-Result<LocalMesh> DecodeDraco(const std::vector<std::uint8_t>& bytes) {
+Result<DecodedMesh> DecodeDraco(const std::vector<std::uint8_t>& bytes) {
   draco::DecoderBuffer buffer;
   buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   draco::Decoder decoder;
   draco::StatusOr<std::unique_ptr<draco::Mesh>> decoded = decoder.DecodeMeshFromBuffer(&buffer);
   if (!decoded.ok()) return BadDraco(decoded.status().error_msg_string());
   const std::unique_ptr<draco::Mesh> mesh = std::move(decoded).value();
-  const draco::PointAttribute* position = mesh->GetAttributeByUniqueId(kPositionId);
-  const draco::PointAttribute* source = mesh->GetAttributeByUniqueId(kSourceId);
-  if (position == nullptr || position->attribute_type() != draco::GeometryAttribute::POSITION ||
-      position->num_components() != 3 || position->data_type() != draco::DT_FLOAT32) {
-    return BadDraco("attribute 0 is not POSITION in three floats");
+  Result<Attributes> attributes = AttributesOf(*mesh);
+  if (!attributes) return std::move(attributes.error());
+  Result<QuantizationLattice> lattice = LatticeOf(*mesh);
+  if (!lattice) return std::move(lattice.error());
+  DecodedMesh result;
+  result.lattice = *lattice;
+  if (Status read = ReadVertices(*mesh, *attributes, result); !read) {
+    return std::move(read.error());
   }
-  if (source == nullptr || source->attribute_type() != draco::GeometryAttribute::GENERIC ||
-      source->num_components() != 1 || source->data_type() != draco::DT_UINT32) {
-    return BadDraco("attribute 1 is not GENERIC in one 32-bit number");
-  }
-  LocalMesh result;
-  result.positions.reserve(mesh->num_points());
-  result.sources.reserve(mesh->num_points());
-  for (std::uint32_t i = 0; i < mesh->num_points(); ++i) {
-    const draco::PointIndex point(i);
-    std::array<float, 3> xyz{};
-    std::uint32_t number = 0;
-    position->GetMappedValue(point, xyz.data());
-    source->GetMappedValue(point, &number);
-    result.positions.push_back({xyz[0], xyz[1], xyz[2]});
-    result.sources.push_back(number);
-  }
-  result.triangles.reserve(mesh->num_faces());
+  result.mesh.triangles.reserve(mesh->num_faces());
   for (std::uint32_t i = 0; i < mesh->num_faces(); ++i) {
     const draco::Mesh::Face& face = mesh->face(draco::FaceIndex(i));
-    result.triangles.push_back({face[0].value(), face[1].value(), face[2].value()});
-    for (const std::uint32_t v : result.triangles.back()) {
-      if (v >= result.positions.size())
+    result.mesh.triangles.push_back({face[0].value(), face[1].value(), face[2].value()});
+    for (const std::uint32_t v : result.mesh.triangles.back()) {
+      if (v >= result.mesh.positions.size()) {
         return BadDraco("a triangle names a vertex that is not there");
+      }
     }
   }
   return result;

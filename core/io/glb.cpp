@@ -29,6 +29,7 @@ constexpr int kTriangles = 4;
 constexpr std::size_t kMaxShortVertices = 65535;  // 65535 itself restarts a strip
 // Unique ids of the attributes that EncodeDraco writes.
 constexpr int kDracoPosition = 0;
+constexpr int kDracoNormal = 2;
 
 constexpr char kDraco[] = "KHR_draco_mesh_compression";
 constexpr char kEdges[] = "EXT_mesh_primitive_edge_visibility";
@@ -64,19 +65,19 @@ struct Binary {
   }
 };
 
-Json PositionAccessor(const LocalMesh& mesh) {
+Json PositionAccessor(const DecodedMesh& decoded) {
+  const std::vector<Enu>& positions = decoded.mesh.positions;
   std::array<double, 3> least = {0, 0, 0};
   std::array<double, 3> greatest = {0, 0, 0};
-  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-    const Enu& p = mesh.positions[i];
-    const std::array<double, 3> xyz = {p.east, p.north, p.up};
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    const std::array<double, 3> xyz = LatticeNumbers(positions[i], decoded.lattice);
     for (std::size_t k = 0; k < 3; ++k) {
       least[k] = i == 0 ? xyz[k] : std::min(least[k], xyz[k]);
       greatest[k] = i == 0 ? xyz[k] : std::max(greatest[k], xyz[k]);
     }
   }
   return {{"componentType", kFloat},
-          {"count", mesh.positions.size()},
+          {"count", positions.size()},
           {"type", "VEC3"},
           {"min", least},
           {"max", greatest}};
@@ -168,26 +169,37 @@ Result<Chunks> SplitChunks(std::span<const std::uint8_t> bytes) {
 
 }  // namespace
 
+std::array<double, 16> GltfMatrix(const QuantizationLattice& lattice) {
+  const auto& [east, north, up] = lattice.origin;
+  const double s = lattice.step_m;
+  return {s, 0, 0, 0, 0, 0, -s, 0, 0, s, 0, 0, east, up, -north, 1};
+}
+
 std::vector<std::uint8_t> WriteGlb(
-    const std::vector<std::uint8_t>& draco, const LocalMesh& decoded,
+    const std::vector<std::uint8_t>& draco, const DecodedMesh& decoded,
     const std::vector<std::pair<std::uint32_t, std::uint32_t>>& horizon_edges) {
+  const LocalMesh& mesh = decoded.mesh;
   Binary binary;
   const std::size_t draco_view = binary.Add(draco);
   // Accessors of what Draco holds have no view of their own, and no offset either.
   Json accessors = Json::array();
   accessors.push_back(PositionAccessor(decoded));
+  accessors.push_back({{"componentType",
+                        mesh.positions.size() <= kMaxShortVertices ? kUnsignedShort : kUnsignedInt},
+                       {"count", 3 * mesh.triangles.size()},
+                       {"type", "SCALAR"}});
   accessors.push_back(
-      {{"componentType",
-        decoded.positions.size() <= kMaxShortVertices ? kUnsignedShort : kUnsignedInt},
-       {"count", 3 * decoded.triangles.size()},
-       {"type", "SCALAR"}});
-  Json primitive = {
-      {"attributes", {{"POSITION", 0}}}, {"indices", 1}, {"mode", kTriangles}, {"material", 0}};
-  primitive["extensions"][kDraco] = {{"bufferView", draco_view},
-                                     {"attributes", {{"POSITION", kDracoPosition}}}};
+      {{"componentType", kFloat}, {"count", mesh.positions.size()}, {"type", "VEC3"}});
+  Json primitive = {{"attributes", {{"POSITION", 0}, {"NORMAL", 2}}},
+                    {"indices", 1},
+                    {"mode", kTriangles},
+                    {"material", 0}};
+  primitive["extensions"][kDraco] = {
+      {"bufferView", draco_view},
+      {"attributes", {{"POSITION", kDracoPosition}, {"NORMAL", kDracoNormal}}}};
   Json materials = Json::array({Material("terrain", {0.62, 0.6, 0.55, 1})});
   Json used = Json::array({kDraco});
-  const EdgeVisibility edges = FlagEdges(decoded, horizon_edges);
+  const EdgeVisibility edges = FlagEdges(mesh, horizon_edges);
   if (edges.edge_count > 0) {
     primitive["extensions"][kEdges] = EdgeExtension(edges, accessors, binary);
     materials.push_back(Material("horizon edge", {1, 0.25, 0, 1}));
@@ -200,10 +212,7 @@ std::vector<std::uint8_t> WriteGlb(
   gltf["extensionsRequired"] = Json::array({kDraco});
   gltf["scene"] = 0;
   gltf["scenes"] = Json::array({{{"nodes", {0}}}});
-  // Column-major; z up to y up. 3D Tiles turns it back, so that the local frame arrives as it is
-  // (3D Tiles 1.1, "glTF transforms").
-  gltf["nodes"] =
-      Json::array({{{"mesh", 0}, {"matrix", {1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1}}}});
+  gltf["nodes"] = Json::array({{{"mesh", 0}, {"matrix", GltfMatrix(decoded.lattice)}}});
   gltf["meshes"] = Json::array({{{"primitives", Json::array({primitive})}}});
   gltf["materials"] = materials;
   gltf["accessors"] = accessors;
@@ -222,9 +231,12 @@ Result<GlbContents> ReadGlb(const std::vector<std::uint8_t>& bytes) {
     const Json& accessors = gltf.at("accessors");
     const Json& position =
         accessors.at(primitive.at("attributes").at("POSITION").get<std::size_t>());
+    const Json& normal = accessors.at(primitive.at("attributes").at("NORMAL").get<std::size_t>());
     const Json& view = gltf.at("bufferViews").at(extension.at("bufferView").get<std::size_t>());
     GlbContents contents;
     contents.vertex_count = position.at("count").get<std::int64_t>();
+    contents.normal_count = normal.at("count").get<std::int64_t>();
+    contents.matrix = gltf.at("nodes").at(0).at("matrix").get<std::array<double, 16>>();
     contents.index_count =
         accessors.at(primitive.at("indices").get<std::size_t>()).at("count").get<std::int64_t>();
     contents.min = position.at("min").get<std::array<double, 3>>();

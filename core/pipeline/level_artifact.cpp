@@ -5,6 +5,7 @@
 
 #include "core/io/glb.h"
 #include "core/pipeline/geometric_error.h"
+#include "core/pipeline/post_normals.h"
 
 namespace farhorizon {
 namespace {
@@ -18,18 +19,16 @@ std::vector<VertexId> PostsOf(const PostMesh& mesh) {
   return posts;
 }
 
-Result<std::vector<Enu>> Locate(const Placement& placement, const std::vector<VertexId>& posts) {
-  Result<std::vector<Geodetic>> geodetic = placement.ToGeodetic(posts);
-  if (!geodetic) return std::move(geodetic.error());
-  return placement.ToEnu(*geodetic);
-}
-
-Result<LocalMesh> ToLocal(const Placement& placement, const PostMesh& mesh) {
+Result<LocalMesh> ToLocal(const Terrain& terrain, const Placement& placement,
+                          const PostMesh& mesh) {
   const std::vector<VertexId> posts = PostsOf(mesh);
-  Result<std::vector<Enu>> positions = Locate(placement, posts);
+  Result<std::vector<Enu>> positions = placement.ToEnu(posts);
   if (!positions) return std::move(positions.error());
+  Result<std::vector<UnitNormal>> normals = PostNormals(terrain, placement, posts);
+  if (!normals) return std::move(normals.error());
   LocalMesh local;
   local.positions = *std::move(positions);
+  local.normals = *std::move(normals);
   local.sources.assign(posts.begin(), posts.end());
   const auto index = [&posts](VertexId v) {
     return static_cast<std::uint32_t>(std::lower_bound(posts.begin(), posts.end(), v) -
@@ -78,7 +77,7 @@ Result<QuantizationLattice> LatticeFor(const Terrain& terrain, const Placement& 
   for (VertexId v = 0; v < terrain.post_count(); ++v) {
     if (terrain.dem().HasData(v)) row.push_back(v);
     if (terrain.dem().Column(v) + 1 < terrain.dem().columns || row.empty()) continue;
-    Result<std::vector<Enu>> points = Locate(placement, row);
+    Result<std::vector<Enu>> points = placement.ToEnu(row);
     if (!points) return std::move(points.error());
     reach.insert(reach.end(), points->begin(), points->end());
     // Only the corners of the box so far matter.
@@ -137,16 +136,17 @@ Result<LevelReport> MeasureLevel(const LevelContext& context, const LocalMesh& d
 
 Result<LevelArtifact> EncodeLevel(const LevelContext& context, const Lod& lod, int level,
                                   const QuantizationLattice& lattice, double asked_m) {
-  Result<LocalMesh> local = ToLocal(context.placement, lod.mesh);
+  Result<LocalMesh> local = ToLocal(context.terrain, context.placement, lod.mesh);
   if (!local) return std::move(local.error());
   LevelArtifact artifact;
   Result<std::vector<std::uint8_t>> drc = EncodeDraco(*local, lattice);
   if (!drc) return std::move(drc.error());
   artifact.drc = *std::move(drc);
-  Result<LocalMesh> decoded = DecodeDraco(artifact.drc);
+  Result<DecodedMesh> decoded = DecodeDraco(artifact.drc);
   if (!decoded) return std::move(decoded.error());
-  artifact.glb = WriteGlb(artifact.drc, *decoded, KeptInDecoded(context.horizon, lod, *decoded));
-  Result<LevelReport> report = MeasureLevel(context, *decoded, level, lattice.step_m, asked_m);
+  artifact.glb =
+      WriteGlb(artifact.drc, *decoded, KeptInDecoded(context.horizon, lod, decoded->mesh));
+  Result<LevelReport> report = MeasureLevel(context, decoded->mesh, level, lattice.step_m, asked_m);
   if (!report) {
     return std::move(report.error()).Within("level " + std::to_string(level));
   }

@@ -66,6 +66,12 @@ Result<std::vector<Enu>> Placement::ToEnu(const std::vector<Geodetic>& points) c
   return enu;
 }
 
+Result<std::vector<Enu>> Placement::ToEnu(const std::vector<VertexId>& posts) const {
+  Result<std::vector<Geodetic>> geodetic = ToGeodetic(posts);
+  if (!geodetic) return std::move(geodetic.error());
+  return ToEnu(*geodetic);
+}
+
 Result<std::vector<GridPoint>> Placement::ToGrid(const std::vector<Enu>& points) const {
   std::vector<Ecef> ecef;
   ecef.reserve(points.size());

@@ -28,6 +28,7 @@ class Placement {
 
   [[nodiscard]] Result<std::vector<Geodetic>> ToGeodetic(const std::vector<VertexId>& posts) const;
   [[nodiscard]] Result<std::vector<Enu>> ToEnu(const std::vector<Geodetic>& points) const;
+  [[nodiscard]] Result<std::vector<Enu>> ToEnu(const std::vector<VertexId>& posts) const;
   [[nodiscard]] Result<std::vector<GridPoint>> ToGrid(const std::vector<Enu>& points) const;
 
  private:

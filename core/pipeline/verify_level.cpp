@@ -9,6 +9,7 @@
 
 #include "core/io/files.h"
 #include "core/io/glb.h"
+#include "core/pipeline/post_normals.h"
 
 namespace farhorizon {
 namespace {
@@ -53,17 +54,20 @@ std::optional<Stream> LoadStream(const std::filesystem::path& directory, const s
   return stream;
 }
 
-void VerifyAccessors(const std::string& name, const GlbContents& glb, const LocalMesh& mesh,
+void VerifyAccessors(const std::string& name, const GlbContents& glb, const DecodedMesh& decoded,
                      Claims& claims) {
+  const LocalMesh& mesh = decoded.mesh;
   claims.Same(name + ".glb POSITION count", glb.vertex_count,
               static_cast<std::int64_t>(mesh.positions.size()));
+  claims.Same(name + ".glb NORMAL count", glb.normal_count,
+              static_cast<std::int64_t>(mesh.normals.size()));
   claims.Same(name + ".glb indices count", glb.index_count,
               static_cast<std::int64_t>(3 * mesh.triangles.size()));
   constexpr double kFar = std::numeric_limits<double>::infinity();
   std::array<double, 3> least = {kFar, kFar, kFar};
   std::array<double, 3> most = {-kFar, -kFar, -kFar};
   for (const Enu& p : mesh.positions) {
-    const std::array<double, 3> v = {p.east, p.north, p.up};
+    const std::array<double, 3> v = LatticeNumbers(p, decoded.lattice);
     for (std::size_t k = 0; k < 3; ++k) {
       least[k] = std::min(least[k], v[k]);
       most[k] = std::max(most[k], v[k]);
@@ -71,6 +75,8 @@ void VerifyAccessors(const std::string& name, const GlbContents& glb, const Loca
   }
   claims.Add(glb.min == least && glb.max == most,
              name + ".glb POSITION min and max are those of the decoded mesh");
+  claims.Add(glb.matrix == GltfMatrix(decoded.lattice),
+             name + ".glb has the lattice of its Draco stream in the node's matrix");
 }
 
 bool AllTurnLeft(const LocalMesh& mesh) {
@@ -80,6 +86,25 @@ bool AllTurnLeft(const LocalMesh& mesh) {
     const Enu& c = mesh.positions[t[2]];
     return (b.east - a.east) * (c.north - a.north) - (b.north - a.north) * (c.east - a.east) > 0;
   });
+}
+
+// Every decoded normal is that of the DEM at its vertex's post, as nearly as kNormalBits tell.
+void VerifyNormals(const LevelContext& context, const std::string& name, const LocalMesh& mesh,
+                   Claims& claims) {
+  // Draco's octahedron in 8 bits has a point within 0.65 degrees of any direction.
+  constexpr double kLeastCosine = 0.99985;
+  const std::vector<VertexId> posts(mesh.sources.begin(), mesh.sources.end());
+  Result<std::vector<UnitNormal>> normals = PostNormals(context.terrain, context.placement, posts);
+  std::int64_t astray = 0;
+  for (std::size_t i = 0; normals && i < posts.size(); ++i) {
+    const UnitNormal& n = (*normals)[i];
+    const UnitNormal& m = mesh.normals[i];
+    const bool near = m[2] > 0 && n[0] * m[0] + n[1] * m[1] + n[2] * m[2] > kLeastCosine;
+    astray += near ? 0 : 1;
+  }
+  claims.Add(normals.has_value(), name + " normals can be found at the posts" +
+                                      (normals ? "" : ": " + normals.error().message));
+  claims.Same(name + " normals a degree or more off the DEM's", std::int64_t{0}, astray);
 }
 
 std::vector<Edge> EdgesByPost(const LocalMesh& mesh) {
@@ -105,17 +130,21 @@ std::vector<Edge> VerifyLevel(const LevelContext& context, const std::filesystem
     claims.Add(false, name + ": no mesh to measure");
     return {};
   }
-  Result<LocalMesh> mesh = DecodeDraco(stream->draco);
-  claims.Add(mesh.has_value(),
-             name + " decodes as Draco" + (mesh ? "" : ": " + mesh.error().message));
-  if (!mesh) return {};
-  if (stream->glb) VerifyAccessors(name, *stream->glb, *mesh, claims);
-  claims.Add(AllTurnLeft(*mesh), name + ": no triangle is flipped or without area");
-  Result<LevelReport> found = MeasureLevel(context, *mesh, claimed.level,
+  Result<DecodedMesh> decoded = DecodeDraco(stream->draco);
+  claims.Add(decoded.has_value(),
+             name + " decodes as Draco" + (decoded ? "" : ": " + decoded.error().message));
+  if (!decoded) return {};
+  if (stream->glb) VerifyAccessors(name, *stream->glb, *decoded, claims);
+  const LocalMesh& mesh = decoded->mesh;
+  claims.Same(name + " lattice's step, metres", claimed.quantization_step_m,
+              decoded->lattice.step_m);
+  claims.Add(AllTurnLeft(mesh), name + ": no triangle is flipped or without area");
+  Result<LevelReport> found = MeasureLevel(context, mesh, claimed.level,
                                            claimed.quantization_step_m, claimed.asked_silhouette_m);
   claims.Add(found.has_value(),
              name + " covers the DEM without cracks" + (found ? "" : ": " + found.error().message));
   if (!found) return {};
+  VerifyNormals(context, name, mesh, claims);
   claims.Same(name + " triangles", claimed.triangles, found->triangles);
   claims.Same(name + " vertices", claimed.vertices, found->vertices);
   claims.AtMost(name + " vertical error, max", claimed.vertical.max_m, found->vertical.max_m);
@@ -123,7 +152,7 @@ std::vector<Edge> VerifyLevel(const LevelContext& context, const std::filesystem
   claims.AtMost(name + " silhouette error, max", claimed.silhouette.max_m, found->silhouette.max_m);
   claims.AtMost(name + " silhouette error, rms", claimed.silhouette.rms_m, found->silhouette.rms_m);
   claims.AtMost(name + " geometric error", claimed.geometric_error_m, found->geometric_error_m);
-  return EdgesByPost(*mesh);
+  return EdgesByPost(mesh);
 }
 
 }  // namespace farhorizon

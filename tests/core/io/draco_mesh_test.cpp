@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <map>
 #include <random>
 #include <set>
 
+#include <draco/attributes/attribute_quantization_transform.h>
+#include <draco/compression/decode.h>
 #include <gtest/gtest.h>
 
 #include "tests/support/local_meshes.h"
@@ -13,12 +16,31 @@
 namespace farhorizon {
 namespace {
 
-LocalMesh RoundTrip(const LocalMesh& mesh, const QuantizationLattice& lattice) {
+DecodedMesh Decode(const LocalMesh& mesh, const QuantizationLattice& lattice) {
   Result<std::vector<std::uint8_t>> bytes = EncodeDraco(mesh, lattice);
   if (!bytes) throw std::runtime_error(bytes.error().message);
-  Result<LocalMesh> decoded = DecodeDraco(*bytes);
+  Result<DecodedMesh> decoded = DecodeDraco(*bytes);
   if (!decoded) throw std::runtime_error(decoded.error().message);
   return *decoded;
+}
+
+LocalMesh RoundTrip(const LocalMesh& mesh, const QuantizationLattice& lattice) {
+  return Decode(mesh, lattice).mesh;
+}
+
+// The greatest angle between a decoded normal and the one that its source had, degrees.
+double WorstNormalDeg(const LocalMesh& decoded, const LocalMesh& mesh) {
+  std::map<std::uint32_t, UnitNormal> by_source;
+  for (std::size_t i = 0; i < mesh.sources.size(); ++i)
+    by_source[mesh.sources[i]] = mesh.normals[i];
+  double worst = 0;
+  for (std::size_t i = 0; i < decoded.sources.size(); ++i) {
+    const UnitNormal& n = by_source.at(decoded.sources[i]);
+    const UnitNormal& m = decoded.normals[i];
+    const double chord = std::hypot(n[0] - m[0], n[1] - m[1], n[2] - m[2]);
+    worst = std::max(worst, 2 * std::asin(chord / 2) * 180 / std::acos(-1.0));
+  }
+  return worst;
 }
 
 // The triangles by their vertices' sources, each turned so that its least source comes first.
@@ -98,6 +120,86 @@ TEST(Draco, DecodesToTheLatticeExactlyWithSourcesAndWindings) {
   }
 }
 
+TEST(Draco, ItsOwnQuantizationHasOriginZeroAndStepOne) {
+  // Clients that apply it twice, and those that do not know the metadata, get lattice numbers.
+  const LocalMesh mesh = HillyGrid(61, 43, 27.3);
+  const QuantizationLattice lattice = ChooseLattice(mesh.positions, 0.5);
+  const std::vector<std::uint8_t> bytes = *EncodeDraco(mesh, lattice);
+  draco::DecoderBuffer buffer;
+  buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  draco::Decoder decoder;
+  decoder.SetSkipAttributeTransform(draco::GeometryAttribute::POSITION);
+  const auto decoded = std::move(decoder.DecodeMeshFromBuffer(&buffer)).value();
+  draco::AttributeQuantizationTransform transform;
+  ASSERT_TRUE(transform.InitFromAttribute(*decoded->GetAttributeByUniqueId(0)));
+  EXPECT_EQ(transform.min_values(), std::vector<float>({0, 0, 0}));
+  EXPECT_EQ(transform.quantization_bits(), lattice.bits);
+  EXPECT_EQ(transform.range(), std::ldexp(1.0F, lattice.bits) - 1);
+}
+
+TEST(Draco, TheMetadataNameTheLattice) {
+  const LocalMesh mesh = HillyGrid(61, 43, 27.3);
+  for (const double wanted : {0.03, 0.5, 10.0}) {
+    const QuantizationLattice lattice = ChooseLattice(mesh.positions, wanted);
+    const QuantizationLattice decoded = Decode(mesh, lattice).lattice;
+    EXPECT_EQ(decoded.origin, lattice.origin);
+    EXPECT_EQ(decoded.step_m, lattice.step_m);
+    EXPECT_EQ(decoded.bits, lattice.bits);
+  }
+}
+
+TEST(Draco, EveryNumberOfTheGreatestLatticeDecodesExactly) {
+  // 0 … 65535 on one axis, in a strip.
+  LocalMesh mesh;
+  for (std::uint32_t i = 0; i < 65536; ++i) {
+    mesh.positions.push_back({i / 8.0 - 4000, i % 2 * 100.0, 65535 - i + 0.0});
+    mesh.sources.push_back(i);
+    mesh.normals.push_back({0, 0, 1});
+    if (i >= 2) mesh.triangles.push_back({i - 2, i - 1, i});
+  }
+  const QuantizationLattice lattice = {.origin = {-4000, 0, 0}, .step_m = 0.125, .bits = 16};
+  for (Enu& p : mesh.positions) p.up /= 8;
+  ExpectSamePositions(RoundTrip(mesh, lattice), mesh, lattice);
+}
+
+TEST(Draco, NormalsComeBackWithinADegree) {
+  const LocalMesh mesh = HillyGrid(61, 43, 27.3);
+  const LocalMesh decoded = RoundTrip(mesh, ChooseLattice(mesh.positions, 0.5));
+  EXPECT_EQ(decoded.positions.size(), mesh.positions.size());  // no seams: no vertex is split
+  EXPECT_LT(WorstNormalDeg(decoded, mesh), 1);
+}
+
+TEST(Draco, NormalsOfAnyDirectionPointUpwardsStill) {
+  LocalMesh mesh = HillyGrid(120, 120, 10);
+  std::mt19937 random(31);
+  std::uniform_real_distribution<double> turn(0, 2 * std::acos(-1.0));
+  std::uniform_real_distribution<double> rise(kLeastNormalUp, 1);
+  for (std::size_t i = 0; i < mesh.normals.size(); ++i) {
+    const double up = i % 2 == 0 ? kLeastNormalUp : rise(random);  // half as steep as allowed
+    const double azimuth = turn(random);
+    const double level = std::sqrt(1 - up * up);
+    mesh.normals[i] = {level * std::sin(azimuth), level * std::cos(azimuth), up};
+  }
+  const LocalMesh decoded = RoundTrip(mesh, ChooseLattice(mesh.positions, 0.1));
+  EXPECT_EQ(decoded.positions.size(), mesh.positions.size());
+  EXPECT_LT(WorstNormalDeg(decoded, mesh), 1);
+  for (const UnitNormal& n : decoded.normals) {
+    EXPECT_GT(n[2], 0);
+    EXPECT_NEAR(std::hypot(n[0], n[1], n[2]), 1, 1e-6);
+  }
+}
+
+TEST(Draco, ANormalThatDoesNotPointUpwardsIsOurBug) {
+  LocalMesh mesh = HillyGrid(3, 3, 10);
+  const QuantizationLattice lattice = ChooseLattice(mesh.positions, 0.1);
+  mesh.normals[4] = {1, 0, 0};
+  EXPECT_THROW(static_cast<void>(EncodeDraco(mesh, lattice)), InternalError);
+  mesh.normals[4] = {0, 0, 2};
+  EXPECT_THROW(static_cast<void>(EncodeDraco(mesh, lattice)), InternalError);
+  mesh.normals.pop_back();
+  EXPECT_THROW(static_cast<void>(EncodeDraco(mesh, lattice)), InternalError);
+}
+
 TEST(Draco, AnyNumberBelowTheLimitIsCarriedAsSource) {
   LocalMesh mesh = HillyGrid(9, 9, 10);
   std::mt19937 random(17);
@@ -119,15 +221,16 @@ TEST(Draco, VerticesOfOnePlaceStayApart) {
 }
 
 TEST(Draco, HolesAndVerticesBetweenFansSurvive) {
-  // Holes that touch at corners leave vertices with two fans of triangles: they come back twice.
+  // Holes on either side of a vertex leave it with two fans of triangles: it comes back twice.
   const LocalMesh mesh = HillyGrid(24, 24, 10, [](std::uint32_t c, std::uint32_t r) {
-    return (c * 7 + r * 5) % 11 == 0 || (c == 3 && r < 20);
+    return (c * 7 + r * 5) % 11 == 0 || (c == 3 && r < 20) || (r == 22 && (c == 9 || c == 11));
   });
   const QuantizationLattice lattice = ChooseLattice(mesh.positions, 0.1);
   const LocalMesh decoded = RoundTrip(mesh, lattice);
-  EXPECT_GE(decoded.positions.size(), mesh.positions.size());
+  EXPECT_GT(decoded.positions.size(), mesh.positions.size());
   EXPECT_EQ(BySource(decoded), BySource(mesh));
   ExpectSamePositions(decoded, mesh, lattice);
+  EXPECT_LT(WorstNormalDeg(decoded, mesh), 1);
 }
 
 TEST(Draco, SeveralPiecesAndASingleTriangleSurvive) {
@@ -135,6 +238,7 @@ TEST(Draco, SeveralPiecesAndASingleTriangleSurvive) {
   EXPECT_EQ(BySource(RoundTrip(mesh, ChooseLattice(mesh.positions, 0.1))), BySource(mesh));
   mesh = {.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
           .sources = {7, 8, 9},
+          .normals = {{0, 0, 1}, {0.6, 0, 0.8}, {0, -0.6, 0.8}},
           .triangles = {{0, 1, 2}}};
   EXPECT_EQ(BySource(RoundTrip(mesh, ChooseLattice(mesh.positions, 0.1))), BySource(mesh));
 }
@@ -168,6 +272,7 @@ TEST(Draco, RefusesMeshesThatItWouldChange) {
   bad = good;
   bad.positions.push_back({0, 0, 400});
   bad.sources.push_back(5);
+  bad.normals.push_back({0, 0, 1});
   EXPECT_EQ(kind_of(bad), "bad-mesh");
 }
 
@@ -185,6 +290,28 @@ TEST(DecodeDraco, RefusesWhatIsNoBitstream) {
   std::vector<std::uint8_t> bytes = *EncodeDraco(mesh, ChooseLattice(mesh.positions, 0.1));
   bytes.resize(bytes.size() / 2);
   EXPECT_EQ(DecodeDraco(bytes).error().kind, "bad-draco");
+}
+
+TEST(DecodeDraco, RefusesALatticeThatIsNone) {
+  const LocalMesh mesh = HillyGrid(9, 9, 10);
+  const std::vector<std::uint8_t> good = *EncodeDraco(mesh, ChooseLattice(mesh.positions, 0.25));
+  const std::string name = "lattice_step";
+  const auto at = std::ranges::search(good, name).end();
+  ASSERT_NE(at, good.end());
+  const std::ptrdiff_t value = at - good.begin() + 1;  // after a byte that tells its length
+  const auto with_step = [&](double step) {
+    std::vector<std::uint8_t> bytes = good;
+    std::memcpy(bytes.data() + value, &step, sizeof step);
+    return DecodeDraco(bytes);
+  };
+  ASSERT_TRUE(with_step(0.25));
+  EXPECT_EQ(with_step(0.25)->lattice.step_m, 0.25);
+  for (const double step : {0.0, -0.25, 0.3, 512.0, HUGE_VAL, std::nan("")}) {
+    EXPECT_EQ(with_step(step).error().kind, "bad-draco") << step;
+  }
+  std::vector<std::uint8_t> nameless = good;
+  nameless[static_cast<std::size_t>(value - 2)] = '?';
+  EXPECT_EQ(DecodeDraco(nameless).error().kind, "bad-draco");
 }
 
 }  // namespace

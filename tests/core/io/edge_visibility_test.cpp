@@ -20,6 +20,7 @@ using ::testing::ElementsAre;
 LocalMesh Square() {
   return {.positions = {{0, 1, 0}, {0, 0, 0}, {1, 0, 0}, {1, 1, 0}},
           .sources = {0, 1, 2, 3},
+          .normals = {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}, {0, 0, 1}},
           .triangles = {{0, 1, 2}, {0, 2, 3}}};
 }
 

@@ -1,5 +1,6 @@
 #include "core/io/glb.h"
 
+#include <draco/compression/decode.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -9,20 +10,19 @@
 namespace farhorizon {
 namespace {
 
-using ::testing::ElementsAre;
 using Json = nlohmann::json;
 using VertexPairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
 struct Encoded {
   std::vector<std::uint8_t> draco;
-  LocalMesh mesh;
+  DecodedMesh decoded;
 };
 
 Encoded Encode(std::uint32_t columns, std::uint32_t rows) {
   const LocalMesh mesh = HillyGrid(columns, rows, 10);
   Encoded encoded;
   encoded.draco = *EncodeDraco(mesh, ChooseLattice(mesh.positions, 0.25));
-  encoded.mesh = *DecodeDraco(encoded.draco);
+  encoded.decoded = *DecodeDraco(encoded.draco);
   return encoded;
 }
 
@@ -46,7 +46,7 @@ VertexPairs SomeEdges(const LocalMesh& mesh) {
 
 TEST(Glb, ChunksAreAlignedAndTheHeaderTellsTheLength) {
   const Encoded e = Encode(9, 8);
-  const std::vector<std::uint8_t> glb = WriteGlb(e.draco, e.mesh, SomeEdges(e.mesh));
+  const std::vector<std::uint8_t> glb = WriteGlb(e.draco, e.decoded, SomeEdges(e.decoded.mesh));
   EXPECT_EQ(Number(glb, 0), 0x46546C67U);
   EXPECT_EQ(Number(glb, 4), 2U);
   EXPECT_EQ(Number(glb, 8), glb.size());
@@ -60,7 +60,7 @@ TEST(Glb, ChunksAreAlignedAndTheHeaderTellsTheLength) {
 
 TEST(Glb, DracoAccessorsHaveNoViewAndTellOfTheDecodedMesh) {
   const Encoded e = Encode(9, 8);
-  const Json gltf = JsonOf(WriteGlb(e.draco, e.mesh, {}));
+  const Json gltf = JsonOf(WriteGlb(e.draco, e.decoded, {}));
   const Json& primitive = gltf["meshes"][0]["primitives"][0];
   const Json& position = gltf["accessors"][primitive["attributes"]["POSITION"].get<int>()];
   const Json& indices = gltf["accessors"][primitive["indices"].get<int>()];
@@ -70,39 +70,57 @@ TEST(Glb, DracoAccessorsHaveNoViewAndTellOfTheDecodedMesh) {
   EXPECT_EQ(position["count"], 72);
   EXPECT_EQ(indices["count"], 3 * 2 * 8 * 7);
   EXPECT_EQ(indices["componentType"], 5123);
-  for (const Enu& p : e.mesh.positions) {
-    EXPECT_LE(position["min"][2].get<double>(), p.up);
-    EXPECT_GE(position["max"][2].get<double>(), p.up);
+  for (const Enu& p : e.decoded.mesh.positions) {
+    const double up = (p.up - e.decoded.lattice.origin[2]) / 0.25;  // in lattice numbers
+    EXPECT_LE(position["min"][2].get<double>(), up);
+    EXPECT_GE(position["max"][2].get<double>(), up);
   }
+  const Json& normal = gltf["accessors"][primitive["attributes"]["NORMAL"].get<int>()];
+  EXPECT_EQ(normal["count"], 72);
+  EXPECT_EQ(normal["type"], "VEC3");
+  EXPECT_EQ(normal["componentType"], 5126);
+  EXPECT_FALSE(normal.contains("bufferView"));
+  EXPECT_EQ(primitive["extensions"]["KHR_draco_mesh_compression"]["attributes"]["NORMAL"], 2);
   EXPECT_EQ(gltf["extensionsRequired"], Json::array({"KHR_draco_mesh_compression"}));
   EXPECT_EQ(primitive["extensions"]["KHR_draco_mesh_compression"]["attributes"]["POSITION"], 0);
   EXPECT_EQ(primitive["mode"], 4);
 }
 
-TEST(Glb, TheRootTurnsZUpToYUp) {
-  const Encoded e = Encode(3, 3);
-  const Json gltf = JsonOf(WriteGlb(e.draco, e.mesh, {}));
+TEST(Glb, TheNodePlacesLatticeNumbersAndTurnsZUpToYUp) {
+  const Encoded e = Encode(30, 20);
+  const Json gltf = JsonOf(WriteGlb(e.draco, e.decoded, {}));
   const auto m = gltf["nodes"][0]["matrix"].get<std::vector<double>>();
   ASSERT_EQ(m.size(), 16U);
-  const auto apply = [&](double x, double y, double z) {
-    return std::vector<double>{m[0] * x + m[4] * y + m[8] * z, m[1] * x + m[5] * y + m[9] * z,
-                               m[2] * x + m[6] * y + m[10] * z};
-  };
-  EXPECT_THAT(apply(1, 0, 0), ElementsAre(1, 0, 0));   // east stays right
-  EXPECT_THAT(apply(0, 0, 1), ElementsAre(0, 1, 0));   // up is glTF's y
-  EXPECT_THAT(apply(0, 1, 0), ElementsAre(0, 0, -1));  // north is away
+  draco::DecoderBuffer buffer;
+  buffer.Init(reinterpret_cast<const char*>(e.draco.data()), e.draco.size());
+  draco::Decoder decoder;
+  const auto mesh = std::move(decoder.DecodeMeshFromBuffer(&buffer)).value();
+  // What a client does: Draco's positions through the matrix, in floats as a renderer has them.
+  for (std::uint32_t i = 0; i < mesh->num_points(); ++i) {
+    std::array<float, 3> p{};
+    mesh->GetAttributeByUniqueId(0)->GetMappedValue(draco::PointIndex(i), p.data());
+    std::array<float, 3> placed{};
+    for (std::size_t row = 0; row < 3; ++row) {
+      for (std::size_t k = 0; k < 3; ++k) placed[row] += static_cast<float>(m[4 * k + row]) * p[k];
+      placed[row] += static_cast<float>(m[12 + row]);
+    }
+    const Enu& there = e.decoded.mesh.positions[i];
+    EXPECT_EQ(placed[0], there.east);    // east stays right
+    EXPECT_EQ(placed[1], there.up);      // up is glTF's y
+    EXPECT_EQ(placed[2], -there.north);  // north is away
+  }
 }
 
 TEST(Glb, MoreVerticesThanShortsCanNameTakeLongIndices) {
   const Encoded e = Encode(300, 220);
-  EXPECT_EQ(JsonOf(WriteGlb(e.draco, e.mesh, {}))["accessors"][1]["componentType"], 5125);
+  EXPECT_EQ(JsonOf(WriteGlb(e.draco, e.decoded, {}))["accessors"][1]["componentType"], 5125);
 }
 
 TEST(Glb, HorizonEdgesAreInTheExtensionAndOnlyThen) {
   const Encoded e = Encode(9, 8);
-  Json gltf = JsonOf(WriteGlb(e.draco, e.mesh, {}));
+  Json gltf = JsonOf(WriteGlb(e.draco, e.decoded, {}));
   EXPECT_EQ(gltf["extensionsUsed"], Json::array({"KHR_draco_mesh_compression"}));
-  const std::vector<std::uint8_t> glb = WriteGlb(e.draco, e.mesh, SomeEdges(e.mesh));
+  const std::vector<std::uint8_t> glb = WriteGlb(e.draco, e.decoded, SomeEdges(e.decoded.mesh));
   gltf = JsonOf(glb);
   EXPECT_EQ(gltf["extensionsUsed"][1], "EXT_mesh_primitive_edge_visibility");
   const Json& edges =
@@ -121,17 +139,19 @@ TEST(Glb, HorizonEdgesAreInTheExtensionAndOnlyThen) {
 
 TEST(Glb, ReadsBackWhatItWrote) {
   const Encoded e = Encode(9, 8);
-  Result<GlbContents> contents = ReadGlb(WriteGlb(e.draco, e.mesh, SomeEdges(e.mesh)));
+  Result<GlbContents> contents = ReadGlb(WriteGlb(e.draco, e.decoded, SomeEdges(e.decoded.mesh)));
   ASSERT_TRUE(contents) << contents.error().message;
   EXPECT_EQ(contents->draco, e.draco);
   EXPECT_EQ(contents->vertex_count, 72);
+  EXPECT_EQ(contents->normal_count, 72);
+  EXPECT_EQ(contents->matrix, GltfMatrix(e.decoded.lattice));
   EXPECT_EQ(contents->index_count, 3 * 2 * 8 * 7);
   EXPECT_LT(contents->min[0], contents->max[0]);
 }
 
 TEST(Glb, ReadingACutOrDamagedFileFailsWithAReason) {
   const Encoded e = Encode(9, 8);
-  const std::vector<std::uint8_t> glb = WriteGlb(e.draco, e.mesh, SomeEdges(e.mesh));
+  const std::vector<std::uint8_t> glb = WriteGlb(e.draco, e.decoded, SomeEdges(e.decoded.mesh));
   for (std::size_t size = 0; size < glb.size(); size += 13) {
     Result<GlbContents> cut =
         ReadGlb({glb.begin(), glb.begin() + static_cast<std::ptrdiff_t>(size)});
