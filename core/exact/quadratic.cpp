@@ -3,8 +3,6 @@
 // against dyadic numbers by the signs of the polynomial and of its derivative there.
 #include "core/exact/quadratic.h"
 
-#include <cmath>
-
 #include <boost/multiprecision/cpp_int.hpp>
 
 #include "core/base/result.h"
@@ -28,6 +26,10 @@ bool IsNarrow(const Quadratic& q, Dyadic t) {
 int SlopeAt(const Quadratic& q, Dyadic t) {
   if (IsNarrow(q, t)) return SignOf(2 * q.c2 * t.n + (q.c1 << t.k));
   return BigInt(2 * BigInt(q.c2) * BigInt(t.n) + (BigInt(q.c1) << t.k)).sign();
+}
+
+int SlopeAt(const Quadratic& q, const WideDyadic& t) {
+  return SignOf((WideInt(2 * q.c2) * t.n) + (WideInt(q.c1) << t.k));
 }
 
 int DiscriminantSign(const Quadratic& q) { return CompareProducts(q.c1, q.c1, 4 * q.c2, q.c0); }
@@ -90,65 +92,20 @@ bool SameNumber(const QuadraticRoot& r, const QuadraticRoot& s) {
   return IsRational(r, u, v) && IsRational(s, u, v);
 }
 
-}  // namespace
-
-double Dyadic::ToDouble() const { return std::ldexp(static_cast<double>(n), -k); }
-
-int SignAt(const Quadratic& q, Dyadic t) {
-  if (IsNarrow(q, t)) {
-    const Int128 high = q.c2 * t.n + (q.c1 << t.k);
-    return SignOf(high * t.n + (q.c0 << (2 * t.k)));
-  }
-  const BigInt n(t.n);
-  const BigInt high = BigInt(q.c2) * n + (BigInt(q.c1) << t.k);
-  return BigInt(high * n + (BigInt(q.c0) << (2 * t.k))).sign();
-}
-
-QuadraticRoot QuadraticRoot::At(Dyadic t) { return {{-t.n, Int128{1} << t.k, 0}, false}; }
-
-int Compare(const QuadraticRoot& root, Dyadic t) {
-  return SideOf(root, SignAt(root.q, t), SlopeAt(root.q, t));
-}
-
-int Compare(const QuadraticRoot& r, const QuadraticRoot& s) {
-  const Dyadic zero{0, 0};
-  const Dyadic one{1, 0};
-  const int r0 = Compare(r, zero);
-  const int s0 = Compare(s, zero);
-  const int r1 = Compare(r, one);
-  const int s1 = Compare(s, one);
-  Check(r0 >= 0 && s0 >= 0 && r1 <= 0 && s1 <= 0, "roots to compare lie in [0, 1]");
-  if (r0 == 0 || s0 == 0) return r0 - s0;
-  if (r1 == 0 || s1 == 0) return r1 - s1;
-  Dyadic middle{1, 1};
+// Where the roots are told apart by halving on from `middle`, with which neither has been compared:
+// the sign of r - s. Requires: they differ.
+int Part(const QuadraticRoot& r, const QuadraticRoot& s, WideDyadic middle) {
   while (true) {
     const int r_side = Compare(r, middle);
     const int s_side = Compare(s, middle);
     if (r_side != s_side) return r_side > s_side ? 1 : -1;
-    if (r_side == 0) return 0;
-    // Where 30 halvings do not part them they are probably one number: ask once.
-    if (middle.k == 30 && ShareARoot(r.q, s.q) && SameNumber(r, s)) return 0;
-    Check(middle.k < kMaxDyadicBits, "different roots are parted by 2^-70");
-    middle = {2 * middle.n + r_side, middle.k + 1};
+    Check(r_side != 0 && middle.k < kMaxWideDyadicBits, "different roots are parted by 2^-424");
+    middle = {(middle.n << 1) + WideInt(r_side), middle.k + 1};
   }
 }
 
-std::optional<Dyadic> Between(const QuadraticRoot& lo, const QuadraticRoot& hi) {
-  if (Compare(lo, hi) >= 0) return std::nullopt;
-  Dyadic middle{1, 1};
-  while (true) {
-    if (Compare(lo, middle) >= 0) {
-      middle = {2 * middle.n + 1, middle.k + 1};
-    } else if (Compare(hi, middle) <= 0) {
-      middle = {2 * middle.n - 1, middle.k + 1};
-    } else {
-      return middle;
-    }
-    Check(middle.k <= kMaxDyadicBits, "different roots are parted by 2^-70");
-  }
-}
-
-NonNegativeRange NonNegativeAround(const Quadratic& q, Dyadic t) {
+template <typename Number>
+NonNegativeRange RangeAround(const Quadratic& q, const Number& t) {
   NonNegativeRange range;
   if (q.c1 == 0 && q.c2 == 0) return range;
   Check(SignAt(q, t) >= 0, "a polynomial is not negative where its range is asked");
@@ -171,6 +128,100 @@ NonNegativeRange NonNegativeAround(const Quadratic& q, Dyadic t) {
     range.from = QuadraticRoot{q, true};
   }
   return range;
+}
+
+}  // namespace
+
+WideDyadic Widened(Dyadic t) { return {WideInt(t.n), t.k}; }
+
+Dyadic Narrowed(const WideDyadic& t) {
+  Check(t.k <= kMaxDyadicBits, "a number to be narrowed is no finer than 2^-70");
+  return {static_cast<Int128>(t.n), t.k};
+}
+
+int SignAt(const Quadratic& q, Dyadic t) {
+  if (IsNarrow(q, t)) {
+    const Int128 high = q.c2 * t.n + (q.c1 << t.k);
+    return SignOf(high * t.n + (q.c0 << (2 * t.k)));
+  }
+  const BigInt n(t.n);
+  const BigInt high = BigInt(q.c2) * n + (BigInt(q.c1) << t.k);
+  return BigInt(high * n + (BigInt(q.c0) << (2 * t.k))).sign();
+}
+
+int SignAt(const Quadratic& q, const WideDyadic& t) {
+  const WideInt high = WideInt(q.c2) * t.n + (WideInt(q.c1) << t.k);
+  return SignOf(high * t.n + (WideInt(q.c0) << (2 * t.k)));
+}
+
+QuadraticRoot QuadraticRoot::At(const WideDyadic& t) {
+  Check(t.k <= 103, "a dyadic root of a polynomial is no finer than its coefficients");
+  return At(Dyadic{static_cast<Int128>(t.n), t.k});
+}
+
+QuadraticRoot QuadraticRoot::At(Dyadic t) { return {{-t.n, Int128{1} << t.k, 0}, false}; }
+
+int Compare(const QuadraticRoot& root, Dyadic t) {
+  return SideOf(root, SignAt(root.q, t), SlopeAt(root.q, t));
+}
+
+int Compare(const QuadraticRoot& root, const WideDyadic& t) {
+  return SideOf(root, SignAt(root.q, t), SlopeAt(root.q, t));
+}
+
+int Compare(const QuadraticRoot& r, const QuadraticRoot& s) {
+  const Dyadic zero{0, 0};
+  const Dyadic one{1, 0};
+  const int r0 = Compare(r, zero);
+  const int s0 = Compare(s, zero);
+  const int r1 = Compare(r, one);
+  const int s1 = Compare(s, one);
+  Check(r0 >= 0 && s0 >= 0 && r1 <= 0 && s1 <= 0, "roots to compare lie in [0, 1]");
+  if (r0 == 0 || s0 == 0) return r0 - s0;
+  if (r1 == 0 || s1 == 0) return r1 - s1;
+  Dyadic middle{1, 1};
+  while (true) {
+    const int r_side = Compare(r, middle);
+    const int s_side = Compare(s, middle);
+    if (r_side != s_side) return r_side > s_side ? 1 : -1;
+    if (r_side == 0) return 0;
+    // Where 30 halvings do not part them they are probably one number: ask once.
+    if (middle.k == 30 && ShareARoot(r.q, s.q) && SameNumber(r, s)) return 0;
+    middle = {2 * middle.n + r_side, middle.k + 1};
+    if (middle.k > kMaxDyadicBits) return Part(r, s, Widened(middle));
+  }
+}
+
+std::optional<WideDyadic> Between(const QuadraticRoot& lo, const QuadraticRoot& hi) {
+  if (Compare(lo, hi) >= 0) return std::nullopt;
+  Dyadic middle{1, 1};
+  while (middle.k <= kMaxDyadicBits) {
+    if (Compare(lo, middle) >= 0) {
+      middle = {2 * middle.n + 1, middle.k + 1};
+    } else if (Compare(hi, middle) <= 0) {
+      middle = {2 * middle.n - 1, middle.k + 1};
+    } else {
+      return Widened(middle);
+    }
+  }
+  WideDyadic fine = Widened(middle);
+  while (true) {
+    int side = 0;
+    if (Compare(lo, fine) >= 0) {
+      side = 1;
+    } else if (Compare(hi, fine) <= 0) {
+      side = -1;
+    } else {
+      return fine;
+    }
+    fine = {(fine.n << 1) + WideInt(side), fine.k + 1};
+    Check(fine.k <= kMaxWideDyadicBits, "different roots are parted by 2^-424");
+  }
+}
+
+NonNegativeRange NonNegativeAround(const Quadratic& q, Dyadic t) { return RangeAround(q, t); }
+NonNegativeRange NonNegativeAround(const Quadratic& q, const WideDyadic& t) {
+  return RangeAround(q, t);
 }
 
 }  // namespace farhorizon

@@ -9,9 +9,10 @@ namespace farhorizon {
 namespace {
 
 // Narrows a range around t to where polynomials that are not negative at t stay so.
+template <typename Int>
 class RangeNarrower {
  public:
-  explicit RangeNarrower(Dyadic t)
+  explicit RangeNarrower(const BasicDyadic<Int>& t)
       : t_(t), range_{QuadraticRoot::At({0, 0}), QuadraticRoot::At({1, 0})} {}
 
   void Keep(const Quadratic& q) {
@@ -31,7 +32,7 @@ class RangeNarrower {
   [[nodiscard]] const HiddenRange& range() const { return range_; }
 
  private:
-  Dyadic t_;
+  BasicDyadic<Int> t_;
   HiddenRange range_;
 };
 
@@ -39,7 +40,8 @@ Quadratic Negated(const Quadratic& q) { return {-q.c0, -q.c1, -q.c2}; }
 
 // Heights: the point at t is not above the obstacle's top, and not past its lower end on the side
 // that the arc was made for.
-void KeepHeights(const Sighted& e, const Arc& arc, RangeNarrower& narrower) {
+template <typename Int>
+void KeepHeights(const Sighted& e, const BasicArc<Int>& arc, RangeNarrower<Int>& narrower) {
   const Int128 climb = Int128{e.high.z} - e.low.z;
   narrower.Keep({Int128{arc.high_z} - e.low.z, -climb, 0});
   if (arc.sliced) {
@@ -50,9 +52,12 @@ void KeepHeights(const Sighted& e, const Arc& arc, RangeNarrower& narrower) {
 }
 
 // A chain of arcs that covers the half turn; the first contains the start, or begins at it.
-std::vector<const Arc*> Thin(const std::vector<Arc>& arcs, PredicateCounts* counts) {
+template <typename Int>
+std::vector<const BasicArc<Int>*> Thin(const std::vector<BasicArc<Int>>& arcs,
+                                       PredicateCounts* counts) {
+  using Arc = BasicArc<Int>;
   const auto at_start = [](const Arc& arc) {
-    return arc.crosses_start || (arc.from_direction.v.y == 0);
+    return arc.crosses_start || SignOf(arc.from_direction.v.y) == 0;
   };
   const auto ends_later = [counts](const Arc* a, const Arc* b) {
     if (a->crosses_start != b->crosses_start) return a->crosses_start;
@@ -74,7 +79,7 @@ std::vector<const Arc*> Thin(const std::vector<Arc>& arcs, PredicateCounts* coun
   std::vector<const Arc*> chain = {first};
   std::size_t next = 0;
   while (true) {
-    const Direction& reached = chain.back()->to_direction;
+    const BasicDirection<Int>& reached = chain.back()->to_direction;
     const bool closes =
         first->crosses_start && CompareAngle(reached, first->from_direction, counts) >= 0;
     if (closes || (chain.size() > 1 && chain.back()->crosses_start)) return chain;
@@ -95,7 +100,9 @@ Quadratic CrossOf(const MovingVector& a, bool a_turned, const MovingVector& b, b
   return a_turned == b_turned ? cross : Negated(cross);
 }
 
-void KeepChain(const std::vector<const Arc*>& chain, RangeNarrower& narrower) {
+template <typename Int>
+void KeepChain(const std::vector<const BasicArc<Int>*>& chain, RangeNarrower<Int>& narrower) {
+  using Arc = BasicArc<Int>;
   for (const Arc* arc : chain) narrower.Keep(Cross(arc->from, arc->to));
   for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
     // The next begins no later than this one ends, both in the upper half plane.
@@ -118,14 +125,16 @@ void KeepChain(const std::vector<const Arc*>& chain, RangeNarrower& narrower) {
 
 }  // namespace
 
-HiddenRange RangeOfCover(const Sighted& sighted, const SightSample& sample,
-                         SightSample::Outcome outcome, Dyadic t,
+template <typename Int>
+HiddenRange RangeOfCover(const Sighted& sighted, const BasicSightSample<Int>& sample,
+                         SightOutcome outcome, const BasicDyadic<Int>& t,
                          std::vector<std::int32_t>* blockers, PredicateCounts* counts) {
-  RangeNarrower narrower(t);
-  if (outcome == SightSample::Outcome::kAmbiguous) {
+  using Arc = BasicArc<Int>;
+  RangeNarrower<Int> narrower(t);
+  if (outcome == SightOutcome::kAmbiguous) {
     return {QuadraticRoot::At(t), QuadraticRoot::At(t)};
   }
-  if (outcome == SightSample::Outcome::kEnclosed) {
+  if (outcome == SightOutcome::kEnclosed) {
     const Arc& arc = sample.arcs().front();
     KeepHeights(sighted, arc, narrower);
     if (!arc.from.IsZero()) narrower.Keep(Negated(Dot(arc.from, arc.to)));
@@ -140,5 +149,10 @@ HiddenRange RangeOfCover(const Sighted& sighted, const SightSample& sample,
   KeepChain(chain, narrower);
   return narrower.range();
 }
+
+template HiddenRange RangeOfCover(const Sighted&, const SightSample&, SightOutcome, const Dyadic&,
+                                  std::vector<std::int32_t>*, PredicateCounts*);
+template HiddenRange RangeOfCover(const Sighted&, const WideSightSample&, SightOutcome,
+                                  const WideDyadic&, std::vector<std::int32_t>*, PredicateCounts*);
 
 }  // namespace farhorizon

@@ -20,8 +20,9 @@ struct HiddenRange {
 /// chain holds as long as each arc turns the right way, each begins before the one before it ends,
 /// and each obstacle goes on rising through or above the point: signs of quadratics in t. Exact.
 /// blockers: where not null, the obstacles of the chain, but for screens, are appended.
-HiddenRange RangeOfCover(const Sighted& sighted, const SightSample& sample,
-                         SightSample::Outcome outcome, Dyadic t,
+template <typename Int>
+HiddenRange RangeOfCover(const Sighted& sighted, const BasicSightSample<Int>& sample,
+                         SightOutcome outcome, const BasicDyadic<Int>& t,
                          std::vector<std::int32_t>* blockers, PredicateCounts* counts);
 
 }  // namespace farhorizon

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cmath>
-#include <optional>
 
 #include "core/base/result.h"
 
@@ -15,34 +14,39 @@ bool IsNarrow(const Vector& v) {
   return v.x < kNarrow && v.x > -kNarrow && v.y < kNarrow && v.y > -kNarrow;
 }
 
-bool StrictlyBetween(const Vector& from, const Vector& v, const Vector& to) {
+template <typename Int>
+bool StrictlyBetween(const BasicVector<Int>& from, const BasicVector<Int>& v,
+                     const BasicVector<Int>& to) {
   // From and to are at most half a turn apart, so being on the right sides of both is enough.
   return CrossSign(from, v) > 0 && CrossSign(v, to) > 0;
 }
 
 // A vector that grows by repeated addition of another: base + count * step.
-Vector Add(const Vector& base, Int128 count, const Vector& step) {
+template <typename Int>
+BasicVector<Int> Add(const BasicVector<Int>& base, const Int& count, const BasicVector<Int>& step) {
   return {base.x + count * step.x, base.y + count * step.y};
 }
 
 // The Stern-Brocot search between the axes lo and hi, a quarter turn apart, for the simplest vector
 // strictly between from and to, which lie between them. Runs of steps to one side are galloped.
-Vector SternBrocot(Vector lo, Vector hi, const Vector& from, const Vector& to) {
+template <typename Int>
+BasicVector<Int> SternBrocot(BasicVector<Int> lo, BasicVector<Int> hi, const BasicVector<Int>& from,
+                             const BasicVector<Int>& to) {
   while (true) {
-    const Vector middle = Add(lo, 1, hi);
+    const BasicVector<Int> middle = Add(lo, Int{1}, hi);
     const bool low = CrossSign(from, middle) <= 0;
     const bool high = CrossSign(middle, to) <= 0;
     if (!low && !high) return middle;
     Check(!(low && high), "there is room between two different directions");
     // The furthest lo + count * hi (or hi + count * lo) that is still outside.
-    const auto outside = [&](Int128 count) {
+    const auto outside = [&](const Int& count) {
       return low ? CrossSign(from, Add(lo, count, hi)) <= 0
                  : CrossSign(Add(hi, count, lo), to) <= 0;
     };
-    Int128 reach = 1;
-    while (outside(2 * reach)) reach *= 2;
-    for (Int128 step = reach / 2; step > 0; step /= 2) {
-      if (outside(reach + step)) reach += step;
+    Int reach{1};
+    while (outside(reach << 1)) reach = reach << 1;
+    for (Int step = reach >> 1; SignOf(step) > 0; step = step >> 1) {
+      if (outside(reach + step)) reach = reach + step;
     }
     if (low) {
       lo = Add(lo, reach, hi);
@@ -52,22 +56,57 @@ Vector SternBrocot(Vector lo, Vector hi, const Vector& from, const Vector& to) {
   }
 }
 
-Vector SimplestInside(const Vector& from, const Vector& to) {
-  const std::array<Vector, 8> around = {
-      {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}}};
-  for (std::size_t i = 0; i < 8; i += 2) {
-    if (StrictlyBetween(from, around[i], to)) return around[i];
+template <typename Int>
+BasicVector<Int> SimplestInside(const BasicVector<Int>& from, const BasicVector<Int>& to) {
+  const Int one{1};
+  const Int zero{0};
+  const std::array<BasicVector<Int>, 4> axes = {
+      {{one, zero}, {zero, one}, {-one, zero}, {zero, -one}}};
+  for (const BasicVector<Int>& axis : axes) {
+    if (StrictlyBetween(from, axis, to)) return axis;
   }
-  for (std::size_t i = 0; i < 8; i += 2) {
-    const Vector& lo = around[i];
-    const Vector& hi = around[(i + 2) % 8];
+  for (std::size_t i = 0; i < 4; ++i) {
+    const BasicVector<Int>& lo = axes[i];
+    const BasicVector<Int>& hi = axes[(i + 1) % 4];
     // No axis is strictly between, so from and to lie in one closed quarter.
-    const auto within = [&](const Vector& v) {
+    const auto within = [&](const BasicVector<Int>& v) {
       return CrossSign(lo, v) >= 0 && CrossSign(v, hi) >= 0;
     };
     if (within(from) && within(to)) return SternBrocot(lo, hi, from, to);
   }
   throw InternalError("two directions without an axis between them lie in one quarter");
+}
+
+template <typename Int>
+BasicDirection<Int> DirectionOf(const BasicVector<Int>& v) {
+  BasicDirection<Int> d;
+  const int up = SignOf(v.y);
+  d.turned = up < 0 || (up == 0 && SignOf(v.x) < 0);
+  d.v = d.turned ? -v : v;
+  // Both conversions, the sum and the quotient are within one unit in the last place each.
+  const auto x = static_cast<double>(d.v.x);
+  const auto y = static_cast<double>(d.v.y);
+  d.key = 1 - x / (std::abs(x) + y);
+  return d;
+}
+
+template <typename Int>
+int AngleSign(const BasicDirection<Int>& a, const BasicDirection<Int>& b, PredicateCounts* counts) {
+  const double difference = a.key - b.key;
+  if (std::abs(difference) > 0x1p-49) {
+    if (counts != nullptr) ++counts->filtered;
+    return difference > 0 ? 1 : -1;
+  }
+  const int sign = -CrossSign(a.v, b.v);
+  if (counts != nullptr) ++(sign == 0 ? counts->tied : counts->exact);
+  return sign;
+}
+
+template <typename Int>
+BasicVector<Int> SimplestNotAlong(const BasicVector<Int>& from, const BasicVector<Int>& to,
+                                  const BasicVector<Int>& along) {
+  const BasicVector<Int> simplest = SimplestInside(from, to);
+  return CrossSign(simplest, along) == 0 ? SimplestInside(from, simplest) : simplest;
 }
 
 }  // namespace
@@ -82,35 +121,24 @@ int DotSign(const Vector& a, const Vector& b) {
   return CompareProducts(a.x, b.x, -a.y, b.y);
 }
 
-Direction MakeDirection(const Vector& v) {
-  Direction d;
-  d.turned = v.y < 0 || (v.y == 0 && v.x < 0);
-  d.v = d.turned ? -v : v;
-  // Both conversions, the sum and the quotient are within half a unit in the last place each.
-  const double x = static_cast<double>(d.v.x);
-  const double y = static_cast<double>(d.v.y);
-  d.key = 1 - x / (std::abs(x) + y);
-  return d;
-}
+int CrossSign(const WideVector& a, const WideVector& b) { return SignOf(a.x * b.y - a.y * b.x); }
+int DotSign(const WideVector& a, const WideVector& b) { return SignOf(a.x * b.x + a.y * b.y); }
 
-Direction FirstDirection() { return {{1, 0}, 0, false}; }
-Direction LastDirection() { return {{-1, 0}, 2, false}; }
+Direction MakeDirection(const Vector& v) { return DirectionOf(v); }
+WideDirection MakeDirection(const WideVector& v) { return DirectionOf(v); }
 
 int CompareAngle(const Direction& a, const Direction& b, PredicateCounts* counts) {
-  const double difference = a.key - b.key;
-  if (std::abs(difference) > 0x1p-49) {
-    if (counts != nullptr) ++counts->filtered;
-    return difference > 0 ? 1 : -1;
-  }
-  const int sign = -CrossSign(a.v, b.v);
-  if (counts != nullptr) ++(sign == 0 ? counts->tied : counts->exact);
-  return sign;
+  return AngleSign(a, b, counts);
+}
+int CompareAngle(const WideDirection& a, const WideDirection& b, PredicateCounts* counts) {
+  return AngleSign(a, b, counts);
 }
 
 Vector SimplestBetween(const Vector& from, const Vector& to, const Vector& along) {
-  Vector simplest = SimplestInside(from, to);
-  if (CrossSign(simplest, along) == 0) simplest = SimplestInside(from, simplest);
-  return simplest;
+  return SimplestNotAlong(from, to, along);
+}
+WideVector SimplestBetween(const WideVector& from, const WideVector& to, const WideVector& along) {
+  return SimplestNotAlong(from, to, along);
 }
 
 }  // namespace farhorizon

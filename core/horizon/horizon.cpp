@@ -9,6 +9,7 @@
 #include <exception>
 #include <optional>
 #include <span>
+#include <string>
 #include <thread>
 
 #include "core/horizon/hull_sweep.h"
@@ -99,6 +100,24 @@ class Decider {
 
 }  // namespace
 
+namespace {
+
+Error TooNarrow(const Terrain& terrain, Edge edge) {
+  const auto post = [&terrain](VertexId v) {
+    const Point3i p = terrain.Point(v);
+    return "(" + std::to_string(p.x) + ", " + std::to_string(p.y) + ") of height " +
+           std::to_string(p.z);
+  };
+  return {ErrorCode::kUnsupportedData,
+          "the edge from post " + post(edge.a) + " to post " + post(edge.b) +
+              " quanta is on the horizon through a gap too narrow for the witness to be written: "
+              "cliffs of this height differ by too little; round the heights to a coarser unit, or "
+              "mark spikes as nodata",
+          "sight-too-narrow"};
+}
+
+}  // namespace
+
 Result<Horizon> FindHorizon(const Terrain& terrain, int threads, const Watch& watch) {
   Result<HullSweep> sweep = SweepHulls(terrain, watch);
   if (!sweep) return std::move(sweep.error());
@@ -110,6 +129,9 @@ Result<Horizon> FindHorizon(const Terrain& terrain, int threads, const Watch& wa
     return Error{ErrorCode::kCancelled, "stopped while deciding horizon edges"};
   }
   horizon.edges = decider.Edges();
+  for (const HorizonEdge& e : horizon.edges) {
+    if (!e.witness.exact) return TooNarrow(terrain, e.edge);
+  }
   return horizon;
 }
 

@@ -57,14 +57,16 @@ struct Horizon {
 /// The edges of `terrain` that lie on the distant horizon for at least one line of sight: creases
 /// that attain the greatest height over the line on a set of lines with non-empty interior.
 ///
-/// Exact for every terrain; the same for any `threads`.
-/// Errors: kCancelled when the watch says stop.
+/// Exact for every terrain; the same for any `threads`. Every witness is exact.
+/// Errors: kCancelled when the watch says stop; kUnsupportedData, kind sight-too-narrow, with an edge
+/// that is on the horizon by a line of sight that a witness cannot say (skyline.h).
 /// Cost: about O(n log n) on real terrain; a few hundred bytes a candidate, some 20 a post.
 Result<Horizon> FindHorizon(const Terrain& terrain, int threads, const Watch& watch);
 
 /// The greatest height of the terrain over the plan line through `witness` on `edge` is at the
-/// witness: a check from the heights alone, independent of how the witness was found. Exact. Cost:
-/// O(columns + rows).
+/// witness: a check from the heights alone, independent of how the witness was found. Exact for every
+/// double t in [0, 1] and |dc|, |dr| < 2^62; others, and a witness that is not `exact`, do not hold.
+/// Cost: O(columns + rows).
 bool WitnessHolds(const Terrain& terrain, Edge edge, const Witness& witness);
 
 }  // namespace farhorizon

@@ -39,6 +39,12 @@ double Key(double x, double y) {
   return 1 - x / (std::abs(x) + y);
 }
 
+// What is nearer than this is looked at exactly: the cover's margin counts on the distance.
+bool IsNear(double x, double y) {
+  constexpr double kNear = 0.05;
+  return std::max(std::abs(x), std::abs(y)) < kNear;
+}
+
 double SquaredDistance(const SegmentIndex::Node& node, double x, double y) {
   const double dx = std::max({node.min_x - x, 0.0, x - node.max_x});
   const double dy = std::max({node.min_y - y, 0.0, y - node.max_y});
@@ -59,23 +65,27 @@ Quadratic Dot(const MovingVector& a, const MovingVector& b) {
           Int128{a.bx} * b.bx + Int128{a.by} * b.by};
 }
 
-SightSample::SightSample(const SegmentIndex& index, const Sighted& sighted,
-                         std::optional<std::int32_t> except, std::span<const Segment> screens,
-                         PredicateCounts* counts)
+template <typename Int>
+BasicSightSample<Int>::BasicSightSample(const SegmentIndex& index, const Sighted& sighted,
+                                        std::optional<std::int32_t> except,
+                                        std::span<const Segment> screens, PredicateCounts* counts)
     : index_(index), sighted_(sighted), except_(except), screens_(screens), counts_(counts) {}
 
-SightSample::Outcome SightSample::Look(Dyadic t) {
+template <typename Int>
+SightOutcome BasicSightSample<Int>::Look(const BasicDyadic<Int>& t) {
   t_ = t;
   const double where = t.ToDouble();
   x_ = sighted_.low.x + (sighted_.high.x - sighted_.low.x) * where;
   y_ = sighted_.low.y + (sighted_.high.y - sighted_.low.y) * where;
-  z_ = sighted_.low.z + (static_cast<double>(sighted_.high.z) - sighted_.low.z) * where;
-  scaled_z_ = (Int128{sighted_.low.z} << t.k) + (Int128{sighted_.high.z} - sighted_.low.z) * t.n;
+  const std::int64_t climb = std::int64_t{sighted_.high.z} - sighted_.low.z;
+  scaled_z_ = (Int{sighted_.low.z} << t.k) + Int{climb} * t.n;
+  whole_z_ = static_cast<std::int64_t>(scaled_z_ >> t.k);
+  part_z_ = BasicDyadic<Int>{scaled_z_ - (Int{whole_z_} << t.k), t.k}.ToDouble();
   const bool level_hides = sighted_.IsLevel() && sighted_.ties == Ties::kBlock;
-  least_top_ = static_cast<std::int64_t>(scaled_z_ >> t.k) + (level_hides ? 0 : 1);
-  cover_ = DirectionCover();
+  least_top_ = whole_z_ + (level_hides ? 0 : 1);
+  cover_ = BasicDirectionCover<Int>();
   arcs_.clear();
-  outcome_ = Outcome::kHidden;
+  outcome_ = SightOutcome::kHidden;
 
   if (!MeetScreens()) return outcome_;
   struct Pending {
@@ -105,14 +115,15 @@ SightSample::Outcome SightSample::Look(Dyadic t) {
               stack.begin() + static_cast<std::ptrdiff_t>(depth),
               [](const Pending& a, const Pending& b) { return a.distance > b.distance; });
   }
-  const std::optional<DirectionCover::Gap> gap = cover_.WidestGap();
+  const auto gap = cover_.WidestGap();
   Check(gap.has_value(), "a complete cover ends the search");
-  const Vector along{sighted_.high.x - sighted_.low.x, sighted_.high.y - sighted_.low.y};
+  const Vector along{Int{sighted_.high.x - sighted_.low.x}, Int{sighted_.high.y - sighted_.low.y}};
   sight_ = SimplestBetween(gap->from, gap->to, along);
-  return Outcome::kSight;
+  return SightOutcome::kSight;
 }
 
-bool SightSample::Visit(const SegmentIndex::Node& node) {
+template <typename Int>
+bool BasicSightSample<Int>::Visit(const SegmentIndex::Node& node) {
   for (std::int32_t id = node.first; id >= 0;) {
     const SegmentIndex::Item& item = index_.item(id);
     if (item.alive && item.high.z >= least_top_ && id != except_ && !SurelyHidden(item)) {
@@ -123,7 +134,8 @@ bool SightSample::Visit(const SegmentIndex::Node& node) {
   return true;
 }
 
-bool SightSample::MeetScreens() {
+template <typename Int>
+bool BasicSightSample<Int>::MeetScreens() {
   for (const Segment& screen : screens_) {
     const SegmentIndex::Item item{screen.a, screen.b};
     if (item.high.z >= least_top_ && !SurelyHidden(item) && !Meet(kScreen, item)) return false;
@@ -131,8 +143,9 @@ bool SightSample::MeetScreens() {
   return true;
 }
 
-bool SightSample::Meet(std::int32_t id, const SegmentIndex::Item& item) {
-  if (item.high.z == least_top_ && (Int128{item.high.z} << t_.k) == scaled_z_ &&
+template <typename Int>
+bool BasicSightSample<Int>::Meet(std::int32_t id, const SegmentIndex::Item& item) {
+  if (item.high.z == least_top_ && (Int{item.high.z} << t_.k) == scaled_z_ &&
       item.low.z != item.high.z) {
     return true;  // only its upper end is at the height of level ground
   }
@@ -140,7 +153,7 @@ bool SightSample::Meet(std::int32_t id, const SegmentIndex::Item& item) {
   arc.obstacle = id;
   arc.low_z = item.low.z;
   arc.high_z = item.high.z;
-  arc.sliced = (Int128{item.low.z} << t_.k) < scaled_z_;
+  arc.sliced = (Int{item.low.z} << t_.k) < scaled_z_;
   arc.from = arc.sliced ? ToSlice(sighted_, item.low, item.high) : ToPoint(sighted_, item.low);
   arc.to = ToPoint(sighted_, item.high);
   Vector from = arc.from.At(t_);
@@ -149,11 +162,11 @@ bool SightSample::Meet(std::int32_t id, const SegmentIndex::Item& item) {
     // The obstacle lies along the segment itself, at its height: it hides it where ties do.
     if (sighted_.ties == Ties::kPass) return true;
     arcs_.assign(1, arc);
-    outcome_ = Outcome::kEnclosed;
+    outcome_ = SightOutcome::kEnclosed;
     return false;
   }
   if (from.IsZero() || to.IsZero()) {
-    outcome_ = Outcome::kAmbiguous;
+    outcome_ = SightOutcome::kAmbiguous;
     return false;
   }
   const int turn = CrossSign(from, to);
@@ -170,23 +183,25 @@ bool SightSample::Meet(std::int32_t id, const SegmentIndex::Item& item) {
   return !cover_.IsComplete();
 }
 
-bool SightSample::MeetCollinear(const Arc& arc, const Vector& from, const Vector& to) {
+template <typename Int>
+bool BasicSightSample<Int>::MeetCollinear(const Arc& arc, const Vector& from, const Vector& to) {
   if (DotSign(from, to) > 0) {
     // Seen end on: one direction, which no sight may take.
-    const Direction direction = MakeDirection(from);
+    const BasicDirection<Int> direction = MakeDirection(from);
     cover_.Add(direction, direction, false, counts_);
     return true;
   }
   if (Cross(arc.from, arc.to).IsZero()) {
     arcs_.assign(1, arc);
-    outcome_ = Outcome::kEnclosed;
+    outcome_ = SightOutcome::kEnclosed;
   } else {
-    outcome_ = Outcome::kAmbiguous;
+    outcome_ = SightOutcome::kAmbiguous;
   }
   return false;
 }
 
-bool SightSample::SurelyHidden(const SegmentIndex::Node& node) const {
+template <typename Int>
+bool BasicSightSample<Int>::SurelyHidden(const SegmentIndex::Node& node) const {
   const double center_x = 0.5 * (node.min_x + static_cast<double>(node.max_x)) - x_;
   const double center_y = 0.5 * (node.min_y + static_cast<double>(node.max_y)) - y_;
   const std::array<std::array<double, 2>, 4> corners = {{{node.min_x - x_, node.min_y - y_},
@@ -202,7 +217,7 @@ bool SightSample::SurelyHidden(const SegmentIndex::Node& node) const {
     const double dot = center_x * corners[i][0] + center_y * corners[i][1];
     const double tangent = cross / dot;
     // Boxes around the point, or close beside it, look too wide to be judged by their corners.
-    if (!(dot > 0) || std::abs(tangent) > 1e3) return false;
+    if (!(dot > 0) || std::abs(tangent) > 1e3 || IsNear(corners[i][0], corners[i][1])) return false;
     if (i == 0 || tangent < least) {
       least = tangent;
       first = i;
@@ -216,28 +231,30 @@ bool SightSample::SurelyHidden(const SegmentIndex::Node& node) const {
                              Key(corners[last][0], corners[last][1]));
 }
 
-bool SightSample::SurelyHidden(const SegmentIndex::Item& item) const {
+template <typename Int>
+bool BasicSightSample<Int>::SurelyHidden(const SegmentIndex::Item& item) const {
   double low_x = item.low.x - x_;
   double low_y = item.low.y - y_;
   double high_x = item.high.x - x_;
   double high_y = item.high.y - y_;
-  if (item.low.z < z_) {
-    const double share = (z_ - item.low.z) / (static_cast<double>(item.high.z) - item.low.z);
+  const double above_low = static_cast<double>(whole_z_ - item.low.z) + part_z_;
+  if (above_low > 0) {
+    const double share = above_low / (static_cast<double>(item.high.z) - item.low.z);
     low_x += share * (high_x - low_x);
     low_y += share * (high_y - low_y);
   }
-  // What is nearer than this is looked at exactly: the cover's margin counts on the distance.
-  constexpr double kNear = 0.05;
+  // Positions that are 1e-11 off, of vectors of up to 10^5 cells.
+  constexpr double kInLine = 1e-5;
   const double cross = low_x * high_y - low_y * high_x;
-  if (std::max(std::abs(low_x), std::abs(low_y)) < kNear ||
-      std::max(std::abs(high_x), std::abs(high_y)) < kNear || std::abs(cross) < 1e-6) {
-    return false;
-  }
+  if (IsNear(low_x, low_y) || IsNear(high_x, high_y) || std::abs(cross) < kInLine) return false;
   if (cross < 0) {
     std::swap(low_x, high_x);
     std::swap(low_y, high_y);
   }
   return cover_.SurelyCovers(Key(low_x, low_y), Key(high_x, high_y));
 }
+
+template class BasicSightSample<Int128>;
+template class BasicSightSample<WideInt>;
 
 }  // namespace farhorizon

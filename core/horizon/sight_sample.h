@@ -31,8 +31,9 @@ struct MovingVector {
   std::int64_t by = 0;
 
   /// The vector at t, times 2^k.
-  [[nodiscard]] Vector At(Dyadic t) const {
-    return {(Int128{ax} << t.k) + bx * t.n, (Int128{ay} << t.k) + by * t.n};
+  template <typename Int>
+  [[nodiscard]] BasicVector<Int> At(const BasicDyadic<Int>& t) const {
+    return {(Int{ax} << t.k) + Int{bx} * t.n, (Int{ay} << t.k) + Int{by} * t.n};
   }
   [[nodiscard]] bool IsZero() const { return ax == 0 && ay == 0 && bx == 0 && by == 0; }
 };
@@ -44,11 +45,12 @@ Quadratic Dot(const MovingVector& a, const MovingVector& b);
 inline constexpr std::int32_t kScreen = -1;
 
 /// What one obstacle hides at one t: directions from `from` counter-clockwise to `to`.
-struct Arc {
+template <typename Int>
+struct BasicArc {
   MovingVector from;
   MovingVector to;
-  Direction from_direction;
-  Direction to_direction;
+  BasicDirection<Int> from_direction;
+  BasicDirection<Int> to_direction;
   bool crosses_start = false;
   bool sliced = false;        ///< one of the two is where the obstacle rises through the height
   std::int32_t obstacle = 0;  ///< its id; kScreen for a screen
@@ -56,21 +58,26 @@ struct Arc {
   std::int32_t high_z = 0;
 };
 
+enum class SightOutcome {
+  kSight,      ///< `sight` is a direction in which nothing rises above the point
+  kHidden,     ///< `arcs` together hide every direction
+  kEnclosed,   ///< `arcs` has one, whose obstacle passes over the point and hides everything
+  kAmbiguous,  ///< the point stands under a corner or a crossing: ask at another t
+};
+
 /// What an observer at one point of the segment sees of the obstacles: the directions that they
-/// hide.
-class SightSample {
+/// hide. Int: Int128 for points at a Dyadic, WideInt for those at a WideDyadic.
+template <typename Int>
+class BasicSightSample {
  public:
-  enum class Outcome {
-    kSight,      ///< `sight` is a direction in which nothing rises above the point
-    kHidden,     ///< `arcs` together hide every direction
-    kEnclosed,   ///< `arcs` has one, whose obstacle passes over the point and hides everything
-    kAmbiguous,  ///< the point stands under a corner or a crossing: ask at another t
-  };
+  using Arc = BasicArc<Int>;
+  using Vector = BasicVector<Int>;
 
-  SightSample(const SegmentIndex& index, const Sighted& sighted, std::optional<std::int32_t> except,
-              std::span<const Segment> screens, PredicateCounts* counts);
+  BasicSightSample(const SegmentIndex& index, const Sighted& sighted,
+                   std::optional<std::int32_t> except, std::span<const Segment> screens,
+                   PredicateCounts* counts);
 
-  Outcome Look(Dyadic t);
+  SightOutcome Look(const BasicDyadic<Int>& t);
 
   [[nodiscard]] const std::vector<Arc>& arcs() const { return arcs_; }
   [[nodiscard]] const Vector& sight() const { return sight_; }
@@ -90,16 +97,19 @@ class SightSample {
   std::span<const Segment> screens_;
   PredicateCounts* counts_;
 
-  Dyadic t_;
+  BasicDyadic<Int> t_;
   double x_ = 0;
   double y_ = 0;
-  double z_ = 0;
-  Int128 scaled_z_ = 0;         ///< height of the point times 2^k
+  std::int64_t whole_z_ = 0;    ///< height of the point, rounded down
+  double part_z_ = 0;           ///< the rest: doubles of great heights would be off by a lot of it
+  Int scaled_z_{};              ///< height of the point times 2^k
   std::int64_t least_top_ = 0;  ///< obstacles whose top is lower do not matter
-  DirectionCover cover_;
+  BasicDirectionCover<Int> cover_;
   std::vector<Arc> arcs_;
   Vector sight_;
-  Outcome outcome_ = Outcome::kSight;
+  SightOutcome outcome_ = SightOutcome::kSight;
 };
+using SightSample = BasicSightSample<Int128>;
+using WideSightSample = BasicSightSample<WideInt>;
 
 }  // namespace farhorizon

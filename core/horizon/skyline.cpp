@@ -4,12 +4,13 @@
 // so. What the ranges leave open is asked next. Ranges end at roots of quadratics, compared
 // exactly, so that ranges which only just meet do meet; each range ends at a real change of what
 // hides the segment, of which there are finitely many.
+// A sight that cannot be said in plain numbers is kept while a few more points are asked for another.
 #include "core/horizon/skyline.h"
 
 #include <algorithm>
+#include <deque>
 #include <utility>
 
-#include "core/base/result.h"
 #include "core/exact/quadratic.h"
 #include "core/horizon/cover_certificate.h"
 #include "core/horizon/segment_index.h"
@@ -18,23 +19,105 @@
 namespace farhorizon {
 namespace {
 
-// What WitnessHolds can check in 128 bits; cliffs of 2^30 quanta stay below it.
-constexpr int kMostWitnessBits = 107;
+// What a double holds exactly, here and in the JSON of others.
+constexpr int kDoubleBits = 53;
+constexpr int kDirectionBits = 62;
+// How many sights in awkward directions are looked at for the simplest: enough to meet the middle of
+// what is free around the first.
+constexpr int kMostSights = 32;
 
-Witness MakeWitness(const Segment& segment, Dyadic t, const Vector& sight) {
-  // Finer than a double can say would be a sight through a gap of 2^-52 of the segment.
-  Check(t.k <= 52, "a witness stands at a number that a double can hold");
-  const bool from_low = segment.a.z <= segment.b.z;
-  const double where = from_low ? t.ToDouble() : 1 - t.ToDouble();
-  const auto bits = [](Int128 value) {
-    int count = 0;
-    for (Int128 rest = value < 0 ? -value : value; rest > 0; rest >>= 1) ++count;
-    return count;
-  };
-  Check(2 * std::max(bits(sight.x), bits(sight.y)) + t.k <= kMostWitnessBits,
-        "a line of sight has a direction in moderate integers");
-  return {where, static_cast<std::int64_t>(sight.x), static_cast<std::int64_t>(sight.y)};
+// The bits of |value|.
+template <typename Int>
+int BitsOf(const Int& value) {
+  int count = 0;
+  for (Int rest = SignOf(value) < 0 ? -value : value; SignOf(rest) != 0; rest = rest >> 1) ++count;
+  return count;
 }
+
+int DirectionBits(const Witness& witness) {
+  return std::max(BitsOf(Int128{witness.dc}), BitsOf(Int128{witness.dr}));
+}
+
+bool IsPlain(const Witness& witness) {
+  return witness.exact && DirectionBits(witness) <= kDoubleBits;
+}
+
+bool Simpler(const Witness& a, const Witness& b) {
+  if (a.exact != b.exact) return a.exact;
+  return DirectionBits(a) < DirectionBits(b);
+}
+
+// t as it is counted from a, in lowest terms.
+template <typename Int>
+BasicDyadic<Int> FromFirstEnd(const Segment& segment, const BasicDyadic<Int>& t) {
+  BasicDyadic<Int> where = t;
+  if (segment.a.z > segment.b.z) where.n = (Int{1} << t.k) - t.n;
+  while (where.k > 0 && static_cast<std::int64_t>(where.n) % 2 == 0) {
+    where = {where.n >> 1, where.k - 1};
+  }
+  return where;
+}
+
+bool FitsDouble(const Segment& segment, const WideDyadic& t) {
+  return BitsOf(FromFirstEnd(segment, t).n) <= kDoubleBits;
+}
+
+template <typename Int>
+Witness MakeWitness(const Segment& segment, const BasicDyadic<Int>& t,
+                    const BasicVector<Int>& sight) {
+  const BasicDyadic<Int> where = FromFirstEnd(segment, t);
+  const int excess = std::max({BitsOf(sight.x), BitsOf(sight.y), kDirectionBits}) - kDirectionBits;
+  return {where.ToDouble(), static_cast<std::int64_t>(sight.x >> excess),
+          static_cast<std::int64_t>(sight.y >> excess),
+          BitsOf(where.n) <= kDoubleBits && excess == 0};
+}
+
+// What one point of a segment told: a sight, or a range around it that is hidden.
+struct Finding {
+  std::optional<Witness> sight;
+  HiddenRange hidden;
+};
+
+// Asks points of one segment, in the numbers that each needs.
+class SightSearch {
+ public:
+  SightSearch(const SegmentIndex& index, const Segment& segment, Ties ties,
+              std::optional<std::int32_t> except, std::span<const Segment> screens,
+              std::vector<std::int32_t>* blockers, PredicateCounts* counts)
+      : index_(index),
+        segment_(segment),
+        sighted_{segment.a, segment.b, ties},
+        except_(except),
+        screens_(screens),
+        blockers_(blockers),
+        counts_(counts),
+        sample_(index, sighted_, except, screens, counts) {
+    if (segment.a.z > segment.b.z) std::swap(sighted_.low, sighted_.high);
+  }
+
+  Finding LookAt(const WideDyadic& t) {
+    if (t.k <= kMaxDyadicBits) return LookWith(sample_, Narrowed(t));
+    WideSightSample sample(index_, sighted_, except_, screens_, counts_);
+    return LookWith(sample, t);
+  }
+
+ private:
+  template <typename Int>
+  Finding LookWith(BasicSightSample<Int>& sample, const BasicDyadic<Int>& t) {
+    const SightOutcome outcome = sample.Look(t);
+    if (outcome == SightOutcome::kSight) return {MakeWitness(segment_, t, sample.sight()), {}};
+    return {std::nullopt, RangeOfCover(sighted_, sample, outcome, t, blockers_, counts_)};
+  }
+
+  const SegmentIndex& index_;
+  const Segment& segment_;
+  Sighted sighted_;
+  std::optional<std::int32_t> except_;
+  std::span<const Segment> screens_;
+  std::vector<std::int32_t>* blockers_;
+  PredicateCounts* counts_;
+  SightSample sample_;
+};
 
 }  // namespace
 
@@ -56,22 +139,30 @@ std::optional<Witness> Skyline::FindSight(const Segment& segment, Ties ties,
                                           std::optional<Id> except, std::vector<Id>* blockers,
                                           PredicateCounts* counts,
                                           std::span<const Segment> screens) const {
-  Sighted sighted{segment.a, segment.b, ties};
-  if (segment.a.z > segment.b.z) std::swap(sighted.low, sighted.high);
-  SightSample sample(index_->segments, sighted, except, screens, counts);
-  std::vector<HiddenRange> open = {{QuadraticRoot::At({0, 0}), QuadraticRoot::At({1, 0})}};
-  while (!open.empty()) {
-    const HiddenRange gap = open.back();
-    open.pop_back();
-    const std::optional<Dyadic> t = Between(gap.from, gap.to);
+  SightSearch search(index_->segments, segment, ties, except, screens, blockers, counts);
+  std::deque<HiddenRange> open = {
+      {QuadraticRoot::At(Dyadic{0, 0}), QuadraticRoot::At(Dyadic{1, 0})}};
+  std::optional<Witness> best;
+  int sights = 0;
+  while (!open.empty() && sights < kMostSights) {
+    // One sight is looked for in depth, a simpler one everywhere.
+    const HiddenRange gap = best ? open.front() : open.back();
+    best ? open.pop_front() : open.pop_back();
+    const std::optional<WideDyadic> t = Between(gap.from, gap.to);
     if (!t) continue;
-    const SightSample::Outcome outcome = sample.Look(*t);
-    if (outcome == SightSample::Outcome::kSight) return MakeWitness(segment, *t, sample.sight());
-    const HiddenRange hidden = RangeOfCover(sighted, sample, outcome, *t, blockers, counts);
-    open.push_back({gap.from, hidden.from});
-    open.push_back({hidden.to, gap.to});
+    Finding finding = search.LookAt(*t);
+    if (finding.sight) {
+      if (IsPlain(*finding.sight)) return finding.sight;
+      if (!best || Simpler(*finding.sight, *best)) best = finding.sight;
+      // This is the coarsest number in the gap: where it has too many digits, so have all others.
+      if (!FitsDouble(segment, *t) || t->k > kMaxDyadicBits) continue;
+      ++sights;
+      finding.hidden = {QuadraticRoot::At(*t), QuadraticRoot::At(*t)};
+    }
+    open.push_back({gap.from, finding.hidden.from});
+    open.push_back({finding.hidden.to, gap.to});
   }
-  return std::nullopt;
+  return best;
 }
 
 }  // namespace farhorizon

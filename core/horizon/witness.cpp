@@ -1,21 +1,26 @@
 // A line of sight checked against the heights themselves: every terrain edge that it crosses is met
-// once, along the rows, the columns and the two diagonals of the grid. Exact in 128-bit integers.
+// once, along the rows, the columns and the two diagonals of the grid. Exact: in 128-bit integers where
+// they hold all products, else in wide ones.
+#include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "core/exact/wide.h"
+#include "core/exact/wide_int.h"
 #include "core/horizon/horizon.h"
 
 namespace farhorizon {
 namespace {
 
-// The line through (x, y) / scale with an integer direction, and its height z / scale.
+// The line through (x, y) / 2^bits with an integer direction, and its height z / 2^bits.
+template <typename Int>
 struct SightLine {
-  Int128 x;
-  Int128 y;
-  Int128 z;
-  Int128 scale;
-  Int128 dc;
-  Int128 dr;
+  Int x;
+  Int y;
+  Int z;
+  int bits;
+  Int dc;
+  Int dr;
 };
 
 // A family of grid lines: along[] joins neighbouring posts on one line, across[] leads to the next
@@ -27,49 +32,84 @@ struct Family {
   int across_row;
 };
 
-Int128 FloorDivide(Int128 a, Int128 b) {
+Int128 FloorDivide(Int128 a, Int128 b, int /*bits*/) {
   const Int128 quotient = a / b;
   return quotient - ((a % b != 0 && (a < 0) != (b < 0)) ? 1 : 0);
 }
 
+// b > 0, a multiple of 2^bits. Exact where the quotient is below 2^30; else no less in size than that.
+WideInt FloorDivide(const WideInt& a, const WideInt& b, int bits) {
+  const double near = static_cast<double>(a >> bits) / static_cast<double>(b >> bits);
+  constexpr double kFar = 0x1p30;
+  WideInt quotient(static_cast<std::int64_t>(std::clamp(near, -kFar, kFar)));
+  if (std::abs(near) >= kFar) return quotient;
+  const WideInt one(1);
+  while (quotient * b > a) quotient = quotient - one;
+  while ((quotient + one) * b <= a) quotient = quotient + one;
+  return quotient;
+}
+
+template <typename Int>
 class SightChecker {
  public:
-  SightChecker(const Terrain& terrain, const SightLine& line) : terrain_(terrain), line_(line) {}
+  SightChecker(const Terrain& terrain, const SightLine<Int>& line)
+      : terrain_(terrain), line_(line) {}
 
+  [[nodiscard]] bool ClearsAll() const {
+    const std::int32_t columns = terrain_.dem().columns;
+    const std::int32_t rows = terrain_.dem().rows;
+    return Clears({1, 0, 0, 1}, 0, rows - 1) && Clears({0, 1, 1, 0}, 0, columns - 1) &&
+           Clears({1, 1, 1, 0}, -(rows - 1), columns - 1) &&
+           Clears({-1, 1, 1, 0}, 0, columns + rows - 2);
+  }
+
+ private:
   // Whether no edge of the family rises above the line.
   [[nodiscard]] bool Clears(const Family& family, std::int32_t first, std::int32_t last) const {
     // Coordinates in the family's basis: (column, row) = i * across + j * along, unimodular.
-    const Int128 det =
-        family.across_column * family.along_row - family.across_row * family.along_column;
-    const Int128 i0 = (line_.x * family.along_row - line_.y * family.along_column) * det;
-    const Int128 j0 = (line_.y * family.across_column - line_.x * family.across_row) * det;
-    const Int128 di = (line_.dc * family.along_row - line_.dr * family.along_column) * det;
-    const Int128 dj = (line_.dr * family.across_column - line_.dc * family.across_row) * det;
-    if (di == 0) return true;  // along the family: posts on it are met by the other families
-    const Int128 sign = di < 0 ? -1 : 1;
-    const Int128 denominator = line_.scale * di * sign;
+    const Int along_column{family.along_column};
+    const Int along_row{family.along_row};
+    const Int across_column{family.across_column};
+    const Int across_row{family.across_row};
+    const Int det = across_column * along_row - across_row * along_column;
+    const Int i0 = (line_.x * along_row - line_.y * along_column) * det;
+    const Int j0 = (line_.y * across_column - line_.x * across_row) * det;
+    Int di = (line_.dc * along_row - line_.dr * along_column) * det;
+    Int dj = (line_.dr * across_column - line_.dc * across_row) * det;
+    if (SignOf(di) == 0)
+      return true;  // along the family: posts on it are met by the other families
+    if (SignOf(di) < 0) {
+      di = -di;
+      dj = -dj;
+    }
+    const Int whole = di << line_.bits;
+    const Int most{1 << 20};
     for (std::int32_t i = first; i <= last; ++i) {
-      const Int128 numerator = (j0 * di + (i * line_.scale - i0) * dj) * sign;
-      const Int128 j = FloorDivide(numerator, denominator);
-      if (j < -(1 << 20) || j > (1 << 20)) continue;
-      const Int128 part = numerator - j * denominator;
-      if (!ClearsAt(family, i, static_cast<std::int32_t>(j), part, denominator)) return false;
+      const Int numerator = j0 * di + ((Int{i} << line_.bits) - i0) * dj;
+      const Int j = FloorDivide(numerator, whole, line_.bits);
+      if (j < -most || j > most) continue;
+      const Int part = numerator - j * whole;
+      if (!ClearsAt(family, i, static_cast<std::int32_t>(static_cast<std::int64_t>(j)), part, di)) {
+        return false;
+      }
     }
     return true;
   }
 
- private:
-  [[nodiscard]] bool ClearsAt(const Family& family, std::int32_t i, std::int32_t j, Int128 part,
-                              Int128 whole) const {
+  // Where the line crosses at part / (step * 2^bits) of the way from post j to the next.
+  [[nodiscard]] bool ClearsAt(const Family& family, std::int32_t i, std::int32_t j, const Int& part,
+                              const Int& step) const {
     const std::int32_t column = i * family.across_column + j * family.along_column;
     const std::int32_t row = i * family.across_row + j * family.along_row;
     if (!Inside(column, row)) return true;
     const VertexId p = row * terrain_.dem().columns + column;
-    if (part == 0) return !Above(Height(p) * whole, whole) || !terrain_.IsVertex(p);
+    const Int whole = step << line_.bits;
+    const Int sight = line_.z * step;  // times the same
+    if (SignOf(part) == 0) return !(Int{Height(p)} * whole > sight) || !terrain_.IsVertex(p);
     if (!Inside(column + family.along_column, row + family.along_row)) return true;
     const VertexId q = p + family.along_row * terrain_.dem().columns + family.along_column;
     if (!terrain_.dem().HasData(p) || !terrain_.dem().HasData(q)) return true;
-    if (!Above(Height(p) * whole + part * (Height(q) - Height(p)), whole)) return true;
+    if (!(Int{Height(p)} * whole + part * Int{Height(q) - Height(p)} > sight)) return true;
     const Terrain::Faces faces = terrain_.FacesOf(MakeEdge(p, q));
     return !faces.left && !faces.right;
   }
@@ -77,51 +117,55 @@ class SightChecker {
   [[nodiscard]] bool Inside(std::int32_t column, std::int32_t row) const {
     return column >= 0 && column < terrain_.dem().columns && row >= 0 && row < terrain_.dem().rows;
   }
-  [[nodiscard]] Int128 Height(VertexId v) const {
+  [[nodiscard]] std::int64_t Height(VertexId v) const {
     return terrain_.dem().heights[static_cast<std::size_t>(v)];
-  }
-  // Whether height / whole > z / scale.
-  [[nodiscard]] bool Above(Int128 height, Int128 whole) const {
-    return height > line_.z * (whole / line_.scale);
   }
 
   const Terrain& terrain_;
-  const SightLine& line_;
+  const SightLine<Int>& line_;
 };
+
+// Whether the line through n / 2^bits of the way from a to b clears the terrain.
+template <typename Int>
+bool Clears(const Terrain& terrain, Point3i a, Point3i b, std::int64_t n, int bits,
+            const Witness& witness) {
+  const auto at = [n, bits](std::int64_t from, std::int64_t to) {
+    return (Int{from} << bits) + Int{to - from} * Int{n};
+  };
+  const SightLine<Int> line{at(a.x, b.x), at(a.y, b.y),    at(a.z, b.z),
+                            bits,         Int{witness.dc}, Int{witness.dr}};
+  return SightChecker<Int>(terrain, line).ClearsAll();
+}
+
+constexpr std::int64_t kMostDirection = std::int64_t{1} << 62;
+
+bool IsDirection(const Witness& w) {
+  return w.dc < kMostDirection && w.dc > -kMostDirection && w.dr < kMostDirection &&
+         w.dr > -kMostDirection && (w.dc != 0 || w.dr != 0);
+}
+
+int BitsOf(std::int64_t value) {
+  return static_cast<int>(std::bit_width(static_cast<std::uint64_t>(value < 0 ? -value : value)));
+}
 
 }  // namespace
 
 bool WitnessHolds(const Terrain& terrain, Edge edge, const Witness& witness) {
   const Terrain::Faces faces = terrain.FacesOf(edge);
   if (!faces.left && !faces.right) return false;
-  if (!(witness.t >= 0 && witness.t <= 1) || (witness.dc == 0 && witness.dr == 0)) return false;
-  constexpr int kBits = 52;
-  const double scaled = std::ldexp(witness.t, kBits);
-  const auto n = static_cast<std::int64_t>(scaled);
-  if (static_cast<double>(n) != scaled) return false;  // no dyadic number of 52 bits
+  if (!(witness.t >= 0 && witness.t <= 1) || !witness.exact || !IsDirection(witness)) return false;
+  int exponent = 0;
+  auto n = static_cast<std::int64_t>(std::ldexp(std::frexp(witness.t, &exponent), 53));
+  int bits = n == 0 ? 0 : 53 - exponent;
   // Halving as long as it is exact keeps the products small.
-  int bits = kBits;
-  std::int64_t t = n;
-  while (bits > 0 && t % 2 == 0) {
-    t /= 2;
-    --bits;
-  }
+  for (; bits > 0 && n % 2 == 0; --bits) n /= 2;
   const Point3i a = terrain.Point(edge.a);
   const Point3i b = terrain.Point(edge.b);
-  const Int128 scale = Int128{1} << bits;
-  const SightLine line{a.x * scale + Int128{b.x - a.x} * t,
-                       a.y * scale + Int128{b.y - a.y} * t,
-                       a.z * scale + (Int128{b.z} - a.z) * t,
-                       scale,
-                       witness.dc,
-                       witness.dr};
-  const SightChecker checker(terrain, line);
-  const std::int32_t columns = terrain.dem().columns;
-  const std::int32_t rows = terrain.dem().rows;
-  return checker.Clears({1, 0, 0, 1}, 0, rows - 1) &&
-         checker.Clears({0, 1, 1, 0}, 0, columns - 1) &&
-         checker.Clears({1, 1, 1, 0}, -(rows - 1), columns - 1) &&
-         checker.Clears({-1, 1, 1, 0}, 0, columns + rows - 2);
+  // Differences of heights take 31 bits, coordinates fewer, and there are three carries.
+  constexpr int kNarrowBits = 90;
+  const int direction_bits = std::max(BitsOf(witness.dc), BitsOf(witness.dr));
+  return direction_bits + bits <= kNarrowBits ? Clears<Int128>(terrain, a, b, n, bits, witness)
+                                              : Clears<WideInt>(terrain, a, b, n, bits, witness);
 }
 
 }  // namespace farhorizon

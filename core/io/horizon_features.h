@@ -23,6 +23,11 @@ struct HorizonFeature {
 
 /// horizon.geojson: an RFC 7946 FeatureCollection, a LineString a feature, one feature a line of
 /// text.
+///
+/// Witnesses are printed without loss: t as the shortest text of its double, directions as integers.
+/// Those are below 2^53, which every JSON reader keeps, unless cliffs of more than 2^25 quanta differ
+/// by single ones; then a few are up to 2^62, and a reader that takes all numbers for doubles, as
+/// JavaScript's JSON.parse does, rounds them to a line that may not hold.
 std::string WriteHorizonGeoJson(const std::vector<HorizonFeature>& features);
 
 /// Reads back what WriteHorizonGeoJson wrote. Errors: kUnsupportedData, with the feature and the

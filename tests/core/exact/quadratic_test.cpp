@@ -85,6 +85,49 @@ TEST(Between, FindsTheCoarsestDyadicNumber) {
   EXPECT_FALSE(Between(third, third));
 }
 
+// sqrt(1/2) and a rational number next to it, of a convergent of Pell's equation: apart by some 2^-202.
+TEST(CompareRoots, TellsApartNumbersThatAgreeInTwoHundredBits) {
+  Int128 p = 1;
+  Int128 q = 1;  // p / q to sqrt(2)
+  int turns = 0;
+  while (q < (Int128{1} << 99)) {
+    const Int128 next = p + 2 * q;
+    q = p + q;
+    p = next;
+    ++turns;
+  }
+  const QuadraticRoot root{{-1, 0, 2}, true};
+  const QuadraticRoot convergent{{-q, p, 0}, false};  // q / p
+  const int expected = turns % 2 == 0 ? -1 : 1;       // p / q is above sqrt(2) after an odd number
+  EXPECT_EQ(Compare(root, convergent), expected);
+  EXPECT_EQ(Compare(convergent, root), -expected);
+  const QuadraticRoot& low = expected < 0 ? root : convergent;
+  const QuadraticRoot& high = expected < 0 ? convergent : root;
+  const auto between = Between(low, high);
+  ASSERT_TRUE(between);
+  EXPECT_GT(between->k, 190);
+  EXPECT_LT(between->k, 210);
+  EXPECT_LT(Compare(low, *between), 0);
+  EXPECT_GT(Compare(high, *between), 0);
+  EXPECT_FALSE(Between(high, low));
+}
+
+TEST(SignAt, IsTheSameForANumberOfEitherKind) {
+  std::mt19937_64 random(5);
+  for (int i = 0; i < 2000; ++i) {
+    const Quadratic q = RandomQuadratic(random, 1000);
+    const Dyadic t{static_cast<std::int64_t>(random() % 1025), 10};
+    ASSERT_EQ(SignAt(q, t), SignAt(q, Widened(t)));
+    if (SignAt(q, t) < 0) continue;
+    const NonNegativeRange narrow = NonNegativeAround(q, t);
+    const NonNegativeRange wide = NonNegativeAround(q, Widened(t));
+    ASSERT_EQ(narrow.from.has_value(), wide.from.has_value());
+    ASSERT_EQ(narrow.to.has_value(), wide.to.has_value());
+    ASSERT_EQ(narrow.from && narrow.from->upper, wide.from && wide.from->upper);
+    ASSERT_EQ(narrow.to && narrow.to->upper, wide.to && wide.to->upper);
+  }
+}
+
 TEST(NonNegativeAround, EndsWhereThePolynomialTurnsNegative) {
   // (t - 1/4)(3/4 - t) * 16
   const NonNegativeRange hill = NonNegativeAround({-3, 16, -16}, {1, 1});

@@ -70,6 +70,25 @@ TEST(SimplestBetween, LiesStrictlyBetweenAndIsNotAlongTheSegment) {
   }
 }
 
+// Both sizes of numbers share their code, but for the products.
+TEST(SimplestBetween, IsTheSameInWideNumbers) {
+  std::mt19937_64 random(6);
+  const auto widened = [](const Vector& v) { return WideVector{WideInt(v.x), WideInt(v.y)}; };
+  for (int i = 0; i < 3000; ++i) {
+    const Vector from = RandomVector(random, 1000);
+    const Vector to = RandomVector(random, 1000);
+    const Vector along = RandomVector(random, 3);
+    ASSERT_EQ(CrossSign(from, to), CrossSign(widened(from), widened(to)));
+    ASSERT_EQ(DotSign(from, to), DotSign(widened(from), widened(to)));
+    ASSERT_EQ(CompareAngle(MakeDirection(from), MakeDirection(to), nullptr),
+              CompareAngle(MakeDirection(widened(from)), MakeDirection(widened(to)), nullptr));
+    if (CrossSign(from, to) <= 0) continue;
+    const Vector narrow = SimplestBetween(from, to, along);
+    const WideVector wide = SimplestBetween(widened(from), widened(to), widened(along));
+    ASSERT_TRUE(wide.x == WideInt(narrow.x) && wide.y == WideInt(narrow.y));
+  }
+}
+
 TEST(SimplestBetween, FindsRoomInANarrowGap) {
   const Int128 big = Int128{1} << 28;
   const Vector simplest = SimplestBetween({big, 1}, {big - 1, 1}, {0, 1});

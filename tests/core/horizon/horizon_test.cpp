@@ -126,7 +126,7 @@ TEST(FindHorizon, IsTheDefinitionOnNarrowTerrains) {
 
 TEST(FindHorizon, IsTheDefinitionOnGreatHeightsAndCliffs) {
   constexpr std::int32_t kLimit = (1 << 30) - 1;
-  constexpr std::int32_t kCliff = 1 << 15;
+  constexpr std::int32_t kCliff = 1 << 25;
   std::mt19937 random(4);
   for (int round = 0; round < Rounds(300); ++round) {
     const std::int32_t n = 3 + round % 3;
