@@ -1,16 +1,15 @@
 #include "core/io/files.h"
 
-#include <array>
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
-#include <memory>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <utility>
 
 #include <nlohmann/json.hpp>
-#include <openssl/evp.h>
+
+#include "core/io/sha256.h"
 
 namespace farhorizon {
 namespace {
@@ -21,35 +20,6 @@ std::string Quoted(const std::filesystem::path& path) {
   std::string quoted(1, '"');
   return quoted.append(path.filename().string()).append(1, '"');
 }
-
-class Sha256 {
- public:
-  Sha256() : context_(EVP_MD_CTX_new()) {
-    Check(context_ != nullptr && EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr) == 1,
-          "OpenSSL has no SHA-256");
-  }
-  void Add(std::string_view bytes) {
-    Check(EVP_DigestUpdate(context_.get(), bytes.data(), bytes.size()) == 1, "SHA-256 failed");
-  }
-  std::string Hex() {
-    std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
-    unsigned int size = 0;
-    Check(EVP_DigestFinal_ex(context_.get(), digest.data(), &size) == 1, "SHA-256 failed");
-    constexpr std::string_view kDigits = "0123456789abcdef";
-    std::string hex;
-    for (unsigned int i = 0; i < size; ++i) {
-      hex += kDigits[digest[i] >> 4U];
-      hex += kDigits[digest[i] & 15U];
-    }
-    return hex;
-  }
-
- private:
-  struct Free {
-    void operator()(EVP_MD_CTX* context) const { EVP_MD_CTX_free(context); }
-  };
-  std::unique_ptr<EVP_MD_CTX, Free> context_;
-};
 
 // A file descriptor that closes itself.
 class Descriptor {
@@ -124,7 +94,7 @@ Status FillAndSync(Descriptor& file, const std::filesystem::path& path, std::str
 std::string Sha256Hex(std::string_view bytes) {
   Sha256 sum;
   sum.Add(bytes);
-  return sum.Hex();
+  return sum.Finish();
 }
 
 Result<std::string> Sha256OfFile(const std::filesystem::path& path) {
@@ -134,7 +104,7 @@ Result<std::string> Sha256OfFile(const std::filesystem::path& path) {
     return Done{};
   });
   if (!read) return std::move(read.error());
-  return sum.Hex();
+  return sum.Finish();
 }
 
 Result<std::string> ReadFile(const std::filesystem::path& path, std::uintmax_t max_bytes) {

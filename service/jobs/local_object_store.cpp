@@ -11,8 +11,8 @@
 #include <unistd.h>
 #include <utility>
 
+#include "core/io/sha256.h"
 #include "service/jobs/durable_file.h"
-#include "service/jobs/sha256.h"
 
 namespace farhorizon {
 

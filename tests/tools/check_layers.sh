@@ -39,7 +39,7 @@ foreign=(
   'sqlite3 @ ^service/jobs/[a-z_0-9]+\.cpp$'
   'libpq @ ^service/jobs/[a-z_0-9]+\.cpp$'
   'nlohmann/ @ ^core/(io|pipeline)/[^/]+\.cpp$ ^service/[a-z_0-9]+\.(h|cpp)$ ^service/(handlers|jobs|worker|cli)/'
-  'openssl/ @ ^core/io/[^/]+\.cpp$ ^service/(jobs|handlers|worker)/[^/]+\.cpp$'
+  'openssl/ @ ^core/io/[^/]+\.cpp$'
   'CLI/ @ ^service/(main\.cpp$|cli/)'
   # The system's own: files in core/io, processes and sockets in service.
   '((sys|netinet|arpa|linux)/)?[a-z_0-9]+\.h$ @ ^core/io/[^/]+\.cpp$ ^service/'

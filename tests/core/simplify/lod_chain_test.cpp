@@ -105,8 +105,8 @@ TEST(LodChain, NoTriangleIsSteeperThanTheDem) {
   const auto steepest = [&](const std::vector<Triangle>& mesh) {
     Slope most;
     for (const Triangle& t : mesh) {
-      const Slope slope = SlopeOf(chain.terrain.Point(t[0]), chain.terrain.Point(t[1]),
-                                  chain.terrain.Point(t[2]));
+      const Slope slope =
+          SlopeOf(chain.terrain.Point(t[0]), chain.terrain.Point(t[1]), chain.terrain.Point(t[2]));
       most.by_column = std::max(most.by_column, slope.by_column);
       most.by_row = std::max(most.by_row, slope.by_row);
     }

@@ -1,4 +1,4 @@
-#include "service/jobs/sha256.h"
+#include "core/io/sha256.h"
 
 #include <array>
 
