@@ -37,7 +37,7 @@ class BasicDirectionCover {
   struct Interval {
     Direction from;
     Direction to;
-    double from_bound;  ///< keys for pruning: beyond the half turn where the interval is up to its end
+    double from_bound;  ///< keys for pruning; past the half turn where it reaches an end of that
     double to_bound;
   };
   void AddInterval(const Direction& from, const Direction& to, PredicateCounts* counts);
