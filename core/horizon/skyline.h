@@ -20,11 +20,11 @@ struct Segment {
 /// t: 0 at a, 1 at b; a dyadic number, exact in double. direction: columns and rows, integers below
 /// 2^62; nearly always small ones, and above 2^53 only where a search for others has failed.
 ///
-/// exact: false where the sight is certain, but neither the one found nor others that were tried can be
-/// said in a double and two such integers: t and direction are then rounded, and prove nothing. Almost
-/// always because no double at all is inside the gap. Needs cliffs side by side of millions of quanta
-/// that differ by single ones: in millions of random edges none was met where heights were less than
-/// 2^26 quanta apart, one in a thousand at 2^28 and above.
+/// exact: false where the sight is certain, but none of those found can be said in a double and two such
+/// integers: t and direction are then rounded, and prove nothing. Nearly always because no double at all
+/// lies in any gap. Needs cliffs side by side of great height that differ by single quanta: in random
+/// terrains of nothing else none was met up to 2^26 quanta, one edge in a thousand at 2^27, one in fifty
+/// at 2^31.
 struct Witness {
   double t = 0;
   std::int64_t dc = 0;

@@ -25,7 +25,7 @@ struct HorizonFeature {
 /// text.
 ///
 /// Witnesses are printed without loss: t as the shortest text of its double, directions as integers.
-/// Those are below 2^53, which every JSON reader keeps, unless cliffs of more than 2^25 quanta differ
+/// Those are below 2^53, which every JSON reader keeps, unless cliffs of 2^26 quanta and more differ
 /// by single ones; then a few are up to 2^62, and a reader that takes all numbers for doubles, as
 /// JavaScript's JSON.parse does, rounds them to a line that may not hold.
 std::string WriteHorizonGeoJson(const std::vector<HorizonFeature>& features);
