@@ -190,10 +190,13 @@ Status BuildArtifacts(const fs::path& dem, const fs::path& directory, const Buil
   Result<std::vector<Lod>> chain = BuildLodChain((*source)->terrain(), *horizon, budgets, watch);
   if (!chain) return std::move(chain.error());
 
+  Result<PostNormals> normals = FindPostNormals((*source)->terrain(), (*source)->placement());
+  if (!normals) return std::move(normals.error());
   ArtifactWriter writer(directory);
   Status opened = writer.Open();
   if (!opened) return opened;
-  const LevelContext context{(*source)->terrain(), *horizon, (*source)->placement(), watch};
+  const LevelContext context{(*source)->terrain(), *horizon, (*source)->placement(), *normals,
+                             watch};
   Result<std::vector<LevelReport>> levels = WriteLevels(context, *plans, *chain, options, writer);
   if (!levels) return std::move(levels.error());
   if (Asks(options, "3dtiles")) {

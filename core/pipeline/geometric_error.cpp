@@ -3,34 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+
+#include "core/pipeline/row_span.h"
 
 namespace farhorizon {
 namespace {
-
-// The part of one row of posts that a triangle covers in plan, [first, last].
-struct Span {
-  std::int64_t first = std::numeric_limits<std::int32_t>::max();
-  std::int64_t last = std::numeric_limits<std::int32_t>::min();
-};
-
-std::int64_t FloorDivide(std::int64_t a, std::int64_t b) {
-  return a / b - static_cast<std::int64_t>(a % b != 0 && (a < 0) != (b < 0));
-}
-
-void Include(Span& span, Point3i a, Point3i b, std::int64_t row) {
-  if (a.y > b.y) std::swap(a, b);
-  if (row < a.y || row > b.y) return;
-  if (a.y == b.y) {
-    span.first = std::min<std::int64_t>({span.first, a.x, b.x});
-    span.last = std::max<std::int64_t>({span.last, a.x, b.x});
-    return;
-  }
-  const std::int64_t run = std::int64_t{b.x - a.x} * (row - a.y);
-  const std::int64_t rise = b.y - a.y;
-  span.first = std::min(span.first, a.x - FloorDivide(-run, rise));
-  span.last = std::max(span.last, a.x + FloorDivide(run, rise));
-}
 
 // A triangle's corners in the grid and in the local frame.
 struct Placed {
@@ -116,10 +93,7 @@ class RowSweep {
     double greatest = 0;
     for (const std::size_t t : active) {
       const Placed placed = Place(t);
-      Span span;
-      for (std::size_t k = 0; k < 3; ++k) {
-        Include(span, placed.plan[k], placed.plan[(k + 1) % 3], row);
-      }
+      const RowSpan span = SpanOfRow(placed.plan, row);
       for (std::int64_t column = span.first; column <= span.last; ++column) {
         const std::int32_t at = slot[static_cast<std::size_t>(column)];
         if (at < 0) continue;

@@ -5,7 +5,6 @@
 
 #include "core/io/glb.h"
 #include "core/pipeline/geometric_error.h"
-#include "core/pipeline/post_normals.h"
 
 namespace farhorizon {
 namespace {
@@ -19,26 +18,23 @@ std::vector<VertexId> PostsOf(const PostMesh& mesh) {
   return posts;
 }
 
-Result<LocalMesh> ToLocal(const Terrain& terrain, const Placement& placement,
-                          const PostMesh& mesh) {
+Result<LocalMesh> ToLocal(const LevelContext& context, const PostMesh& mesh) {
   const std::vector<VertexId> posts = PostsOf(mesh);
-  Result<std::vector<Enu>> positions = placement.ToEnu(posts);
+  Result<std::vector<Enu>> positions = context.placement.ToEnu(posts);
   if (!positions) return std::move(positions.error());
-  Result<std::vector<UnitNormal>> normals = PostNormals(terrain, placement, posts);
-  if (!normals) return std::move(normals.error());
   LocalMesh local;
   local.positions = *std::move(positions);
-  local.normals = *std::move(normals);
   local.sources.assign(posts.begin(), posts.end());
   const auto index = [&posts](VertexId v) {
     return static_cast<std::uint32_t>(std::lower_bound(posts.begin(), posts.end(), v) -
                                       posts.begin());
   };
-  const bool keeps = placement.KeepsOrientation();
+  const bool keeps = context.placement.KeepsOrientation();
   local.triangles.reserve(mesh.triangles.size());
   for (const Triangle& t : mesh.triangles) {
     local.triangles.push_back({index(t[0]), index(t[keeps ? 1 : 2]), index(t[keeps ? 2 : 1])});
   }
+  local.normals = MeanNormals(context.terrain, context.normals, local);
   return local;
 }
 
@@ -136,7 +132,7 @@ Result<LevelReport> MeasureLevel(const LevelContext& context, const LocalMesh& d
 
 Result<LevelArtifact> EncodeLevel(const LevelContext& context, const Lod& lod, int level,
                                   const QuantizationLattice& lattice, double asked_m) {
-  Result<LocalMesh> local = ToLocal(context.terrain, context.placement, lod.mesh);
+  Result<LocalMesh> local = ToLocal(context, lod.mesh);
   if (!local) return std::move(local.error());
   LevelArtifact artifact;
   Result<std::vector<std::uint8_t>> drc = EncodeDraco(*local, lattice);

@@ -8,6 +8,7 @@
 #include "core/horizon/horizon.h"
 #include "core/io/draco_mesh.h"
 #include "core/pipeline/placement.h"
+#include "core/pipeline/post_normals.h"
 #include "core/pipeline/report.h"
 #include "core/simplify/lod_chain.h"
 #include "core/terrain/terrain.h"
@@ -19,6 +20,7 @@ struct LevelContext {
   const Terrain& terrain;
   const Horizon& horizon;
   const Placement& placement;
+  const PostNormals& normals;
   const Watch& watch;
 };
 

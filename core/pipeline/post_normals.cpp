@@ -2,53 +2,37 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 #include <utility>
+
+#include "core/pipeline/row_span.h"
 
 namespace farhorizon {
 namespace {
 
-// Posts placed at a time: bounds the memory, whatever the level's size.
-constexpr std::size_t kPostsAtATime = 1U << 16U;
-
-// Some posts with all their neighbours, placed.
-class Surroundings {
- public:
-  static Result<Surroundings> Of(const Terrain& terrain, const Placement& placement,
-                                 std::span<const VertexId> posts) {
-    Surroundings result;
-    for (const VertexId v : posts) {
-      const Terrain::Neighbours neighbours = terrain.NeighboursOf(v);
-      result.posts_.push_back(v);
-      result.posts_.insert(result.posts_.end(), neighbours.begin(), neighbours.end());
-    }
-    std::sort(result.posts_.begin(), result.posts_.end());
-    result.posts_.erase(std::unique(result.posts_.begin(), result.posts_.end()),
-                        result.posts_.end());
-    Result<std::vector<Enu>> points = placement.ToEnu(result.posts_);
-    if (!points) return std::move(points.error());
-    result.points_ = *std::move(points);
-    return result;
+// A row of posts, placed; those without data stand anywhere.
+Result<std::vector<Enu>> PlaceRow(const Terrain& terrain, const Placement& placement,
+                                  std::int32_t row) {
+  const std::int32_t columns = terrain.dem().columns;
+  std::vector<VertexId> posts;
+  for (VertexId v = row * columns; v < (row + 1) * columns; ++v) {
+    if (terrain.dem().HasData(v)) posts.push_back(v);
   }
-
-  [[nodiscard]] const Enu& At(VertexId v) const {
-    const auto found = std::lower_bound(posts_.begin(), posts_.end(), v);
-    Check(found != posts_.end() && *found == v, "a face's posts are neighbours");
-    return points_[static_cast<std::size_t>(found - posts_.begin())];
+  Result<std::vector<Enu>> points = placement.ToEnu(posts);
+  if (!points) return points;
+  std::vector<Enu> result(static_cast<std::size_t>(columns));
+  for (std::size_t i = 0; i < posts.size(); ++i) {
+    result[static_cast<std::size_t>(terrain.dem().Column(posts[i]))] = (*points)[i];
   }
+  return result;
+}
 
- private:
-  std::vector<VertexId> posts_;
-  std::vector<Enu> points_;
-};
+using Sums = std::vector<std::array<double, 3>>;
 
-// Adds the triangle's normal, as long as twice its area.
-void AddFace(const Enu& a, const Enu& b, const Enu& c, std::array<double, 3>& sum) {
+// The triangle's normal, as long as twice its area.
+std::array<double, 3> FaceNormal(const Enu& a, const Enu& b, const Enu& c) {
   const std::array<double, 3> u = {b.east - a.east, b.north - a.north, b.up - a.up};
   const std::array<double, 3> v = {c.east - a.east, c.north - a.north, c.up - a.up};
-  sum[0] += u[1] * v[2] - u[2] * v[1];
-  sum[1] += u[2] * v[0] - u[0] * v[2];
-  sum[2] += u[0] * v[1] - u[1] * v[0];
+  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
 }
 
 UnitNormal Raised(const std::array<double, 3>& sum) {
@@ -61,41 +45,133 @@ UnitNormal Raised(const std::array<double, 3>& sum) {
   return {reach * sum[0] / level, reach * sum[1] / level, kLeastNormalUp};
 }
 
-UnitNormal NormalAt(const Terrain& terrain, const Surroundings& around, VertexId post, bool keeps) {
-  const std::int32_t column = terrain.dem().Column(post);
-  const std::int32_t row = terrain.dem().Row(post);
-  std::array<double, 3> sum = {0, 0, 0};
-  for (std::int32_t r = std::max(row - 1, 0); r <= std::min(row, terrain.dem().rows - 2); ++r) {
-    for (std::int32_t c = std::max(column - 1, 0); c <= std::min(column, terrain.dem().columns - 2);
-         ++c) {
-      const Terrain::CellTriangles cell = terrain.Cell(c, r);
-      for (int i = 0; i < cell.count; ++i) {
-        const Triangle& t = cell.triangles[static_cast<std::size_t>(i)];
-        if (std::find(t.begin(), t.end(), post) == t.end()) continue;
-        AddFace(around.At(t[0]), around.At(t[keeps ? 1 : 2]), around.At(t[keeps ? 2 : 1]), sum);
+// Two neighbouring rows with what their posts have got of the faces so far.
+struct Band {
+  std::array<std::vector<Enu>, 2> points;
+  std::array<Sums, 2> sums;
+};
+
+// Hands the normals of the faces between rows `row` and `row + 1` to their corners.
+void AddFaces(const Terrain& terrain, bool keeps, std::int32_t row, Band& band) {
+  const Dem& dem = terrain.dem();
+  const auto of = [&](auto& rows, VertexId v) -> auto& {
+    return rows[static_cast<std::size_t>(dem.Row(v) - row)]
+               [static_cast<std::size_t>(dem.Column(v))];
+  };
+  for (std::int32_t column = 0; column + 1 < dem.columns; ++column) {
+    const Terrain::CellTriangles cell = terrain.Cell(column, row);
+    for (int i = 0; i < cell.count; ++i) {
+      const Triangle& t = cell.triangles[static_cast<std::size_t>(i)];
+      const std::array<double, 3> normal =
+          FaceNormal(of(band.points, t[0]), of(band.points, t[keeps ? 1 : 2]),
+                     of(band.points, t[keeps ? 2 : 1]));
+      for (const VertexId v : t) {
+        for (std::size_t k = 0; k < 3; ++k) of(band.sums, v)[k] += normal[k];
       }
     }
   }
-  return Raised(sum);
+}
+
+void AppendRow(const Sums& sums, PostNormals& normals) {
+  for (const std::array<double, 3>& sum : sums) {
+    const bool vertex = sum != std::array<double, 3>{0, 0, 0};
+    const UnitNormal n = vertex ? Raised(sum) : UnitNormal{0, 0, 0};
+    normals.push_back(
+        {static_cast<float>(n[0]), static_cast<float>(n[1]), static_cast<float>(n[2])});
+  }
+}
+
+// The share of the triangle's corners in post (column, row), which is inside.
+std::array<double, 3> SharesOf(const std::array<Point3i, 3>& plan, std::int64_t column,
+                               std::int64_t row) {
+  std::array<std::int64_t, 3> areas{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Point3i& p = plan[(k + 1) % 3];
+    const Point3i& q = plan[(k + 2) % 3];
+    areas[k] = (p.x - column) * (q.y - row) - (p.y - row) * (q.x - column);
+  }
+  const auto whole = static_cast<double>(areas[0] + areas[1] + areas[2]);
+  return {static_cast<double>(areas[0]) / whole, static_cast<double>(areas[1]) / whole,
+          static_cast<double>(areas[2]) / whole};
+}
+
+// What part of a post is the triangle's: half on a side, a sixth at a corner, as on a plain grid.
+double PartOf(const std::array<double, 3>& shares) {
+  const auto zeros = std::count(shares.begin(), shares.end(), 0.0);
+  return zeros == 0 ? 1 : zeros == 1 ? 0.5 : 1.0 / 6;
+}
+
+void AddPost(const std::array<float, 3>& normal, const std::array<double, 3>& shares,
+             std::array<std::array<double, 3>, 3>& sums) {
+  const double part = PartOf(shares);
+  for (std::size_t corner = 0; corner < 3; ++corner) {
+    const double weight = part * shares[corner] * shares[corner];
+    for (std::size_t k = 0; k < 3; ++k) sums[corner][k] += weight * normal[k];
+  }
 }
 
 }  // namespace
 
-Result<std::vector<UnitNormal>> PostNormals(const Terrain& terrain, const Placement& placement,
-                                            const std::vector<VertexId>& posts) {
-  std::vector<UnitNormal> normals;
-  normals.reserve(posts.size());
-  const bool keeps = placement.KeepsOrientation();
-  for (std::size_t first = 0; first < posts.size(); first += kPostsAtATime) {
-    const std::span<const VertexId> some =
-        std::span(posts).subspan(first, std::min(kPostsAtATime, posts.size() - first));
-    Result<Surroundings> around = Surroundings::Of(terrain, placement, some);
-    if (!around) return std::move(around.error());
-    for (const VertexId post : some) {
-      normals.push_back(NormalAt(terrain, *around, post, keeps));
+Result<PostNormals> FindPostNormals(const Terrain& terrain, const Placement& placement) {
+  const Dem& dem = terrain.dem();
+  PostNormals normals;
+  normals.reserve(dem.heights.size());
+  const Sums none(static_cast<std::size_t>(dem.columns), {0, 0, 0});
+  Band band;
+  band.sums = {none, none};
+  Result<std::vector<Enu>> first = PlaceRow(terrain, placement, 0);
+  if (!first) return std::move(first.error());
+  band.points[0] = *std::move(first);
+  for (std::int32_t row = 0; row + 1 < dem.rows; ++row) {
+    Result<std::vector<Enu>> next = PlaceRow(terrain, placement, row + 1);
+    if (!next) return std::move(next.error());
+    band.points[1] = *std::move(next);
+    AddFaces(terrain, placement.KeepsOrientation(), row, band);
+    AppendRow(band.sums[0], normals);
+    band.points[0].swap(band.points[1]);
+    band.sums[0].swap(band.sums[1]);
+    band.sums[1] = none;
+  }
+  AppendRow(band.sums[0], normals);
+  return normals;
+}
+
+std::vector<UnitNormal> MeanNormals(const Terrain& terrain, const PostNormals& normals,
+                                    const LocalMesh& mesh) {
+  // Vertices of one source meet at the first of them.
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> by_source;
+  for (std::uint32_t i = 0; i < mesh.sources.size(); ++i)
+    by_source.emplace_back(mesh.sources[i], i);
+  std::sort(by_source.begin(), by_source.end());
+  std::vector<std::size_t> slot(mesh.sources.size());
+  std::size_t slots = 0;
+  for (std::size_t i = 0; i < by_source.size(); ++i) {
+    if (i > 0 && by_source[i].first != by_source[i - 1].first) ++slots;
+    slot[by_source[i].second] = slots;
+  }
+  Sums sums(slots + 1, {0, 0, 0});
+  for (const auto& t : mesh.triangles) {
+    std::array<Point3i, 3> plan{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      plan[k] = terrain.Point(static_cast<VertexId>(mesh.sources[t[k]]));
+    }
+    std::array<std::array<double, 3>, 3> here{};
+    const auto [top, bottom] = std::minmax({plan[0].y, plan[1].y, plan[2].y});
+    for (std::int64_t row = top; row <= bottom; ++row) {
+      const RowSpan span = SpanOfRow(plan, row);
+      for (std::int64_t column = span.first; column <= span.last; ++column) {
+        const auto post = static_cast<std::size_t>(row * terrain.dem().columns + column);
+        AddPost(normals[post], SharesOf(plan, column, row), here);
+      }
+    }
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      for (std::size_t k = 0; k < 3; ++k) sums[slot[t[corner]]][k] += here[corner][k];
     }
   }
-  return normals;
+  std::vector<UnitNormal> result;
+  result.reserve(mesh.sources.size());
+  for (const std::size_t s : slot) result.push_back(Raised(sums[s]));
+  return result;
 }
 
 }  // namespace farhorizon

@@ -142,8 +142,8 @@ void VerifySet(const std::vector<Edge>& claimed, const Horizon& horizon, Claims&
 
 void VerifyLevels(const Source& source, const Horizon& horizon, const fs::path& directory,
                   const Report& report, const std::optional<PublishedEdges>& published,
-                  const Watch& watch, Claims& claims) {
-  const LevelContext context{source.terrain(), horizon, source.placement(), watch};
+                  const PostNormals& normals, const Watch& watch, Claims& claims) {
+  const LevelContext context{source.terrain(), horizon, source.placement(), normals, watch};
   std::vector<int> kept;
   if (published) kept.assign(published->edges.size(), -1);
   double finer_error_m = 0;
@@ -241,7 +241,9 @@ Result<std::vector<ClaimCheck>> VerifyArtifacts(const fs::path& dem, const fs::p
     published = VerifyFeatures(**source, *features, claims);
     VerifySet(published->edges, *horizon, claims);
   }
-  VerifyLevels(**source, *horizon, directory, *report, published, watch, claims);
+  Result<PostNormals> normals = FindPostNormals((*source)->terrain(), (*source)->placement());
+  if (!normals) return std::move(normals.error());
+  VerifyLevels(**source, *horizon, directory, *report, published, *normals, watch, claims);
   if (Has(report->levels, &LevelReport::glb_bytes)) {
     VerifyTileset(**source, directory, *report, claims);
   }

@@ -9,7 +9,6 @@
 
 #include "core/io/files.h"
 #include "core/io/glb.h"
-#include "core/pipeline/post_normals.h"
 
 namespace farhorizon {
 namespace {
@@ -88,22 +87,18 @@ bool AllTurnLeft(const LocalMesh& mesh) {
   });
 }
 
-// Every decoded normal is that of the DEM at its vertex's post, as nearly as kNormalBits tell.
+// Every decoded normal is the mean of the DEM's, as nearly as its bits tell.
 void VerifyNormals(const LevelContext& context, const std::string& name, const LocalMesh& mesh,
                    Claims& claims) {
-  // Draco's octahedron in 8 bits has a point within 0.65 degrees of any direction.
-  constexpr double kLeastCosine = 0.99985;
-  const std::vector<VertexId> posts(mesh.sources.begin(), mesh.sources.end());
-  Result<std::vector<UnitNormal>> normals = PostNormals(context.terrain, context.placement, posts);
+  constexpr double kLeastCosine = 0.99985;  // of a degree; rounding is less
+  const std::vector<UnitNormal> normals = MeanNormals(context.terrain, context.normals, mesh);
   std::int64_t astray = 0;
-  for (std::size_t i = 0; normals && i < posts.size(); ++i) {
-    const UnitNormal& n = (*normals)[i];
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    const UnitNormal& n = normals[i];
     const UnitNormal& m = mesh.normals[i];
     const bool near = m[2] > 0 && n[0] * m[0] + n[1] * m[1] + n[2] * m[2] > kLeastCosine;
     astray += near ? 0 : 1;
   }
-  claims.Add(normals.has_value(), name + " normals can be found at the posts" +
-                                      (normals ? "" : ": " + normals.error().message));
   claims.Same(name + " normals a degree or more off the DEM's", std::int64_t{0}, astray);
 }
 

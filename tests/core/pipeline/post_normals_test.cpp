@@ -1,7 +1,6 @@
 #include "core/pipeline/post_normals.h"
 
 #include <cmath>
-#include <numeric>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -41,10 +40,16 @@ struct Placed {
   std::vector<VertexId> vertices;
 };
 
-std::vector<UnitNormal> NormalsAt(const Placed& some, const std::vector<VertexId>& posts) {
-  Result<std::vector<UnitNormal>> normals = PostNormals(some.terrain, some.placement, posts);
-  if (!normals) throw std::runtime_error(normals.error().message);
-  return *std::move(normals);
+UnitNormal Widen(const std::array<float, 3>& n) { return {n[0], n[1], n[2]}; }
+
+// At some.vertices.
+std::vector<UnitNormal> NormalsOf(const Placed& some) {
+  Result<PostNormals> found = FindPostNormals(some.terrain, some.placement);
+  if (!found) throw std::runtime_error(found.error().message);
+  std::vector<UnitNormal> normals;
+  for (const VertexId v : some.vertices)
+    normals.push_back(Widen((*found)[static_cast<std::size_t>(v)]));
+  return normals;
 }
 
 double AngleDeg(const UnitNormal& a, const UnitNormal& b) {
@@ -63,7 +68,7 @@ TEST(PostNormals, OnASlopeAreItsNormalAtHolesAndBordersToo) {
   const Placed some(MakeDem(40, 30, [](std::int32_t c, std::int32_t r) {
     return (c * 7 + r * 5) % 11 == 0 || (c * c + 3 * r) % 7 == 0 ? kNoHeight : 900 * c + 1500 * r;
   }));
-  const std::vector<UnitNormal> normals = NormalsAt(some, some.vertices);
+  const std::vector<UnitNormal> normals = NormalsOf(some);
   ASSERT_EQ(normals.size(), some.vertices.size());
   for (const UnitNormal& n : normals) EXPECT_LT(AngleDeg(n, OfSlope(0.3, -0.5)), 0.05);
 }
@@ -75,12 +80,12 @@ TEST(PostNormals, OnHillsAreThoseOfTheHills) {
   const Placed some(MakeDem(60, 50, [&](std::int32_t c, std::int32_t r) {
     return static_cast<std::int32_t>(std::lround(100 * height_m(c, r)));
   }));
+  const std::vector<UnitNormal> normals = NormalsOf(some);
   for (std::int32_t r = 1; r < 49; ++r) {
     for (std::int32_t c = 1; c < 59; ++c) {
-      const double east =
-          (300.0 / 9 * std::cos(c / 9.0) - 200.0 / 20 * std::sin(r / 7.0 + c / 20.0));
+      const double east = 300.0 / 9 * std::cos(c / 9.0) - 200.0 / 20 * std::sin(r / 7.0 + c / 20.0);
       const double south = -200.0 / 7 * std::sin(r / 7.0 + c / 20.0);
-      const UnitNormal n = NormalsAt(some, {r * 60 + c}).front();
+      const UnitNormal& n = normals[static_cast<std::size_t>(r * 60 + c)];
       EXPECT_LT(AngleDeg(n, OfSlope(east / kCellM, -south / kCellM)), 1) << c << " " << r;
     }
   }
@@ -104,12 +109,12 @@ TEST(PostNormals, AreTheMeanOfTheFacesByArea) {
       }
     }
   }
-  const std::vector<UnitNormal> normals = NormalsAt(some, some.vertices);
+  const std::vector<UnitNormal> normals = NormalsOf(some);
   for (std::size_t i = 0; i < normals.size(); ++i) {
     UnitNormal sum = sums[static_cast<std::size_t>(some.vertices[i])];
     const double length = std::hypot(sum[0], sum[1], sum[2]);
     for (double& x : sum) x /= length;
-    EXPECT_LT(AngleDeg(normals[i], sum), 1e-6);
+    EXPECT_LT(AngleDeg(normals[i], sum), 1e-4);
   }
 }
 
@@ -117,7 +122,7 @@ TEST(PostNormals, PointUpwardsWhicheverWayTheRowsRun) {
   Dem dem = MakeDem(9, 9, [](std::int32_t c, std::int32_t r) { return 900 * c + 1500 * r; });
   dem.transform.step_y = kCellM;  // the first row is the southernmost
   const Placed some(dem);
-  for (const UnitNormal& n : NormalsAt(some, some.vertices)) {
+  for (const UnitNormal& n : NormalsOf(some)) {
     EXPECT_LT(AngleDeg(n, OfSlope(0.3, 0.5)), 0.05);
   }
 }
@@ -127,26 +132,117 @@ TEST(PostNormals, OfCliffsAreRaisedToTheLeastThatEncodingTakes) {
     return (c + r) % 3 == 0 ? 900000 : 7 * c - 5 * r;
   }));
   double least = 1;
-  for (const UnitNormal& n : NormalsAt(some, some.vertices)) {
-    EXPECT_NEAR(std::hypot(n[0], n[1], n[2]), 1, 1e-12);
+  for (const UnitNormal& n : NormalsOf(some)) {
+    EXPECT_NEAR(std::hypot(n[0], n[1], n[2]), 1, 1e-6);
     least = std::min(least, n[2]);
   }
   EXPECT_EQ(least, kLeastNormalUp);
 }
 
-TEST(PostNormals, AreTheSameForSomePostsAsForAll) {
-  // More posts than are placed at a time.
-  const Placed some(MakeDem(300, 250, [](std::int32_t c, std::int32_t r) {
-    return static_cast<std::int32_t>(3000 * std::sin(c / 5.0) + 2000 * std::cos(r / 3.0));
+TEST(PostNormals, AreZeroWhereThereIsNoTerrain) {
+  const Placed some(MakeDem(9, 9, [](std::int32_t c, std::int32_t r) {
+    return c > 3 && (c + r) % 2 == 0 ? kNoHeight : 10 * c;
   }));
-  const std::vector<UnitNormal> all = NormalsAt(some, some.vertices);
-  std::vector<VertexId> few;
-  for (VertexId v = some.terrain.post_count() - 1; v >= 0; v -= 137) few.push_back(v);
-  few.push_back(few.front());
-  const std::vector<UnitNormal> normals = NormalsAt(some, few);
-  ASSERT_EQ(normals.size(), few.size());
-  for (std::size_t i = 0; i < few.size(); ++i) {
-    EXPECT_EQ(normals[i], all[static_cast<std::size_t>(few[i])]);
+  const PostNormals normals = *FindPostNormals(some.terrain, some.placement);
+  ASSERT_EQ(normals.size(), 81U);
+  for (VertexId v = 0; v < 81; ++v) {
+    EXPECT_EQ(normals[static_cast<std::size_t>(v)][2] > 0, some.terrain.IsVertex(v)) << v;
+  }
+}
+
+// Rolling hills, and a mesh over every `step`th post of them, with the terrain's diagonals.
+Placed Hills(std::int32_t size) {
+  return Placed(MakeDem(size, size, [](std::int32_t c, std::int32_t r) {
+    return static_cast<std::int32_t>(
+        std::lround(9000 * std::sin(c / 6.0) * std::cos(r / 5.0) + 2500 * std::sin(c * r / 7.0)));
+  }));
+}
+
+LocalMesh EveryNth(std::int32_t size, std::int32_t step) {
+  LocalMesh mesh;
+  const std::int32_t across = (size - 1) / step + 1;
+  for (std::int32_t r = 0; r < across; ++r) {
+    for (std::int32_t c = 0; c < across; ++c) {
+      mesh.sources.push_back(static_cast<std::uint32_t>(r * step * size + c * step));
+      if (r + 1 == across || c + 1 == across) continue;
+      const auto nw = static_cast<std::uint32_t>(r * across + c);
+      const auto down = static_cast<std::uint32_t>(across);
+      mesh.triangles.push_back({nw, nw + down, nw + down + 1});
+      mesh.triangles.push_back({nw, nw + down + 1, nw + 1});
+    }
+  }
+  return mesh;
+}
+
+TEST(MeanNormals, WeighPostsByTheSquareOfTheirShare) {
+  // The slow twin asks every triangle about every post.
+  const Placed some = Hills(25);
+  const PostNormals posts = *FindPostNormals(some.terrain, some.placement);
+  const LocalMesh mesh = EveryNth(25, 8);
+  std::vector<UnitNormal> sums(mesh.sources.size(), {0, 0, 0});
+  for (const auto& t : mesh.triangles) {
+    std::array<Point3i, 3> p{};
+    for (std::size_t k = 0; k < 3; ++k)
+      p[k] = some.terrain.Point(static_cast<VertexId>(mesh.sources[t[k]]));
+    const auto area = [](Point3i a, Point3i b, Point3i c) {
+      return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+    };
+    const int whole = area(p[0], p[1], p[2]);
+    for (VertexId v = 0; v < some.terrain.post_count(); ++v) {
+      const Point3i q = some.terrain.Point(v);
+      const std::array<int, 3> parts = {area(q, p[1], p[2]), area(p[0], q, p[2]),
+                                        area(p[0], p[1], q)};
+      int sides = 0;
+      bool inside = true;
+      for (const int part : parts) {
+        inside = inside && part * whole >= 0;
+        sides += part == 0 ? 1 : 0;
+      }
+      if (!inside) continue;
+      const double here = sides == 0 ? 1.0 : sides == 1 ? 1 / 2.0 : 1 / 6.0;
+      for (std::size_t corner = 0; corner < 3; ++corner) {
+        const double share = static_cast<double>(parts[corner]) / whole;
+        for (std::size_t k = 0; k < 3; ++k) {
+          sums[t[corner]][k] += here * share * share * posts[static_cast<std::size_t>(v)][k];
+        }
+      }
+    }
+  }
+  const std::vector<UnitNormal> normals = MeanNormals(some.terrain, posts, mesh);
+  ASSERT_EQ(normals.size(), sums.size());
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    const double length = std::hypot(sums[i][0], sums[i][1], sums[i][2]);
+    const UnitNormal mean = {sums[i][0] / length, sums[i][1] / length, sums[i][2] / length};
+    EXPECT_LT(AngleDeg(normals[i], mean), 1e-4);
+  }
+}
+
+TEST(MeanNormals, OnASlopeAreItsNormal) {
+  const Placed some(
+      MakeDem(25, 25, [](std::int32_t c, std::int32_t r) { return 900 * c + 1500 * r; }));
+  const PostNormals posts = *FindPostNormals(some.terrain, some.placement);
+  for (const UnitNormal& n : MeanNormals(some.terrain, posts, EveryNth(25, 6))) {
+    EXPECT_LT(AngleDeg(n, OfSlope(0.3, -0.5)), 0.05);
+  }
+}
+
+TEST(MeanNormals, VerticesThatAreSplitBetweenFansGetTheNormalOfTheWhole) {
+  const Placed some = Hills(25);
+  const PostNormals posts = *FindPostNormals(some.terrain, some.placement);
+  const LocalMesh whole = EveryNth(25, 8);
+  LocalMesh split = whole;
+  for (auto& t : split.triangles) {
+    for (std::uint32_t& v : t) {
+      split.sources.push_back(split.sources[v]);
+      v = static_cast<std::uint32_t>(split.sources.size() - 1);
+    }
+  }
+  const std::vector<UnitNormal> expected = MeanNormals(some.terrain, posts, whole);
+  const std::vector<UnitNormal> normals = MeanNormals(some.terrain, posts, split);
+  for (std::size_t t = 0; t < whole.triangles.size(); ++t) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_EQ(normals[split.triangles[t][k]], expected[whole.triangles[t][k]]);
+    }
   }
 }
 
