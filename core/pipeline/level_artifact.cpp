@@ -43,6 +43,7 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> KeptInDecoded(const Horizon
                                                                    const Lod& lod,
                                                                    const LocalMesh& decoded) {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> by_source;
+  by_source.reserve(decoded.sources.size());
   for (std::size_t i = 0; i < decoded.sources.size(); ++i) {
     by_source.emplace_back(decoded.sources[i], static_cast<std::uint32_t>(i));
   }

@@ -140,6 +140,7 @@ std::vector<UnitNormal> MeanNormals(const Terrain& terrain, const PostNormals& n
                                     const LocalMesh& mesh) {
   // Vertices of one source meet at the first of them.
   std::vector<std::pair<std::uint32_t, std::uint32_t>> by_source;
+  by_source.reserve(mesh.sources.size());
   for (std::uint32_t i = 0; i < mesh.sources.size(); ++i)
     by_source.emplace_back(mesh.sources[i], i);
   std::sort(by_source.begin(), by_source.end());

@@ -1,5 +1,6 @@
 #include "core/pipeline/post_normals.h"
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -85,7 +86,8 @@ TEST(PostNormals, OnHillsAreThoseOfTheHills) {
     for (std::int32_t c = 1; c < 59; ++c) {
       const double east = 300.0 / 9 * std::cos(c / 9.0) - 200.0 / 20 * std::sin(r / 7.0 + c / 20.0);
       const double south = -200.0 / 7 * std::sin(r / 7.0 + c / 20.0);
-      const UnitNormal& n = normals[static_cast<std::size_t>(r * 60 + c)];
+      const VertexId v = r * 60 + c;
+      const UnitNormal& n = normals[static_cast<std::size_t>(v)];
       EXPECT_LT(AngleDeg(n, OfSlope(east / kCellM, -south / kCellM)), 1) << c << " " << r;
     }
   }
@@ -174,39 +176,44 @@ LocalMesh EveryNth(std::int32_t size, std::int32_t step) {
   return mesh;
 }
 
+// The slow twin asks a triangle about every post: what each corner gets of it.
+std::array<UnitNormal, 3> SumsOver(const Placed& some, const PostNormals& posts,
+                                   const std::array<Point3i, 3>& p) {
+  const auto area = [](Point3i a, Point3i b, Point3i c) {
+    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+  };
+  const int whole = area(p[0], p[1], p[2]);
+  std::array<UnitNormal, 3> sums{};
+  for (VertexId v = 0; v < some.terrain.post_count(); ++v) {
+    const Point3i q = some.terrain.Point(v);
+    const std::array<int, 3> parts = {area(q, p[1], p[2]), area(p[0], q, p[2]),
+                                      area(p[0], p[1], q)};
+    if (std::ranges::any_of(parts, [&](int part) { return part * whole < 0; })) continue;
+    const auto sides = std::ranges::count(parts, 0);
+    const std::array<double, 3> here = {1, 1 / 2.0, 1 / 6.0};
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      const double share = static_cast<double>(parts[corner]) / whole;
+      const double weight = here[static_cast<std::size_t>(sides)] * share * share;
+      for (std::size_t k = 0; k < 3; ++k) {
+        sums[corner][k] += weight * posts[static_cast<std::size_t>(v)][k];
+      }
+    }
+  }
+  return sums;
+}
+
 TEST(MeanNormals, WeighPostsByTheSquareOfTheirShare) {
-  // The slow twin asks every triangle about every post.
   const Placed some = Hills(25);
   const PostNormals posts = *FindPostNormals(some.terrain, some.placement);
   const LocalMesh mesh = EveryNth(25, 8);
   std::vector<UnitNormal> sums(mesh.sources.size(), {0, 0, 0});
   for (const auto& t : mesh.triangles) {
     std::array<Point3i, 3> p{};
-    for (std::size_t k = 0; k < 3; ++k)
+    for (std::size_t k = 0; k < 3; ++k) {
       p[k] = some.terrain.Point(static_cast<VertexId>(mesh.sources[t[k]]));
-    const auto area = [](Point3i a, Point3i b, Point3i c) {
-      return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-    };
-    const int whole = area(p[0], p[1], p[2]);
-    for (VertexId v = 0; v < some.terrain.post_count(); ++v) {
-      const Point3i q = some.terrain.Point(v);
-      const std::array<int, 3> parts = {area(q, p[1], p[2]), area(p[0], q, p[2]),
-                                        area(p[0], p[1], q)};
-      int sides = 0;
-      bool inside = true;
-      for (const int part : parts) {
-        inside = inside && part * whole >= 0;
-        sides += part == 0 ? 1 : 0;
-      }
-      if (!inside) continue;
-      const double here = sides == 0 ? 1.0 : sides == 1 ? 1 / 2.0 : 1 / 6.0;
-      for (std::size_t corner = 0; corner < 3; ++corner) {
-        const double share = static_cast<double>(parts[corner]) / whole;
-        for (std::size_t k = 0; k < 3; ++k) {
-          sums[t[corner]][k] += here * share * share * posts[static_cast<std::size_t>(v)][k];
-        }
-      }
     }
+    const std::array<UnitNormal, 3> here = SumsOver(some, posts, p);
+    for (std::size_t i = 0; i < 9; ++i) sums[t[i / 3]][i % 3] += here[i / 3][i % 3];
   }
   const std::vector<UnitNormal> normals = MeanNormals(some.terrain, posts, mesh);
   ASSERT_EQ(normals.size(), sums.size());
