@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 #include <optional>
 
 #include "core/exact/wide.h"
@@ -20,6 +21,9 @@ struct BasicDyadic {
 /// k <= kMaxDyadicBits: nearly all that are ever asked for.
 using Dyadic = BasicDyadic<Int128>;
 inline constexpr int kMaxDyadicBits = 70;
+
+/// The few bits that most points need.
+using ShortDyadic = BasicDyadic<std::int64_t>;
 
 /// k <= kMaxWideDyadicBits: one of these is between any two different roots in [0, 1]. For two roots
 /// a and b of polynomials p and q without a common one, with the other roots a' and b', the resultant

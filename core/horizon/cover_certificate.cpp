@@ -8,11 +8,16 @@
 namespace farhorizon {
 namespace {
 
+// Points in the numbers that roots are compared with.
+Dyadic ForRoots(const ShortDyadic& t) { return {t.n, t.k}; }
+const Dyadic& ForRoots(const Dyadic& t) { return t; }
+const WideDyadic& ForRoots(const WideDyadic& t) { return t; }
+
 // Narrows a range around t to where polynomials that are not negative at t stay so.
-template <typename Int>
+template <typename Point>
 class RangeNarrower {
  public:
-  explicit RangeNarrower(const BasicDyadic<Int>& t)
+  explicit RangeNarrower(const Point& t)
       : t_(t), range_{QuadraticRoot::At({0, 0}), QuadraticRoot::At({1, 0})} {}
 
   void Keep(const Quadratic& q) {
@@ -32,7 +37,7 @@ class RangeNarrower {
   [[nodiscard]] const HiddenRange& range() const { return range_; }
 
  private:
-  BasicDyadic<Int> t_;
+  Point t_;
   HiddenRange range_;
 };
 
@@ -40,8 +45,8 @@ Quadratic Negated(const Quadratic& q) { return {-q.c0, -q.c1, -q.c2}; }
 
 // Heights: the point at t is not above the obstacle's top, and not past its lower end on the side
 // that the arc was made for.
-template <typename Int>
-void KeepHeights(const Sighted& e, const BasicArc<Int>& arc, RangeNarrower<Int>& narrower) {
+template <typename Int, typename Point>
+void KeepHeights(const Sighted& e, const BasicArc<Int>& arc, RangeNarrower<Point>& narrower) {
   const Int128 climb = Int128{e.high.z} - e.low.z;
   narrower.Keep({Int128{arc.high_z} - e.low.z, -climb, 0});
   if (arc.sliced) {
@@ -100,8 +105,8 @@ Quadratic CrossOf(const MovingVector& a, bool a_turned, const MovingVector& b, b
   return a_turned == b_turned ? cross : Negated(cross);
 }
 
-template <typename Int>
-void KeepChain(const std::vector<const BasicArc<Int>*>& chain, RangeNarrower<Int>& narrower) {
+template <typename Int, typename Point>
+void KeepChain(const std::vector<const BasicArc<Int>*>& chain, RangeNarrower<Point>& narrower) {
   using Arc = BasicArc<Int>;
   for (const Arc* arc : chain) narrower.Keep(Cross(arc->from, arc->to));
   for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
@@ -127,13 +132,14 @@ void KeepChain(const std::vector<const BasicArc<Int>*>& chain, RangeNarrower<Int
 
 template <typename Int>
 HiddenRange RangeOfCover(const Sighted& sighted, const BasicSightSample<Int>& sample,
-                         SightOutcome outcome, const BasicDyadic<Int>& t,
+                         SightOutcome outcome, const BasicDyadic<Int>& at,
                          std::vector<std::int32_t>* blockers, PredicateCounts* counts) {
   using Arc = BasicArc<Int>;
-  RangeNarrower<Int> narrower(t);
+  const auto& t = ForRoots(at);
   if (outcome == SightOutcome::kAmbiguous) {
     return {QuadraticRoot::At(t), QuadraticRoot::At(t)};
   }
+  RangeNarrower narrower(t);
   if (outcome == SightOutcome::kEnclosed) {
     const Arc& arc = sample.arcs().front();
     KeepHeights(sighted, arc, narrower);
@@ -150,6 +156,8 @@ HiddenRange RangeOfCover(const Sighted& sighted, const BasicSightSample<Int>& sa
   return narrower.range();
 }
 
+template HiddenRange RangeOfCover(const Sighted&, const ShortSightSample&, SightOutcome,
+                                  const ShortDyadic&, std::vector<std::int32_t>*, PredicateCounts*);
 template HiddenRange RangeOfCover(const Sighted&, const SightSample&, SightOutcome, const Dyadic&,
                                   std::vector<std::int32_t>*, PredicateCounts*);
 template HiddenRange RangeOfCover(const Sighted&, const WideSightSample&, SightOutcome,

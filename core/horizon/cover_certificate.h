@@ -22,7 +22,7 @@ struct HiddenRange {
 /// blockers: where not null, the obstacles of the chain, but for screens, are appended.
 template <typename Int>
 HiddenRange RangeOfCover(const Sighted& sighted, const BasicSightSample<Int>& sample,
-                         SightOutcome outcome, const BasicDyadic<Int>& t,
+                         SightOutcome outcome, const BasicDyadic<Int>& at,
                          std::vector<std::int32_t>* blockers, PredicateCounts* counts);
 
 }  // namespace farhorizon

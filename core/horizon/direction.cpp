@@ -111,6 +111,14 @@ BasicVector<Int> SimplestNotAlong(const BasicVector<Int>& from, const BasicVecto
 
 }  // namespace
 
+int CrossSign(const ShortVector& a, const ShortVector& b) {
+  return SignOf(Int128{a.x} * b.y - Int128{a.y} * b.x);
+}
+
+int DotSign(const ShortVector& a, const ShortVector& b) {
+  return SignOf(Int128{a.x} * b.x + Int128{a.y} * b.y);
+}
+
 int CrossSign(const Vector& a, const Vector& b) {
   if (IsNarrow(a) && IsNarrow(b)) return SignOf(a.x * b.y - a.y * b.x);
   return CompareProducts(a.x, b.y, a.y, b.x);
@@ -124,9 +132,13 @@ int DotSign(const Vector& a, const Vector& b) {
 int CrossSign(const WideVector& a, const WideVector& b) { return SignOf(a.x * b.y - a.y * b.x); }
 int DotSign(const WideVector& a, const WideVector& b) { return SignOf(a.x * b.x + a.y * b.y); }
 
+ShortDirection MakeDirection(const ShortVector& v) { return DirectionOf(v); }
 Direction MakeDirection(const Vector& v) { return DirectionOf(v); }
 WideDirection MakeDirection(const WideVector& v) { return DirectionOf(v); }
 
+int CompareAngle(const ShortDirection& a, const ShortDirection& b, PredicateCounts* counts) {
+  return AngleSign(a, b, counts);
+}
 int CompareAngle(const Direction& a, const Direction& b, PredicateCounts* counts) {
   return AngleSign(a, b, counts);
 }
@@ -134,6 +146,10 @@ int CompareAngle(const WideDirection& a, const WideDirection& b, PredicateCounts
   return AngleSign(a, b, counts);
 }
 
+ShortVector SimplestBetween(const ShortVector& from, const ShortVector& to,
+                            const ShortVector& along) {
+  return SimplestNotAlong(from, to, along);
+}
 Vector SimplestBetween(const Vector& from, const Vector& to, const Vector& along) {
   return SimplestNotAlong(from, to, along);
 }

@@ -6,8 +6,9 @@
 
 namespace farhorizon {
 
-/// An exact vector in the plan. Everything here is made for two sizes of numbers: 128 bits, and wide
-/// ones for the few points of great cliffs that need them.
+/// An exact vector in the plan. Everything here is made for three sizes of numbers: 64 bits for most
+/// points, in which components are below 2^62; 128 bits; and wide ones for the few points of great
+/// cliffs that need them.
 template <typename Int>
 struct BasicVector {
   Int x{};
@@ -16,13 +17,16 @@ struct BasicVector {
   [[nodiscard]] bool IsZero() const { return SignOf(x) == 0 && SignOf(y) == 0; }
   BasicVector operator-() const { return {-x, -y}; }
 };
+using ShortVector = BasicVector<std::int64_t>;
 using Vector = BasicVector<Int128>;
 using WideVector = BasicVector<WideInt>;
 
 /// The sign of the cross product: 1 where b is counter-clockwise of a within half a turn.
+int CrossSign(const ShortVector& a, const ShortVector& b);
 int CrossSign(const Vector& a, const Vector& b);
 int CrossSign(const WideVector& a, const WideVector& b);
 /// The sign of the dot product.
+int DotSign(const ShortVector& a, const ShortVector& b);
 int DotSign(const Vector& a, const Vector& b);
 int DotSign(const WideVector& a, const WideVector& b);
 
@@ -34,10 +38,12 @@ struct BasicDirection {
   double key = 0;       ///< 1 - cos-like, rising with the angle from 0 to 2; error below 2^-50
   bool turned = false;  ///< v is the opposite of what it was made from
 };
+using ShortDirection = BasicDirection<std::int64_t>;
 using Direction = BasicDirection<Int128>;
 using WideDirection = BasicDirection<WideInt>;
 
 /// Requires: `v` is not zero.
+ShortDirection MakeDirection(const ShortVector& v);
 Direction MakeDirection(const Vector& v);
 WideDirection MakeDirection(const WideVector& v);
 
@@ -53,11 +59,14 @@ BasicDirection<Int> LastDirection() {
 
 /// -1, 0, 1 as the angle of a is less than, the same as, greater than that of b. Exact; the keys
 /// decide where they are apart by more than their error.
+int CompareAngle(const ShortDirection& a, const ShortDirection& b, PredicateCounts* counts);
 int CompareAngle(const Direction& a, const Direction& b, PredicateCounts* counts);
 int CompareAngle(const WideDirection& a, const WideDirection& b, PredicateCounts* counts);
 
 /// The integer vector of least size strictly between from and to, going counter-clockwise, that is
 /// not parallel to `along`. Requires: cross(from, to) > 0, or from = -to.
+ShortVector SimplestBetween(const ShortVector& from, const ShortVector& to,
+                            const ShortVector& along);
 Vector SimplestBetween(const Vector& from, const Vector& to, const Vector& along);
 WideVector SimplestBetween(const WideVector& from, const WideVector& to, const WideVector& along);
 

@@ -105,6 +105,7 @@ std::optional<typename BasicDirectionCover<Int>::Gap> BasicDirectionCover<Int>::
   return widest;
 }
 
+template class BasicDirectionCover<std::int64_t>;
 template class BasicDirectionCover<Int128>;
 template class BasicDirectionCover<WideInt>;
 

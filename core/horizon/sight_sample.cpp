@@ -254,6 +254,7 @@ bool BasicSightSample<Int>::SurelyHidden(const SegmentIndex::Item& item) const {
   return cover_.SurelyCovers(Key(low_x, low_y), Key(high_x, high_y));
 }
 
+template class BasicSightSample<std::int64_t>;
 template class BasicSightSample<Int128>;
 template class BasicSightSample<WideInt>;
 

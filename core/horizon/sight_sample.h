@@ -44,6 +44,10 @@ Quadratic Dot(const MovingVector& a, const MovingVector& b);
 
 inline constexpr std::int32_t kScreen = -1;
 
+/// A MovingVector's numbers are below 2^50 (17 bits of plan, 31 of height, a sum of two), so at a
+/// point of so many bits it stays below 2^62.
+inline constexpr int kMaxShortBits = 11;
+
 /// What one obstacle hides at one t: directions from `from` counter-clockwise to `to`.
 template <typename Int>
 struct BasicArc {
@@ -66,7 +70,8 @@ enum class SightOutcome {
 };
 
 /// What an observer at one point of the segment sees of the obstacles: the directions that they
-/// hide. Int: Int128 for points at a Dyadic, WideInt for those at a WideDyadic.
+/// hide. Int: std::int64_t for points at a ShortDyadic of at most kMaxShortBits, Int128 for those at a
+/// Dyadic, WideInt for those at a WideDyadic.
 template <typename Int>
 class BasicSightSample {
  public:
@@ -109,6 +114,7 @@ class BasicSightSample {
   Vector sight_;
   SightOutcome outcome_ = SightOutcome::kSight;
 };
+using ShortSightSample = BasicSightSample<std::int64_t>;
 using SightSample = BasicSightSample<Int128>;
 using WideSightSample = BasicSightSample<WideInt>;
 

@@ -91,12 +91,18 @@ class SightSearch {
         screens_(screens),
         blockers_(blockers),
         counts_(counts),
-        sample_(index, sighted_, except, screens, counts) {
+        short_sample_(index, sighted_, except, screens, counts) {
     if (segment.a.z > segment.b.z) std::swap(sighted_.low, sighted_.high);
   }
 
   Finding LookAt(const WideDyadic& t) {
-    if (t.k <= kMaxDyadicBits) return LookWith(sample_, Narrowed(t));
+    if (t.k <= kMaxShortBits) {
+      return LookWith(short_sample_, ShortDyadic{static_cast<std::int64_t>(t.n), t.k});
+    }
+    if (t.k <= kMaxDyadicBits) {
+      SightSample sample(index_, sighted_, except_, screens_, counts_);
+      return LookWith(sample, Narrowed(t));
+    }
     WideSightSample sample(index_, sighted_, except_, screens_, counts_);
     return LookWith(sample, t);
   }
@@ -116,7 +122,7 @@ class SightSearch {
   std::span<const Segment> screens_;
   std::vector<std::int32_t>* blockers_;
   PredicateCounts* counts_;
-  SightSample sample_;
+  ShortSightSample short_sample_;
 };
 
 }  // namespace

@@ -80,9 +80,17 @@ class ServiceE2e : public testing::Test {
     words.insert(words.begin(), FARHORIZON_PROGRAM);
     return Process(words, {}, folder_ / "stderr").Wait(std::chrono::seconds(300));
   }
+  /// Entries of a folder of the service's data that stay. A job's end is seen before its working
+  /// folder is gone, so there is a moment's grace.
   [[nodiscard]] std::size_t LeftOver(const char* sub) const {
-    const std::filesystem::directory_iterator entries(folder_ / "data" / sub);
-    return static_cast<std::size_t>(std::distance(begin(entries), end(entries)));
+    std::size_t count = 0;
+    for (int tries = 0; tries < 100; ++tries) {
+      const std::filesystem::directory_iterator entries(folder_ / "data" / sub);
+      count = static_cast<std::size_t>(std::distance(begin(entries), end(entries)));
+      if (count == 0) break;
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+    return count;
   }
 
   TempDir folder_;
