@@ -1,7 +1,12 @@
 // Numbers that are roots of quadratics with integer coefficients, compared without rounding.
-// A root is never computed: it is known by its polynomial and by which root it is, and placed
-// against dyadic numbers by the signs of the polynomial and of its derivative there.
+// A root is known by its polynomial and by which root it is, and placed against dyadic numbers by
+// the signs of the polynomial and of its derivative there. Doubles decide first where roots are well
+// conditioned and the numbers far apart.
 #include "core/exact/quadratic.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include <boost/multiprecision/cpp_int.hpp>
 
@@ -30,6 +35,36 @@ int SlopeAt(const Quadratic& q, Dyadic t) {
 
 int SlopeAt(const Quadratic& q, const WideDyadic& t) {
   return SignOf((WideInt(2 * q.c2) * t.n) + (WideInt(q.c1) << t.k));
+}
+
+// The root in doubles, within kNearError of itself (or of 1 where it is smaller); NaN where the
+// discriminant loses too many digits for that.
+//
+// With M = c1^2 + 4 |c2 c0| the discriminant D is off by at most 2^-50 M, so by 2^-30 of itself where
+// D >= 2^-20 M; the sum with c1 of like sign and the quotients add a few 2^-53.
+constexpr double kNearError = 0x1p-28;
+
+double Near(const QuadraticRoot& root) {
+  const auto c0 = static_cast<double>(root.q.c0);
+  const auto c1 = static_cast<double>(root.q.c1);
+  if (root.q.c2 == 0) return -c0 / c1;
+  const auto c2 = static_cast<double>(root.q.c2);
+  const double square = c1 * c1;
+  const double product = 4 * c2 * c0;
+  const double discriminant = square - product;
+  if (!(discriminant >= 0x1p-20 * (square + std::abs(product)))) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+  const double sum = c1 + std::copysign(std::sqrt(discriminant), c1);
+  const double one = -sum / (2 * c2);
+  const double other = -2 * c0 / sum;
+  return root.upper ? std::max(one, other) : std::min(one, other);
+}
+
+// The sign of a - b where it is sure, 0 otherwise, NaN included.
+int SurelyApart(double a, double b) {
+  const double most = 2 * kNearError * std::max({1.0, std::abs(a), std::abs(b)});
+  return static_cast<int>(a - b > most) - static_cast<int>(b - a > most);
 }
 
 int DiscriminantSign(const Quadratic& q) { return CompareProducts(q.c1, q.c1, 4 * q.c2, q.c0); }
@@ -162,6 +197,7 @@ QuadraticRoot QuadraticRoot::At(const WideDyadic& t) {
 QuadraticRoot QuadraticRoot::At(Dyadic t) { return {{-t.n, Int128{1} << t.k, 0}, false}; }
 
 int Compare(const QuadraticRoot& root, Dyadic t) {
+  if (const int apart = SurelyApart(Near(root), t.ToDouble()); apart != 0) return apart;
   return SideOf(root, SignAt(root.q, t), SlopeAt(root.q, t));
 }
 
@@ -170,6 +206,7 @@ int Compare(const QuadraticRoot& root, const WideDyadic& t) {
 }
 
 int Compare(const QuadraticRoot& r, const QuadraticRoot& s) {
+  if (const int apart = SurelyApart(Near(r), Near(s)); apart != 0) return apart;
   const Dyadic zero{0, 0};
   const Dyadic one{1, 0};
   const int r0 = Compare(r, zero);

@@ -72,7 +72,8 @@ struct QuadraticRoot {
 int Compare(const QuadraticRoot& root, Dyadic t);
 int Compare(const QuadraticRoot& root, const WideDyadic& t);
 
-/// The sign of r - s, exactly: by bisection, and where that does not part them by the resultant.
+/// The sign of r - s, exactly: by doubles, by bisection, and where that does not part them by the
+/// resultant.
 /// Requires: both in [0, 1].
 int Compare(const QuadraticRoot& r, const QuadraticRoot& s);
 

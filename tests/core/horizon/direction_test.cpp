@@ -29,8 +29,8 @@ TEST(CompareAngle, OrdersDirectionsByTheirAngleInTheHalfTurn) {
 TEST(CompareAngle, TellsDirectionsApartThatDoublesCannot) {
   const Int128 big = Int128{1} << 60;
   PredicateCounts counts;
-  const Direction a = MakeDirection({big, big + 1});
-  const Direction b = MakeDirection({big, big + 2});
+  const Direction a = MakeDirection(Vector{big, big + 1});
+  const Direction b = MakeDirection(Vector{big, big + 2});
   EXPECT_LT(CompareAngle(a, b, &counts), 0);
   EXPECT_EQ(counts.exact, 1);
   EXPECT_EQ(CompareAngle(a, a, &counts), 0);
@@ -91,7 +91,7 @@ TEST(SimplestBetween, IsTheSameInWideNumbers) {
 
 TEST(SimplestBetween, FindsRoomInANarrowGap) {
   const Int128 big = Int128{1} << 28;
-  const Vector simplest = SimplestBetween({big, 1}, {big - 1, 1}, {0, 1});
+  const Vector simplest = SimplestBetween(Vector{big, 1}, {big - 1, 1}, {0, 1});
   EXPECT_EQ(simplest.x, 2 * big - 1);
   EXPECT_EQ(simplest.y, 2);
 }
