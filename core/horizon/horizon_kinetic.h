@@ -1,0 +1,44 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/base/progress.h"
+#include "core/base/result.h"
+#include "core/terrain/terrain.h"
+
+namespace farhorizon {
+
+/// What the kinetic sweep met: the events of [Archambault03] section 3.2.
+struct EventCounts {
+  std::int64_t peak = 0;     ///< posts that begin a hull of their own
+  std::int64_t regular = 0;  ///< posts that do none of the others (a peak inside a hull is one)
+  std::int64_t saddle = 0;   ///< posts at which separate hulls join
+  std::int64_t minimum = 0;  ///< posts all of whose neighbours were met before
+  std::int64_t merge = 0;    ///< hulls that became part of another: at saddles and by collision
+  std::int64_t hull = 0;     ///< failed certificates of hulls: corners in line, points coming out
+  std::int64_t inside = 0;   ///< points inside that were given another triangle of their hull
+  std::int64_t bitangent = 0;  ///< failed certificates of bitangents, all kinds
+  /// The same by the kinds of figure 3.1: two active scene bitangents, active and inactive, active and
+  /// hull, inactive and hull.
+  std::array<std::int64_t, 4> by_kind{};
+  std::int64_t clusters_max = 0;
+  std::int64_t queue_max = 0;  ///< certificates pending, and posts to come
+};
+
+struct KineticHorizon {
+  std::vector<Edge> edges;  ///< by rising (a, b)
+  EventCounts events;
+};
+
+/// The same set of edges as FindHorizon's, by the thesis's own algorithm: a plane sinks through the
+/// terrain, and the visual lines of its slice are kept by a queue of certificates. Shares with
+/// FindHorizon the terrain and exact numbers, no algorithm: each is a check of the other.
+///
+/// Exact for every terrain within the limits, equal heights and posts in line included.
+/// Errors: kCancelled; kUnsupportedData, kind kinetic-too-large, where 2 log2(columns or rows) +
+/// 3 log2(range of heights in quanta) is beyond 98: remedy, the adaptive engine.
+Result<KineticHorizon> FindHorizonKinetic(const Terrain& terrain, const Watch& watch);
+
+}  // namespace farhorizon

@@ -1,0 +1,207 @@
+// Moments are never computed, only placed: by intervals of long doubles, which nearly always tell two
+// of them apart, and else by the signs of polynomials (core/exact/quadratic.h).
+#include "core/horizon/kinetic/moment.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/base/result.h"
+
+namespace farhorizon::kinetic {
+namespace {
+
+// A closed interval that contains the exact value: every operation widens by more than its rounding.
+struct Range {
+  long double lo;
+  long double hi;
+};
+
+constexpr long double kSlack = std::numeric_limits<long double>::epsilon() * 2;
+
+Range Widen(long double lo, long double hi) {
+  return {lo - std::fabs(lo) * kSlack, hi + std::fabs(hi) * kSlack};
+}
+
+Range RangeOf(Int128 value) {
+  const auto v = static_cast<long double>(value);
+  return Widen(v, v);
+}
+
+Range operator+(Range a, Range b) { return Widen(a.lo + b.lo, a.hi + b.hi); }
+Range operator-(Range a) { return {-a.hi, -a.lo}; }
+
+Range operator*(Range a, Range b) {
+  const auto [lo, hi] = std::minmax({a.lo * b.lo, a.lo * b.hi, a.hi * b.lo, a.hi * b.hi});
+  return Widen(lo, hi);
+}
+
+bool HasZero(Range a) { return a.lo <= 0 && a.hi >= 0; }
+
+Range operator/(Range a, Range b) {
+  constexpr long double kInfinite = std::numeric_limits<long double>::infinity();
+  if (HasZero(b)) return {-kInfinite, kInfinite};
+  const auto [lo, hi] = std::minmax({a.lo / b.lo, a.lo / b.hi, a.hi / b.lo, a.hi / b.hi});
+  return Widen(lo, hi);
+}
+
+Range Root(Range a) {
+  return Widen(std::sqrt(std::max(a.lo, 0.0L)), std::sqrt(std::max(a.hi, 0.0L)));
+}
+
+// The value and the slope of q at a whole number: |c| < 2^104 at depth 2^k leaves room for both.
+struct Local {
+  int value;
+  int slope;
+};
+Local At(const Quadratic& q, std::int64_t s) {
+  return {SignOf((q.c2 * s + q.c1) * s + q.c0), SignOf(2 * q.c2 * s + q.c1)};
+}
+
+// The sign of root - s.
+int SideOf(const Moment& root, std::int64_t s) {
+  const Local at = At(root.q, s);
+  if (root.q.c2 == 0) return -at.value * SignOf(root.q.c1);
+  const int opening = SignOf(root.q.c2);
+  const int above = at.value * opening;
+  const int rising = at.slope * opening;
+  if (above < 0) return root.upper ? 1 : -1;
+  if (above > 0) return -rising;
+  if (rising == 0) return 0;
+  if (rising < 0) return root.upper ? 1 : 0;
+  return root.upper ? 0 : -1;
+}
+
+Moment RootAt(const Quadratic& q, bool upper, Range where) {
+  constexpr double kInfinite = std::numeric_limits<double>::infinity();
+  Moment m;
+  m.whole = false;
+  m.q = q;
+  m.upper = upper;
+  m.lo = std::nextafter(static_cast<double>(where.lo), -kInfinite);
+  m.hi = std::nextafter(static_cast<double>(where.hi), kInfinite);
+  const double nearest = std::round(m.lo + (m.hi - m.lo) / 2);
+  if (std::fabs(nearest) < 0x1p31 && m.lo <= nearest && nearest <= m.hi) {
+    const auto s = static_cast<std::int64_t>(nearest);
+    if (SideOf(m, s) == 0) return Moment::At(s);
+  }
+  return m;
+}
+
+bool Proportional(const Quadratic& p, const Quadratic& q) {
+  return CompareProducts(p.c0, q.c1, p.c1, q.c0) == 0 &&
+         CompareProducts(p.c0, q.c2, p.c2, q.c0) == 0 &&
+         CompareProducts(p.c1, q.c2, p.c2, q.c1) == 0;
+}
+
+// The polynomial in depth / 2^bits.
+QuadraticRoot Scaled(const Moment& m, int bits) {
+  return {{m.q.c0, m.q.c1 * (Int128{1} << bits), m.q.c2 * (Int128{1} << (2 * bits))}, m.upper};
+}
+
+int CompareRoots(const Moment& a, const Moment& b) {
+  if (Proportional(a.q, b.q)) {
+    const bool one = a.q.c2 == 0 || a.upper == b.upper ||
+                     CompareProducts(a.q.c1, a.q.c1, 4 * a.q.c2, a.q.c0) == 0;
+    if (one) return 0;
+    return a.upper ? 1 : -1;
+  }
+  const double most = std::min(std::max(a.hi, b.hi), 0x1p31);
+  int bits = 0;
+  while (std::ldexp(1.0, bits) < most) ++bits;
+  const int beyond_a = SideOf(a, std::int64_t{1} << bits);
+  const int beyond_b = SideOf(b, std::int64_t{1} << bits);
+  if (beyond_a > 0 || beyond_b > 0) return beyond_a - beyond_b;
+  const int above_a = SideOf(a, 0);
+  const int above_b = SideOf(b, 0);
+  if (above_a < 0 || above_b < 0) return above_a - above_b;
+  return farhorizon::Compare(Scaled(a, bits), Scaled(b, bits));
+}
+
+// The value of q somewhere in the interval of `now`.
+Range ValueAt(const Quadratic& q, const Moment& now) {
+  const Range s{now.lo, now.hi};
+  return (RangeOf(q.c2) * s + RangeOf(q.c1)) * s + RangeOf(q.c0);
+}
+
+}  // namespace
+
+Moment Moment::At(std::int64_t s) {
+  Moment m;
+  m.s = s;
+  m.lo = m.hi = static_cast<double>(s);
+  return m;
+}
+
+int Compare(const Moment& a, const Moment& b) {
+  if (a.hi < b.lo) return -1;
+  if (a.lo > b.hi) return 1;
+  if (a.whole && b.whole) return SignOf(a.s - b.s);
+  if (a.whole) return -SideOf(b, a.s);
+  if (b.whole) return SideOf(a, b.s);
+  return CompareRoots(a, b);
+}
+
+Roots RootsOf(const Quadratic& q) {
+  Roots roots;
+  if (q.c2 == 0) {
+    if (q.c1 == 0) return roots;
+    roots.count = 1;
+    roots.at[0] = RootAt(q, false, -RangeOf(q.c0) / RangeOf(q.c1));
+    return roots;
+  }
+  const int discriminant = CompareProducts(q.c1, q.c1, 4 * q.c2, q.c0);
+  if (discriminant < 0) return roots;
+  const Range c0 = RangeOf(q.c0);
+  const Range c1 = RangeOf(q.c1);
+  const Range c2 = RangeOf(q.c2);
+  const Range half{0.5L, 0.5L};
+  if (discriminant == 0) {
+    roots.count = 1;
+    roots.twofold = true;
+    roots.at[0] = RootAt(q, false, -(c1 * half) / c2);
+    return roots;
+  }
+  // The root that adds numbers of one sign, and the other from the product of the two.
+  const Range difference = Root(c1 * c1 + -(c2 * c0 * Range{4, 4}));
+  const bool negative = q.c1 < 0;
+  const Range sum = (-c1 + (negative ? difference : -difference)) * half;
+  const bool first_is_upper = negative == (q.c2 > 0);
+  roots.count = 2;
+  roots.at[first_is_upper ? 1 : 0] = RootAt(q, first_is_upper, sum / c2);
+  roots.at[first_is_upper ? 0 : 1] = RootAt(q, !first_is_upper, c0 / sum);
+  return roots;
+}
+
+int SignAfter(const Quadratic& q, const Moment& now) {
+  if (q.c1 == 0 && q.c2 == 0) return SignOf(q.c0);
+  if (now.whole) {
+    const Local at = At(q, now.s);
+    if (at.value != 0) return at.value;
+    return at.slope != 0 ? at.slope : SignOf(q.c2);
+  }
+  const Range value = ValueAt(q, now);
+  if (!HasZero(value)) return value.lo > 0 ? 1 : -1;
+  const Roots roots = RootsOf(q);
+  int sign = q.c2 != 0 ? SignOf(q.c2) : SignOf(q.c1);  // far beyond all roots
+  if (roots.twofold) return sign;
+  for (int i = 0; i < roots.count; ++i) {
+    if (Compare(roots.at[static_cast<std::size_t>(i)], now) > 0) sign = -sign;
+  }
+  return sign;
+}
+
+std::optional<Moment> FailureAfter(const Quadratic& q, const Moment& now, std::int64_t end) {
+  if (q.c1 == 0 && q.c2 == 0) return std::nullopt;
+  const Roots roots = RootsOf(q);
+  if (roots.twofold) return std::nullopt;
+  for (int i = 0; i < roots.count; ++i) {
+    const Moment& root = roots.at[static_cast<std::size_t>(i)];
+    if (Compare(root, now) <= 0) continue;
+    if (Compare(root, Moment::At(end)) >= 0) return std::nullopt;
+    return root;
+  }
+  return std::nullopt;
+}
+
+}  // namespace farhorizon::kinetic

@@ -1,0 +1,86 @@
+#include "core/horizon/kinetic/moving_point.h"
+
+#include <cmath>
+
+namespace farhorizon::kinetic {
+namespace {
+
+// x_a y_b - x_b y_a.
+Quadratic Minor(const MovingPoint& a, const MovingPoint& b) {
+  return {Int128{a.x} * b.y - Int128{a.y} * b.x,
+          Int128{a.x} * b.vy + Int128{a.vx} * b.y - Int128{a.y} * b.vx - Int128{a.vy} * b.x,
+          Int128{a.vx} * b.vy - Int128{a.vy} * b.vx};
+}
+
+// Homogeneous coordinates in doubles and the greatest size of what they were summed from.
+struct Nearly {
+  double x;
+  double y;
+  double d;
+  double size_x;
+  double size_y;
+};
+
+Nearly NearlyAt(const MovingPoint& p, double s) {
+  const auto x = static_cast<double>(p.x);
+  const auto y = static_cast<double>(p.y);
+  const double dx = static_cast<double>(p.vx) * s;
+  const double dy = static_cast<double>(p.vy) * s;
+  return {x + dx, y + dy, static_cast<double>(p.d), std::fabs(x) + std::fabs(dx),
+          std::fabs(y) + std::fabs(dy)};
+}
+
+// The sign if doubles are sure of it, else 0.
+int FilteredOrientation(const MovingPoint& a, const MovingPoint& b, const MovingPoint& c,
+                        const Moment& now) {
+  const double s = now.lo;
+  const double off = now.hi - now.lo;
+  if (!(off <= s * 0x1p-40)) return 0;
+  const Nearly p = NearlyAt(a, s);
+  const Nearly q = NearlyAt(b, s);
+  const Nearly r = NearlyAt(c, s);
+  const double value = p.d * (q.x * r.y - q.y * r.x) + q.d * (r.x * p.y - r.y * p.x) +
+                       r.d * (p.x * q.y - p.y * q.x);
+  const double size = p.d * (q.size_x * r.size_y + q.size_y * r.size_x) +
+                      q.d * (r.size_x * p.size_y + r.size_y * p.size_x) +
+                      r.d * (p.size_x * q.size_y + p.size_y * q.size_x);
+  // Each term: two coordinates off by 2^-51 each from rounding and by off / s from the moment, two
+  // products, three sums.
+  const double error = size * (0x1p-48 + (s > 0 ? 4 * off / s : 0));
+  if (value > error) return 1;
+  return value < -error ? -1 : 0;
+}
+
+}  // namespace
+
+MovingPoint MovingPoint::Sliding(Point3i high, Point3i low, std::int64_t summit) {
+  const std::int64_t d = std::int64_t{high.z} - low.z;
+  const std::int64_t above = summit - high.z;
+  const std::int64_t wx = std::int64_t{low.x} - high.x;
+  const std::int64_t wy = std::int64_t{low.y} - high.y;
+  return {high.x * d - wx * above, wx, high.y * d - wy * above, wy, d};
+}
+
+Quadratic Orientation(const MovingPoint& a, const MovingPoint& b, const MovingPoint& c) {
+  const Quadratic bc = Minor(b, c);
+  const Quadratic ca = Minor(c, a);
+  const Quadratic ab = Minor(a, b);
+  return {a.d * bc.c0 + b.d * ca.c0 + c.d * ab.c0, a.d * bc.c1 + b.d * ca.c1 + c.d * ab.c1,
+          a.d * bc.c2 + b.d * ca.c2 + c.d * ab.c2};
+}
+
+int OrientAfter(const MovingPoint& a, const MovingPoint& b, const MovingPoint& c,
+                const Moment& now) {
+  const int sign = FilteredOrientation(a, b, c, now);
+  return sign != 0 ? sign : SignAfter(Orientation(a, b, c), now);
+}
+
+int OrderAfter(const MovingPoint& a, const MovingPoint& b, const Moment& now) {
+  const int sign = SignAfter(
+      {Int128{a.x} * b.d - Int128{b.x} * a.d, Int128{a.vx} * b.d - Int128{b.vx} * a.d, 0}, now);
+  if (sign != 0) return sign;
+  return SignAfter(
+      {Int128{a.y} * b.d - Int128{b.y} * a.d, Int128{a.vy} * b.d - Int128{b.vy} * a.d, 0}, now);
+}
+
+}  // namespace farhorizon::kinetic

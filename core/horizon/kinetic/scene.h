@@ -1,0 +1,230 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <queue>
+#include <span>
+#include <vector>
+
+#include "core/horizon/kinetic/moment.h"
+#include "core/horizon/kinetic/moving_point.h"
+
+namespace farhorizon::kinetic {
+
+using PointId = std::int32_t;
+using ClusterId = std::int32_t;
+/// A tangent as one of its two hulls sees it: 2 * tangent + 0 or 1.
+using SideId = std::int32_t;
+
+inline constexpr std::int64_t kNever = std::int64_t{1} << 31;
+
+/// A promise that holds until a moment in the queue; the stamp tells whether that one still counts.
+struct Certificate {
+  std::uint32_t stamp = 0;
+  bool pending = false;
+};
+
+/// How often certificates failed, by what they promised.
+struct SceneCounts {
+  std::int64_t hull_failures = 0;    ///< three corners in line, or a point at the border of its hull
+  std::int64_t inside_failures = 0;  ///< a point left its triangle
+  std::int64_t left_hulls = 0;  ///< of those, points that were outside their hull then
+  /// Figure 3.1: A two active scene bitangents, B active and inactive, C active and hull, D inactive
+  /// and hull.
+  std::array<std::int64_t, 4> tangent_failures{};
+  std::int64_t merges = 0;
+  std::int64_t clusters_max = 0;
+  std::int64_t queue_max = 0;
+};
+
+/// Disjoint convex hulls of moving points, with the bitangents of each two of them.
+///
+/// The slice of the terrain at one depth, as chapter 3 of [Archambault03] keeps it, with merged hulls
+/// (connected ground hides as its convex hull does) for contours. At every moment but those of events:
+///  - corners of a cluster run counter-clockwise, every three strictly convex; certificate kHull for
+///    each. Every other point that may come out again lies in a triangle of three points of the hull;
+///    certificate kInside for it. So the corners are the hull.
+///  - each two clusters have four tangents: two that leave both on one side (outer), two that part
+///    them (inner). While both of these stand, the hulls are apart.
+///  - tangents around a hull lie between its edges: each corner has those it supports, active ones in
+///    order of direction. Going round, a tangent starts or ends the hiding by the other hull; `depth`
+///    counts the hulls that hide the lines at the corner's first edge. Lines of depth 0 are visual
+///    lines; a tangent beside some is active. Every tangent has certificates (kTangent) with the
+///    nearest active tangents or hull edges on either side, the four kinds of figure 3.1; inactive
+///    ones among themselves are not ordered.
+/// Ground at or above the plane only grows, so visual lines are never born: a tangent becomes active
+/// only where it passes one that is (or its hulls are new), and there all three supports are looked at.
+///
+/// Simultaneous events are one step: what they touch is put right by the signs of all predicates just
+/// after the moment. What is then still in line is so for good; such ties are broken by one rule: hiding
+/// starts before it ends, then by id. A gap between two tied tangents has no width and shows nothing.
+class Scene {
+ public:
+  /// A point that is in `cluster` from the coming Settle() until depth `end`. tag: the caller's.
+  PointId Add(ClusterId cluster, const MovingPoint& path, std::int64_t end, std::int32_t tag);
+  ClusterId NewCluster();
+  /// Makes the two one: connected ground. Returns the one that is left.
+  ClusterId Join(ClusterId a, ClusterId b);
+  /// The point is no more, from the coming Settle() on.
+  void Remove(PointId point);
+  /// The one that `cluster` has become part of.
+  ClusterId Find(ClusterId cluster);
+
+  /// When the next certificate fails.
+  std::optional<Moment> NextFailure();
+  /// Goes to `now` and takes its failures out of the queue. Requires: none earlier is in it.
+  void Advance(const Moment& now);
+  /// Puts everything right just after the moment gone to.
+  void Settle();
+
+  /// The cluster whose hull, just now (not just after), has the standing point in it or on its border;
+  /// -1 if none. Requires: a whole moment, before anything was changed.
+  [[nodiscard]] ClusterId Around(std::int64_t x, std::int64_t y) const;
+
+  struct Tangent {
+    std::array<PointId, 2> touch{-1, -1};
+    struct Key {
+      std::array<PointId, 3> points{-1, -1, -1};
+      int sign = 0;
+      friend bool operator==(const Key&, const Key&) = default;
+    };
+    struct Side {
+      bool active = false;
+      std::array<Certificate, 2> certificates;  ///< with what is before, after it
+      std::array<Key, 2> keys;
+      std::array<SideId, 2> with{-1, -1};  ///< the other tangent; -1: the hull's edge
+    };
+    std::array<Side, 2> sides;
+  };
+  struct Point {
+    MovingPoint path;
+    std::int64_t end = 0;
+    std::int32_t tag = 0;
+    ClusterId cluster = -1;
+    bool alive = true;
+    bool corner = false;
+    bool touched = false;
+    bool seen = false;  ///< visual lines with a width touched it
+    PointId prev = -1;
+    PointId next = -1;
+    int depth = 0;
+    std::vector<SideId> sides;
+    Certificate hull;
+    Certificate inside;
+  };
+  struct Cluster {
+    std::int32_t slot = -1;  ///< row in the table of tangents
+    bool dirty = false;      ///< corners are to be found anew
+    bool changed = false;    ///< they have been
+    bool fresh = false;      ///< no tangents yet
+    bool recount = false;
+    bool listed = false;
+    std::vector<PointId> corners;
+    std::vector<PointId> loose;
+  };
+  [[nodiscard]] const Point& point(PointId p) const { return points_[Index(p)]; }
+  [[nodiscard]] const Cluster& cluster(ClusterId c) const { return clusters_[Index(c)]; }
+  [[nodiscard]] std::span<const ClusterId> apart() const { return apart_; }
+  [[nodiscard]] PointId point_count() const { return static_cast<PointId>(points_.size()); }
+  [[nodiscard]] const SceneCounts& counts() const { return counts_; }
+  [[nodiscard]] std::int64_t queue_size() const { return live_; }
+
+  /// Four a pair of clusters: outer, outer, inner, inner.
+  [[nodiscard]] std::int32_t FirstTangent(ClusterId a, ClusterId b) const;
+  [[nodiscard]] const Tangent& tangent(std::int32_t t) const { return tangents_[Index(t)]; }
+  static bool Outer(SideId side) { return side / 2 % 4 < 2; }
+  /// Whether the other hull is touched ahead along the tangent's direction, the own hull on its left.
+  static bool Ahead(SideId side) {
+    const int kind = side / 2 % 4;
+    return kind < 2 ? kind == side % 2 : kind == 2;
+  }
+  static bool Starts(SideId side) { return Outer(side) == Ahead(side); }
+  [[nodiscard]] PointId Own(SideId side) const { return tangent(side / 2).touch[side % 2 ? 1 : 0]; }
+  [[nodiscard]] PointId Other(SideId side) const {
+    return tangent(side / 2).touch[side % 2 ? 0 : 1];
+  }
+  [[nodiscard]] bool Active(SideId side) const {
+    return tangent(side / 2).sides[side % 2 ? 1 : 0].active;
+  }
+
+  /// Whether the directions between two tangents or hull edges (-1) at a corner, in this order, have
+  /// an inside just after the moment.
+  [[nodiscard]] bool HasWidth(PointId p, SideId before, SideId after) const;
+
+  /// Throws InternalError where an invariant does not hold just after the moment: for tests.
+  void CheckAll() const;
+
+ private:
+  enum class Promise : std::uint8_t { kHull, kInside, kTangent };
+  struct Failure {
+    Moment at;
+    Promise promise;
+    std::uint32_t stamp;
+    std::int32_t id;
+  };
+  struct Later {
+    bool operator()(const Failure& a, const Failure& b) const { return Compare(a.at, b.at) > 0; }
+  };
+  static constexpr std::size_t Index(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+  // scene.cpp: the queue
+  Certificate& CertificateOf(Promise promise, std::int32_t id);
+  void Cancel(Certificate& certificate);
+  void Schedule(Promise promise, std::int32_t id, const std::optional<Moment>& at);
+  void Fail(Promise promise, std::int32_t id);
+  void Touch(PointId p);
+  void List(ClusterId c);
+  [[nodiscard]] int Orient(PointId a, PointId b, PointId c) const {
+    return OrientAfter(point(a).path, point(b).path, point(c).path, now_);
+  }
+  [[nodiscard]] std::int64_t FirstEnd(PointId a, PointId b, PointId c) const;
+  Tangent::Side& SideOf(SideId side) {
+    return tangents_[Index(side / 2)].sides[side % 2 ? 1 : 0];
+  }
+
+  // hulls.cpp
+  void SettleHull(ClusterId c);
+  [[nodiscard]] std::vector<PointId> HullOf(std::vector<PointId> candidates) const;
+  void SetCorners(ClusterId c, std::vector<PointId> corners);
+  struct Triangle {
+    std::array<PointId, 3> corners;
+  };
+  [[nodiscard]] std::optional<Triangle> Locate(ClusterId c, const MovingPoint& p) const;
+  void KeepInside(PointId p);
+  [[nodiscard]] bool Meet(ClusterId a, ClusterId b) const;
+  [[nodiscard]] bool MergeWhatMeets();
+
+  // tangents.cpp
+  [[nodiscard]] int StepAt(SideId side) const;
+  [[nodiscard]] bool Stands(std::int32_t tangent) const;
+  void MakeTangents(ClusterId a, ClusterId b);
+  void DropTangents(ClusterId a, ClusterId b);
+  void Walk(std::int32_t tangent, bool listed);
+  void UpdateTangents();
+  [[nodiscard]] bool Before(SideId a, SideId b) const;
+  void SortSides(PointId p);
+  void Recount(ClusterId c);
+  void Refresh(PointId p);
+  void Certify(SideId side, std::size_t which, SideId with);
+
+  Moment now_;
+  std::vector<Point> points_;
+  std::vector<Cluster> clusters_;
+  std::vector<ClusterId> roots_;
+  std::vector<ClusterId> apart_;
+  std::vector<ClusterId> in_slot_;
+  std::vector<Tangent> tangents_;
+  std::priority_queue<Failure, std::vector<Failure>, Later> queue_;
+  std::int64_t live_ = 0;
+  std::vector<PointId> touched_;
+  std::vector<ClusterId> listed_;
+  std::vector<PointId> unsettled_;
+  std::vector<int> seen_slot_;
+  int seen_round_ = 0;
+  SceneCounts counts_;
+};
+
+}  // namespace farhorizon::kinetic
