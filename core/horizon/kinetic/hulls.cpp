@@ -17,13 +17,6 @@ int OrientAt(const MovingPoint& a, const MovingPoint& b, const MovingPoint& c, s
   return SignOf((q.c2 * s + q.c1) * s + q.c0);
 }
 
-struct Box {
-  double left = 1e30;
-  double right = -1e30;
-  double top = 1e30;
-  double bottom = -1e30;
-};
-
 }  // namespace
 
 void Scene::SettleHull(ClusterId c) {
@@ -149,34 +142,35 @@ void Scene::KeepInside(PointId p) {
   Schedule(Promise::kInside, p, first);
 }
 
-bool Scene::Meet(ClusterId a, ClusterId b) const {
-  const auto box = [this](ClusterId c) {
-    Box around;
-    for (const PointId p : cluster(c).corners) {
-      const MovingPoint& path = point(p).path;
-      const auto d = static_cast<double>(path.d);
-      const double x = (static_cast<double>(path.x) + static_cast<double>(path.vx) * now_.lo) / d;
-      const double y = (static_cast<double>(path.y) + static_cast<double>(path.vy) * now_.lo) / d;
-      around.left = std::min(around.left, x - 1e-3);
-      around.right = std::max(around.right, x + 1e-3);
-      around.top = std::min(around.top, y - 1e-3);
-      around.bottom = std::max(around.bottom, y + 1e-3);
-    }
-    return around;
-  };
-  const Box p = box(a);
-  const Box q = box(b);
-  if (now_.hi - now_.lo < 1e-4 && (p.right < q.left || q.right < p.left || p.bottom < q.top ||
-                                   q.bottom < p.top)) {
-    return false;
+Scene::Box Scene::BoxOf(ClusterId c, double s, double margin) const {
+  Box around;
+  for (const PointId p : cluster(c).corners) {
+    const MovingPoint& path = point(p).path;
+    const auto d = static_cast<double>(path.d);
+    const double x = (static_cast<double>(path.x) + static_cast<double>(path.vx) * s) / d;
+    const double y = (static_cast<double>(path.y) + static_cast<double>(path.vy) * s) / d;
+    around.left = std::min(around.left, x - margin);
+    around.right = std::max(around.right, x + margin);
+    around.top = std::min(around.top, y - margin);
+    around.bottom = std::max(around.bottom, y + margin);
   }
-  const auto parts = [this](const std::vector<PointId>& ring, const std::vector<PointId>& other) {
+  return around;
+}
+
+// Two convex polygons are apart just where an edge of one has all corners of the other beyond it.
+template <typename Turn>
+bool Scene::Meet(ClusterId a, ClusterId b, double s, double off, const Turn& turn) const {
+  // Points move by a post a quantum at most; doubles are off by far less than a thousandth.
+  const Box p = BoxOf(a, s, off + 1e-3);
+  const Box q = BoxOf(b, s, off + 1e-3);
+  if (p.right < q.left || q.right < p.left || p.bottom < q.top || q.bottom < p.top) return false;
+  const auto parts = [&](const std::vector<PointId>& ring, const std::vector<PointId>& other) {
     std::size_t first = 0;  // the corner that was last on the wrong side, often so again
     for (std::size_t i = 0; i < ring.size(); ++i) {
       const PointId from = ring[i];
       const PointId to = ring[(i + 1) % ring.size()];
       std::size_t k = 0;
-      while (k < other.size() && Orient(from, to, other[(first + k) % other.size()]) < 0) ++k;
+      while (k < other.size() && turn(from, to, other[(first + k) % other.size()]) < 0) ++k;
       if (k == other.size()) return true;
       first = (first + k) % other.size();
     }
@@ -184,6 +178,17 @@ bool Scene::Meet(ClusterId a, ClusterId b) const {
   };
   return !parts(cluster(a).corners, cluster(b).corners) &&
          !parts(cluster(b).corners, cluster(a).corners);
+}
+
+bool Scene::Meet(ClusterId a, ClusterId b) const {
+  return Meet(a, b, now_.lo, now_.hi - now_.lo,
+              [this](PointId p, PointId q, PointId r) { return Orient(p, q, r); });
+}
+
+bool Scene::MeetAt(ClusterId a, ClusterId b, std::int64_t s) const {
+  return Meet(a, b, static_cast<double>(s), 0, [&](PointId p, PointId q, PointId r) {
+    return OrientAt(point(p).path, point(q).path, point(r).path, s);
+  });
 }
 
 // Joins clusters that touch just after now; true if there were any.

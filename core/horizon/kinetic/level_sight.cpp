@@ -36,24 +36,10 @@ LevelSight::Vector LevelSight::DirectionOf(SideId side) const {
   return Scene::Ahead(side) ? v : Vector{-v.x, -v.y};
 }
 
-// Hulls that were apart are in contact at s just where an inner tangent has no length or both are one
-// line.
-bool LevelSight::Touch(ClusterId a, ClusterId b) const {
-  const SideId first = 2 * (scene_.FirstTangent(a, b) + 2);
-  for (const SideId side : {first, first + 2}) {
-    const MovingPoint p = scene_.point(scene_.Own(side)).path.At(s_);
-    const MovingPoint q = scene_.point(scene_.Other(side)).path.At(s_);
-    if (Int128{p.x} * q.d == Int128{q.x} * p.d && Int128{p.y} * q.d == Int128{q.y} * p.d) {
-      return true;
-    }
-  }
-  return Cross(DirectionOf(first), DirectionOf(first + 2)) == 0;
-}
-
 LevelSight::LevelSight(const Scene& scene, std::int64_t s) : scene_(scene), s_(s) {
   for (const ClusterId a : scene.apart()) {
     for (const ClusterId b : scene.apart()) {
-      if (a < b && Touch(a, b)) touching_.emplace_back(a, b);
+      if (a < b && scene.MeetAt(a, b, s)) touching_.emplace_back(a, b);
     }
   }
   for (const ClusterId c : scene.apart()) {

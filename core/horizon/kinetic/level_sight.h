@@ -35,7 +35,6 @@ class LevelSight {
   static bool Overlap(const Vector& a, const Vector& b, const Vector& from, const Vector& to);
   [[nodiscard]] Vector Towards(PointId p, PointId q) const;
   [[nodiscard]] Vector DirectionOf(SideId side) const;
-  [[nodiscard]] bool Touch(ClusterId a, ClusterId b) const;
   [[nodiscard]] bool OnTheRight(const Gap& gap, ClusterId other) const;
   void AddGaps(ClusterId c, PointId p);
 

@@ -83,6 +83,8 @@ class Scene {
   /// The cluster whose hull, just now (not just after), has the standing point in it or on its border;
   /// -1 if none. Requires: a whole moment, before anything was changed.
   [[nodiscard]] ClusterId Around(std::int64_t x, std::int64_t y) const;
+  /// Whether the two hulls have a point in common at depth s, as it is reached. Exact.
+  [[nodiscard]] bool MeetAt(ClusterId a, ClusterId b, std::int64_t s) const;
 
   struct Tangent {
     std::array<PointId, 2> touch{-1, -1};
@@ -194,6 +196,15 @@ class Scene {
   };
   [[nodiscard]] std::optional<Triangle> Locate(ClusterId c, const MovingPoint& p) const;
   void KeepInside(PointId p);
+  struct Box {
+    double left = 1e30;
+    double right = -1e30;
+    double top = 1e30;
+    double bottom = -1e30;
+  };
+  [[nodiscard]] Box BoxOf(ClusterId c, double s, double margin) const;
+  template <typename Turn>
+  [[nodiscard]] bool Meet(ClusterId a, ClusterId b, double s, double off, const Turn& turn) const;
   [[nodiscard]] bool Meet(ClusterId a, ClusterId b) const;
   [[nodiscard]] bool MergeWhatMeets();
 
