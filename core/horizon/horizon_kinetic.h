@@ -38,7 +38,7 @@ struct KineticHorizon {
 ///
 /// Exact for every terrain within the limits, equal heights and posts in line included.
 /// Errors: kCancelled; kUnsupportedData, kind kinetic-too-large, where 2 log2(columns or rows) +
-/// 3 log2(range of heights in quanta) is beyond 98: remedy, the adaptive engine.
+/// 3 log2(range of heights in quanta) is beyond 118: remedy, the adaptive engine.
 Result<KineticHorizon> FindHorizonKinetic(const Terrain& terrain, const Watch& watch);
 
 }  // namespace farhorizon

@@ -36,10 +36,12 @@ void Scene::SettleHull(ClusterId c) {
   for (const PointId p : hull.corners) {
     if (point(p).alive) candidates.push_back(p);
   }
-  SetCorners(c, HullOf(std::move(candidates)));
-  for (const PointId p : loose) {
-    if (point(p).corner && point(p).inside.stamp != 0) ++counts_.left_hulls;
+  std::vector<PointId> corners = HullOf(std::move(candidates));
+  for (const PointId p : corners) {
+    // A certificate that was taken out and is not pending has just failed.
+    if (!point(p).corner && point(p).inside.stamp != 0) ++counts_.left_hulls;
   }
+  SetCorners(c, std::move(corners));
 }
 
 // Strict corners, counter-clockwise, by Andrew's chains.

@@ -1,5 +1,5 @@
 // Moments are never computed, only placed: by intervals of long doubles, which nearly always tell two
-// of them apart, and else by the signs of polynomials (core/exact/quadratic.h).
+// of them apart, and else by the signs of polynomials and of sums of roots in wide integers.
 #include "core/horizon/kinetic/moment.h"
 
 #include <algorithm>
@@ -94,11 +94,34 @@ bool Proportional(const Quadratic& p, const Quadratic& q) {
          CompareProducts(p.c1, q.c2, p.c2, q.c1) == 0;
 }
 
-// The polynomial in depth / 2^bits.
-QuadraticRoot Scaled(const Moment& m, int bits) {
-  return {{m.q.c0, m.q.c1 * (Int128{1} << bits), m.q.c2 * (Int128{1} << (2 * bits))}, m.upper};
+// (a + b sqrt(x)) / d, with b in {-1, 0, 1}, x >= 0, d > 0.
+struct Surd {
+  WideInt a;
+  Int128 b = 0;
+  WideInt x;
+  WideInt d;
+};
+
+Surd SurdOf(const Moment& m) {
+  const Quadratic& q = m.q;
+  const bool negative = (q.c2 != 0 ? q.c2 : q.c1) < 0;
+  const auto turned = [negative](Int128 c) { return WideInt(negative ? -c : c); };
+  if (q.c2 == 0) return {-turned(q.c0), 0, WideInt(0), turned(q.c1)};
+  const WideInt c1(q.c1);
+  const WideInt x = c1 * c1 - ((WideInt(q.c2) * WideInt(q.c0)) << 2);
+  return {-turned(q.c1), m.upper ? 1 : -1, x, turned(2 * q.c2)};
 }
 
+// The sign of a + b sqrt(x), x >= 0.
+int SignOfSum(const WideInt& a, const WideInt& b, const WideInt& x) {
+  const int sign_a = SignOf(a);
+  const int sign_b = SignOf(x) == 0 ? 0 : SignOf(b);
+  if (sign_a * sign_b >= 0) return sign_a != 0 ? sign_a : sign_b;
+  return sign_a * SignOf(a * a - b * b * x);
+}
+
+// By squaring twice. c2 is below 2^36, c1 below 2^84, c0 below 2^124 (sweep.cpp), the first sum's terms
+// so below 2^210 and the last square below 2^850.
 int CompareRoots(const Moment& a, const Moment& b) {
   if (Proportional(a.q, b.q)) {
     const bool one = a.q.c2 == 0 || a.upper == b.upper ||
@@ -106,16 +129,16 @@ int CompareRoots(const Moment& a, const Moment& b) {
     if (one) return 0;
     return a.upper ? 1 : -1;
   }
-  const double most = std::min(std::max(a.hi, b.hi), 0x1p31);
-  int bits = 0;
-  while (std::ldexp(1.0, bits) < most) ++bits;
-  const int beyond_a = SideOf(a, std::int64_t{1} << bits);
-  const int beyond_b = SideOf(b, std::int64_t{1} << bits);
-  if (beyond_a > 0 || beyond_b > 0) return beyond_a - beyond_b;
-  const int above_a = SideOf(a, 0);
-  const int above_b = SideOf(b, 0);
-  if (above_a < 0 || above_b < 0) return above_a - above_b;
-  return farhorizon::Compare(Scaled(a, bits), Scaled(b, bits));
+  const Surd r = SurdOf(a);
+  const Surd t = SurdOf(b);
+  // The sign of p + q sqrt(x) + k sqrt(y).
+  const WideInt p = r.a * t.d - t.a * r.d;
+  const WideInt q = WideInt(r.b) * t.d;
+  const WideInt k = WideInt(-t.b) * r.d;
+  const int first = SignOfSum(p, q, r.x);
+  const int second = SignOf(t.x) == 0 ? 0 : SignOf(k);
+  if (first * second >= 0) return first != 0 ? first : second;
+  return first * SignOfSum(p * p + q * q * r.x - k * k * t.x, (p * q) << 1, r.x);
 }
 
 // The value of q somewhere in the interval of `now`.

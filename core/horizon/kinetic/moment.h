@@ -21,8 +21,7 @@ struct Moment {
   static Moment At(std::int64_t s);
 };
 
-/// The sign of a - b, exactly. Requires: each is whole, or above 0 or compared with a whole number;
-/// |c| < 2^104 for polynomials in depth / 2^k, where 2^k bounds the depth.
+/// The sign of a - b, exactly. Requires: |c2| < 2^36, |c1| < 2^84, |c0| < 2^124, |s| < 2^32.
 int Compare(const Moment& a, const Moment& b);
 
 /// The real roots of q by rising size; `twofold`: one, at which q does not change its sign.

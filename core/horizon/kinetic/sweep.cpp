@@ -50,12 +50,12 @@ class Sweep {
     summit_ = Height(order_.front());
   }
 
-  // The bits of the largest coefficient of any predicate.
+  // Whether the largest coefficient of any predicate, an orientation's, leaves room for its sums.
   [[nodiscard]] bool Fits() const {
     const auto extent =
         static_cast<unsigned>(std::max(terrain_.dem().columns, terrain_.dem().rows));
     const auto range = static_cast<unsigned>(summit_ - Height(order_.back()));
-    return 2 * std::bit_width(extent) + 3 * std::bit_width(range) + 6 <= 104;
+    return 2 * std::bit_width(extent) + 3 * std::bit_width(range) + 6 <= 124;
   }
 
   /// False where the watch said stop.
