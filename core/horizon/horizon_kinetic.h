@@ -12,13 +12,13 @@ namespace farhorizon {
 
 /// What the kinetic sweep met: the events of [Archambault03] section 3.2.
 struct EventCounts {
-  std::int64_t peak = 0;     ///< posts that begin a hull of their own
-  std::int64_t regular = 0;  ///< posts that do none of the others (a peak inside a hull is one)
-  std::int64_t saddle = 0;   ///< posts at which separate hulls join
-  std::int64_t minimum = 0;  ///< posts all of whose neighbours were met before
-  std::int64_t merge = 0;    ///< hulls that became part of another: at saddles and by collision
-  std::int64_t hull = 0;     ///< failed certificates of hulls: corners in line, points coming out
-  std::int64_t inside = 0;   ///< points inside that were given another triangle of their hull
+  std::int64_t peak = 0;       ///< posts that begin a hull of their own
+  std::int64_t regular = 0;    ///< posts that do none of the others (a peak inside a hull is one)
+  std::int64_t saddle = 0;     ///< posts at which separate hulls join
+  std::int64_t minimum = 0;    ///< posts all of whose neighbours were met before
+  std::int64_t merge = 0;      ///< hulls that became part of another: at saddles and by collision
+  std::int64_t hull = 0;       ///< failed certificates of hulls: corners in line, points coming out
+  std::int64_t inside = 0;     ///< points inside that were given another triangle of their hull
   std::int64_t bitangent = 0;  ///< failed certificates of bitangents, all kinds
   /// The same by the kinds of figure 3.1: two active scene bitangents, active and inactive, active and
   /// hull, inactive and hull.

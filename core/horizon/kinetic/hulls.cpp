@@ -223,8 +223,8 @@ ClusterId Scene::Around(std::int64_t x, std::int64_t y) const {
     const std::vector<PointId>& ring = cluster(c).corners;
     if (ring.empty()) continue;
     std::size_t i = 0;
-    while (i < ring.size() && OrientAt(point(ring[i]).path, point(ring[(i + 1) % ring.size()]).path,
-                                       p, now_.s) >= 0) {
+    while (i < ring.size() &&
+           OrientAt(point(ring[i]).path, point(ring[(i + 1) % ring.size()]).path, p, now_.s) >= 0) {
       ++i;
     }
     if (i == ring.size()) return c;

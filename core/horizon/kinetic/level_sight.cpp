@@ -65,8 +65,7 @@ void LevelSight::AddGaps(ClusterId c, PointId p) {
   SideId before = -1;
   const auto add = [&](SideId after) {
     if (depth != 0 || !scene_.HasWidth(p, before, after)) return;
-    const Gap gap{corner.path.At(s_),
-                  before < 0 ? Towards(corner.prev, p) : DirectionOf(before),
+    const Gap gap{corner.path.At(s_), before < 0 ? Towards(corner.prev, p) : DirectionOf(before),
                   after < 0 ? Towards(p, corner.next) : DirectionOf(after)};
     if (Cross(gap.from, gap.to) <= 0) return;
     for (const auto& [a, b] : touching_) {

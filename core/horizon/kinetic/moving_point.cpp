@@ -39,8 +39,8 @@ int FilteredOrientation(const MovingPoint& a, const MovingPoint& b, const Moving
   const Nearly p = NearlyAt(a, s);
   const Nearly q = NearlyAt(b, s);
   const Nearly r = NearlyAt(c, s);
-  const double value = p.d * (q.x * r.y - q.y * r.x) + q.d * (r.x * p.y - r.y * p.x) +
-                       r.d * (p.x * q.y - p.y * q.x);
+  const double value =
+      p.d * (q.x * r.y - q.y * r.x) + q.d * (r.x * p.y - r.y * p.x) + r.d * (p.x * q.y - p.y * q.x);
   const double size = p.d * (q.size_x * r.size_y + q.size_y * r.size_x) +
                       q.d * (r.size_x * p.size_y + r.size_y * p.size_x) +
                       r.d * (p.size_x * q.size_y + p.size_y * q.size_x);

@@ -8,8 +8,7 @@
 
 namespace farhorizon::kinetic {
 
-PointId Scene::Add(ClusterId cluster, const MovingPoint& path, std::int64_t end,
-                   std::int32_t tag) {
+PointId Scene::Add(ClusterId cluster, const MovingPoint& path, std::int64_t end, std::int32_t tag) {
   const auto id = static_cast<PointId>(points_.size());
   Point& p = points_.emplace_back();
   p.path = path;

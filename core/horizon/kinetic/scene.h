@@ -29,9 +29,9 @@ struct Certificate {
 
 /// How often certificates failed, by what they promised.
 struct SceneCounts {
-  std::int64_t hull_failures = 0;    ///< three corners in line, or a point at the border of its hull
+  std::int64_t hull_failures = 0;  ///< three corners in line, or a point at the border of its hull
   std::int64_t inside_failures = 0;  ///< a point left its triangle
-  std::int64_t left_hulls = 0;  ///< of those, points that were outside their hull then
+  std::int64_t left_hulls = 0;       ///< of those, points that were outside their hull then
   /// Figure 3.1: A two active scene bitangents, B active and inactive, C active and hull, D inactive
   /// and hull.
   std::array<std::int64_t, 4> tangent_failures{};
@@ -183,9 +183,7 @@ class Scene {
     return OrientAfter(point(a).path, point(b).path, point(c).path, now_);
   }
   [[nodiscard]] std::int64_t FirstEnd(PointId a, PointId b, PointId c) const;
-  Tangent::Side& SideOf(SideId side) {
-    return tangents_[Index(side / 2)].sides[side % 2 ? 1 : 0];
-  }
+  Tangent::Side& SideOf(SideId side) { return tangents_[Index(side / 2)].sides[side % 2 ? 1 : 0]; }
 
   // hulls.cpp
   void SettleHull(ClusterId c);

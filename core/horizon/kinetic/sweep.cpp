@@ -99,9 +99,7 @@ class Sweep {
 
  private:
   [[nodiscard]] std::int32_t Height(VertexId v) const { return terrain_.Point(v).z; }
-  [[nodiscard]] std::int64_t DepthOf(VertexId v) const {
-    return std::int64_t{summit_} - Height(v);
-  }
+  [[nodiscard]] std::int64_t DepthOf(VertexId v) const { return std::int64_t{summit_} - Height(v); }
 
   // Handles the scene's own events before depth s.
   bool SinkTo(std::int64_t s) {
@@ -129,10 +127,9 @@ class Sweep {
   void PassPosts(std::size_t next, std::size_t end, std::int64_t s) {
     around_.clear();
     for (std::size_t i = next; i < end; ++i) {
-      around_.push_back(HasHigherNeighbour(order_[i])
-                            ? -1
-                            : scene_.Around(terrain_.Point(order_[i]).x,
-                                            terrain_.Point(order_[i]).y));
+      around_.push_back(HasHigherNeighbour(order_[i]) ? -1
+                                                      : scene_.Around(terrain_.Point(order_[i]).x,
+                                                                      terrain_.Point(order_[i]).y));
     }
     for (std::size_t i = next; i < end; ++i) {
       for (const PointId p : arriving_[static_cast<std::size_t>(order_[i])]) scene_.Remove(p);
@@ -162,10 +159,7 @@ class Sweep {
     const bool peak = mine < 0 && around < 0;
     if (mine < 0) mine = around >= 0 ? scene_.Find(around) : scene_.NewCluster();
     cluster_[static_cast<std::size_t>(v)] = mine;
-    ++(peak      ? events_.peak
-       : joins   ? events_.saddle
-       : minimum ? events_.minimum
-                 : events_.regular);
+    ++(peak ? events_.peak : joins ? events_.saddle : minimum ? events_.minimum : events_.regular);
   }
 
   // Sends points down the convex edges from v; one stays at v where it is on the border, since the

@@ -23,7 +23,8 @@ std::vector<Edge> Find(const Terrain& terrain) { return (*FindHorizonKinetic(ter
 
 std::vector<Edge> FindAdaptively(const Terrain& terrain) {
   std::vector<Edge> edges;
-  for (const HorizonEdge& e : (*FindHorizon(terrain, 1, {})).edges) edges.push_back(e.edge);
+  const Horizon horizon = *FindHorizon(terrain, 1, {});
+  for (const HorizonEdge& e : horizon.edges) edges.push_back(e.edge);
   return edges;
 }
 
@@ -121,7 +122,7 @@ TEST(FindHorizonKinetic, DoesNotSeeLevelEdgesThroughAContactOfTwoHulls) {
 
 TEST(FindHorizonKinetic, AgreesWithTheAdaptiveEngineOnLargerRandomTerrains) {
   std::mt19937 random(3);
-  for (int round = 0; round < Rounds(40); ++round) {
+  for (int round = 0; round < Rounds(20); ++round) {
     SCOPED_TRACE(round);
     ExpectTheAdaptiveAnswer(AnyRandomDem(17, 33, random));
   }
@@ -140,10 +141,10 @@ TEST(FindHorizonKinetic, AgreesWithTheAdaptiveEngineOnMountains) {
 TEST(FindHorizonKinetic, GivesTheSameEdgesWhateverTheMapOfTheGrid) {
   std::mt19937 random(4);
   for (int round = 0; round < Rounds(20); ++round) {
-    const Dem dem = AnyRandomDem(3, 8, random);
-    Result<Terrain> terrain = Terrain::Build(dem);
-    if (!terrain) continue;
-    const std::vector<Edge> edges = Find(*terrain);
+    Dem dem = AnyRandomDem(3, 8, random);
+    // A cell with a hole keeps one triangle however it lies: the maps are for grids without.
+    for (std::int32_t& h : dem.heights) h = h == kNoHeight ? 0 : h;
+    const std::vector<Edge> edges = Find(*Terrain::Build(dem));
     for (const GridMap& map : AllGridMaps()) {
       const MappedDem mapped = MapDem(dem, map);
       EXPECT_EQ(Find(*Terrain::Build(mapped.dem)), MapEdges(edges, mapped.image));
@@ -218,13 +219,13 @@ class FindHorizonKineticOnDemLong : public testing::TestWithParam<const char*> {
 TEST_P(FindHorizonKineticOnDemLong, AgreesWithTheAdaptiveEngine) {
   ExpectTheAdaptiveAnswerOn(GetParam(), 257);
 }
-INSTANTIATE_TEST_SUITE_P(
-    Large, FindHorizonKineticOnDemLong,
-    testing::Values("capetown_srtm3_nodata_sea.tif", "fortworth_srtm3_rolling.tif",
-                    "gabilan_lidar_utm10n_1m.tif", "mandakini_alpine_257.tif",
-                    "n44w072_srtm3_1201.tif", "presidential_srtm3_513.tif",
-                    "spearfish_nad27_utm13n_30m_nodata.tif", "sthelens_utm10n_30m.tif",
-                    "zion_257.tif"));
+INSTANTIATE_TEST_SUITE_P(Large, FindHorizonKineticOnDemLong,
+                         testing::Values("capetown_srtm3_nodata_sea.tif",
+                                         "fortworth_srtm3_rolling.tif",
+                                         "gabilan_lidar_utm10n_1m.tif", "mandakini_alpine_257.tif",
+                                         "n44w072_srtm3_1201.tif", "presidential_srtm3_513.tif",
+                                         "spearfish_nad27_utm13n_30m_nodata.tif",
+                                         "sthelens_utm10n_30m.tif", "zion_257.tif"));
 
 }  // namespace
 }  // namespace farhorizon
