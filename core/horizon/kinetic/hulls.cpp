@@ -204,14 +204,20 @@ bool Scene::MergeWhatMeets() {
       return true;
     }
   }
+  const auto joins = [this](SideId side) {
+    if (Outer(side) || Stands(side / 2)) return false;
+    const ClusterId a = Find(point(Own(side)).cluster);
+    const ClusterId b = Find(point(Other(side)).cluster);
+    if (!Meet(a, b)) return false;
+    Join(a, b);
+    return true;
+  };
+  for (const SideId side : crossed_) {
+    if (Own(side) >= 0 && joins(side)) return true;
+  }
   for (std::size_t i = 0; i < touched_.size(); ++i) {
     for (const SideId side : point(touched_[i]).sides) {
-      if (Outer(side) || Stands(side / 2)) continue;
-      const ClusterId a = Find(point(Own(side)).cluster);
-      const ClusterId b = Find(point(Other(side)).cluster);
-      if (!Meet(a, b)) continue;
-      Join(a, b);
-      return true;
+      if (joins(side)) return true;
     }
   }
   return false;

@@ -152,7 +152,11 @@ void Scene::Fail(Promise promise, std::int32_t id) {
     const bool hull = side.with[which] < 0;
     const bool both = !hull && side.active && Active(side.with[which]);
     ++counts_.tangent_failures[both ? 0U : (hull ? 2U : 1U) + (hull && !side.active ? 1U : 0U)];
-    for (const PointId p : side.keys[which].points) Touch(p);
+    if (hull && !side.active) {
+      crossed_.push_back(id / 2);
+    } else {
+      for (const PointId p : side.keys[which].points) Touch(p);
+    }
     side.keys[which] = {};
   }
 }

@@ -209,6 +209,8 @@ class Scene {
   // tangents.cpp
   [[nodiscard]] int StepAt(SideId side) const;
   [[nodiscard]] bool Stands(std::int32_t tangent) const;
+  [[nodiscard]] bool CrossEdge(SideId side);
+  void CrossEdges();
   void MakeTangents(ClusterId a, ClusterId b);
   void DropTangents(ClusterId a, ClusterId b);
   void Walk(std::int32_t tangent, bool listed);
@@ -229,6 +231,7 @@ class Scene {
   std::priority_queue<Failure, std::vector<Failure>, Later> queue_;
   std::int64_t live_ = 0;
   std::vector<PointId> touched_;
+  std::vector<SideId> crossed_;  ///< inactive, and failed with an edge of their own hull
   std::vector<ClusterId> listed_;
   std::vector<PointId> unsettled_;
   std::vector<int> seen_slot_;

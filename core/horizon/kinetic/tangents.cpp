@@ -65,6 +65,54 @@ void Scene::Walk(std::int32_t t, bool listed) {
   }
 }
 
+// Takes an inactive tangent over the edge of its hull that it crosses, all else being as it was: it
+// changes no activity, and nobody's certificate is with it. False, and nothing done, where more than that
+// happens at once.
+bool Scene::CrossEdge(SideId s) {
+  Tangent& crossing = tangents_[Index(s / 2)];
+  PointId& p = crossing.touch[s % 2 ? 1 : 0];
+  const PointId from = p;
+  if (from < 0) return true;
+  const PointId q = Other(s);
+  const SideId opposite = s ^ 1;
+  if (!point(from).corner || !point(q).corner || point(from).touched || point(q).touched ||
+      Active(s) || Active(opposite)) {
+    return false;
+  }
+  const int step = StepAt(s);
+  if (step == 0) return false;
+  p = step > 0 ? point(from).next : point(from).prev;
+  std::vector<SideId>& sides = points_[Index(p)].sides;
+  SideId near = -1;  // the first active tangent that it comes to
+  for (const SideId other : sides) {
+    if (Active(other) && (near < 0 || step < 0)) near = other;
+  }
+  const bool plain = !point(p).touched && Stands(s / 2) &&
+                     (near < 0 || (step > 0 ? Before(s, near) : Before(near, s)));
+  if (!plain) {
+    p = from;
+    return false;
+  }
+  std::erase(points_[Index(from)].sides, s);
+  sides.insert(step > 0 ? sides.begin() : sides.end(), s);
+  points_[Index(step > 0 ? p : from)].depth -= (Starts(s) ? 1 : -1) * step;
+  Certify(s, 0, step > 0 ? -1 : near);
+  Certify(s, 1, step > 0 ? near : -1);
+  for (const std::size_t which : {0U, 1U}) Certify(opposite, which, SideOf(opposite).with[which]);
+  return true;
+}
+
+void Scene::CrossEdges() {
+  for (const SideId side : crossed_) {
+    if (CrossEdge(side)) continue;
+    const PointId p = Own(side);
+    for (const PointId touched : {p, point(p).prev, point(p).next, Other(side)}) {
+      if (touched >= 0) Touch(touched);
+    }
+  }
+  crossed_.clear();
+}
+
 void Scene::MakeTangents(ClusterId a, ClusterId b) {
   const std::int32_t first = FirstTangent(a, b);
   if (tangent(first).touch[0] >= 0) return;
@@ -93,6 +141,7 @@ void Scene::DropTangents(ClusterId a, ClusterId b) {
 }
 
 void Scene::UpdateTangents() {
+  CrossEdges();
   for (const ClusterId c : listed_) {
     if (Find(c) != c || !cluster(c).fresh) continue;
     for (const ClusterId other : apart_) {
