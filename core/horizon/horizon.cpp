@@ -12,6 +12,7 @@
 #include <string>
 #include <thread>
 
+#include "core/horizon/horizon_kinetic.h"
 #include "core/horizon/hull_sweep.h"
 
 namespace farhorizon {
@@ -118,19 +119,60 @@ Error TooNarrow(const Terrain& terrain, Edge edge) {
 
 }  // namespace
 
-Result<Horizon> FindHorizon(const Terrain& terrain, int threads, const Watch& watch) {
+namespace {
+
+// Leaves of the candidates the edges that the kinetic engine finds: they make the same skyline as the
+// terrain, so they do for obstacles, too.
+Result<EventCounts> KeepKineticEdges(const Terrain& terrain, HullSweep& sweep, const Watch& watch) {
+  Result<KineticHorizon> kinetic = FindHorizonKinetic(terrain, watch);
+  if (!kinetic) return std::move(kinetic.error());
+  std::erase_if(sweep.candidates, [&](const Candidate& candidate) {
+    return !std::binary_search(kinetic->edges.begin(), kinetic->edges.end(), candidate.edge);
+  });
+  Check(sweep.candidates.size() == kinetic->edges.size(),
+        "every edge of the kinetic engine is a candidate of the adaptive one");
+  return kinetic->events;
+}
+
+void Tell(const EventCounts& events, HorizonStatistics& statistics) {
+  statistics.peaks = events.peak;
+  statistics.births = events.peak;
+  statistics.regular = events.regular;
+  statistics.saddles = events.saddle;
+  statistics.minima = events.minimum;
+  statistics.merges = events.merge;
+  statistics.hull_changes = events.hull;
+  statistics.bitangents = events.bitangent;
+  statistics.clusters_max = events.clusters_max;
+  statistics.queue_max = events.queue_max;
+}
+
+}  // namespace
+
+Result<Horizon> FindHorizon(const Terrain& terrain, int threads, const Watch& watch,
+                            Engine engine) {
   Result<HullSweep> sweep = SweepHulls(terrain, watch);
   if (!sweep) return std::move(sweep.error());
   Horizon horizon;
   horizon.statistics = sweep->statistics;
   horizon.hulls = std::move(sweep->hulls);
+  const bool kinetic = engine == Engine::kKinetic;
+  if (kinetic) {
+    Result<EventCounts> events = KeepKineticEdges(terrain, *sweep, watch);
+    if (!events) return std::move(events.error());
+    Tell(*events, horizon.statistics);
+  }
   Decider decider(terrain, *sweep, watch);
   if (!decider.Run(threads, horizon.statistics.predicates)) {
     return Error{ErrorCode::kCancelled, "stopped while deciding horizon edges"};
   }
   horizon.edges = decider.Edges();
+  Check(!kinetic || horizon.edges.size() == sweep->candidates.size(),
+        "every edge of the kinetic engine has a line of sight");
   for (const HorizonEdge& e : horizon.edges) {
     if (!e.witness.exact) return TooNarrow(terrain, e.edge);
+    Check(!kinetic || WitnessHolds(terrain, e.edge, e.witness),
+          "a line of sight over the kinetic engine's edges is one over the terrain");
   }
   return horizon;
 }

@@ -29,7 +29,10 @@ struct HorizonStatistics {
   std::int64_t regular = 0;       ///< posts that are no peak, saddle or minimum
   std::int64_t saddles = 0;       ///< posts at which separate ground joins
   std::int64_t minima = 0;        ///< posts with no lower neighbour
-  std::int64_t hull_changes = 0;  ///< posts that enlarged a hull
+  std::int64_t hull_changes =
+      0;  ///< posts that enlarged a hull; kinetic: failures of hull certificates
+  std::int64_t bitangents = 0;  ///< kinetic: failures of bitangent certificates
+  std::int64_t queue_max = 0;   ///< kinetic: most events pending
   PredicateCounts predicates;
 };
 
@@ -54,6 +57,11 @@ struct Horizon {
   HullForest hulls;
 };
 
+/// The algorithm that finds the edges. Both find the same ones; kKinetic is the thesis's own
+/// (horizon_kinetic.h), has its limits, and asks the adaptive decision for witnesses only: an edge without
+/// one is an InternalError. kAuto: kAdaptive, which is the faster one on large terrain.
+enum class Engine { kAuto, kAdaptive, kKinetic };
+
 /// The edges of `terrain` that lie on the distant horizon for at least one line of sight: creases
 /// that attain the greatest height over the line on a set of lines with non-empty interior.
 ///
@@ -61,7 +69,8 @@ struct Horizon {
 /// Errors: kCancelled when the watch says stop; kUnsupportedData, kind sight-too-narrow, with an edge
 /// that is on the horizon by a line of sight that a witness cannot say (skyline.h).
 /// Cost: about O(n log n) on real terrain; a few hundred bytes a candidate, some 20 a post.
-Result<Horizon> FindHorizon(const Terrain& terrain, int threads, const Watch& watch);
+Result<Horizon> FindHorizon(const Terrain& terrain, int threads, const Watch& watch,
+                            Engine engine = Engine::kAuto);
 
 /// The greatest height of the terrain over the plan line through `witness` on `edge` is at the
 /// witness: a check from the heights alone, independent of how the witness was found. Exact for every

@@ -9,7 +9,7 @@
 namespace farhorizon {
 
 Status WriteHorizonEdges(const std::filesystem::path& dem, const std::filesystem::path& out,
-                         const BuildOptions& options, const Watch& watch) {
+                         const BuildOptions& options, const Watch& watch, Engine engine) {
   const std::string ending = out.extension().string();
   if (ending != ".geojson" && ending != ".fgb" && ending != ".gpkg") {
     return Error{ErrorCode::kInvalidArgument,
@@ -19,7 +19,7 @@ Status WriteHorizonEdges(const std::filesystem::path& dem, const std::filesystem
   watch.Report("read", 0);
   Result<std::unique_ptr<Source>> source = Source::Open(dem, options);
   if (!source) return std::move(source.error());
-  Result<Horizon> horizon = FindHorizon((*source)->terrain(), options.threads, watch);
+  Result<Horizon> horizon = FindHorizon((*source)->terrain(), options.threads, watch, engine);
   if (!horizon) return std::move(horizon.error());
   Result<std::vector<HorizonFeature>> features = (*source)->Features(*horizon, {});
   if (!features) return std::move(features.error());

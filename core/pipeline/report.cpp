@@ -54,8 +54,8 @@ Json ToJson(const HorizonStatistics& s, std::int64_t horizon_edges) {
             {"minimum", s.minima},
             {"merge", s.merges},
             {"hull", s.hull_changes},
-            {"bitangent", 0}}},
-          {"queue_max", 0},
+            {"bitangent", s.bitangents}}},
+          {"queue_max", s.queue_max},
           {"predicates",
            {{"filtered", s.predicates.filtered},
             {"exact", s.predicates.exact},
@@ -75,6 +75,8 @@ void ReadHorizon(const Json& json, Report& report) {
   events.at("minimum").get_to(s.minima);
   events.at("merge").get_to(s.merges);
   events.at("hull").get_to(s.hull_changes);
+  events.at("bitangent").get_to(s.bitangents);
+  json.at("queue_max").get_to(s.queue_max);
   const Json& predicates = json.at("predicates");
   predicates.at("filtered").get_to(s.predicates.filtered);
   predicates.at("exact").get_to(s.predicates.exact);

@@ -1,4 +1,6 @@
+#include <map>
 #include <memory>
+#include <string>
 
 #include "core/pipeline/horizon_edges.h"
 #include "service/cli/command.h"
@@ -13,6 +15,7 @@ namespace {
 struct Call {
   std::string dem;
   std::string file;
+  Engine engine = Engine::kAuto;
   Wishes wishes;
   ReporterOptions reporter;
 };
@@ -22,8 +25,8 @@ int Run(const Call& call) {
   if (!options) return Complain(options.error());
   const StopOnSignal signals;
   Reporter reporter(call.reporter);
-  Status written =
-      WriteHorizonEdges(call.dem, call.file, *options, Watch{reporter.progress(), signals.token()});
+  Status written = WriteHorizonEdges(call.dem, call.file, *options,
+                                     Watch{reporter.progress(), signals.token()}, call.engine);
   reporter.Clear();
   return written ? kExitDone : Complain(written.error());
 }
@@ -41,6 +44,15 @@ void AddHorizon(CLI::App& app, Chosen& chosen) {
                    "file to write; its ending tells the format: .geojson, .fgb, .gpkg")
       ->required()
       ->type_name("FILE");
+  const std::map<std::string, Engine> engines = {
+      {"auto", Engine::kAuto}, {"adaptive", Engine::kAdaptive}, {"kinetic", Engine::kKinetic}};
+  command
+      ->add_option(
+          "--engine", call->engine,
+          "algorithm that finds the edges: adaptive, kinetic, or auto, which is adaptive; all "
+          "find the same ones")
+      ->transform(CLI::CheckedTransformer(engines).description(""))
+      ->type_name("ENGINE");
   AddReadWishes(*command, call->wishes);
   AddThreads(*command, call->wishes);
   AddReporterOptions(*command, call->reporter);

@@ -169,6 +169,23 @@ TEST(FindHorizonKinetic, CountsTheEventsOfTwoSummits) {
   EXPECT_GT(events.queue_max, 0);
 }
 
+TEST(FindHorizon, GivesTheKineticEnginesEdgesWitnessesThatHold) {
+  std::mt19937 random(9);
+  for (int round = 0; round < Rounds(50); ++round) {
+    const Dem dem = AnyRandomDem(3, 12, random);
+    Result<Terrain> terrain = Terrain::Build(dem);
+    if (!terrain) continue;
+    const Horizon horizon = *FindHorizon(*terrain, 1, {}, Engine::kKinetic);
+    std::vector<Edge> edges;
+    for (const HorizonEdge& e : horizon.edges) {
+      EXPECT_TRUE(WitnessHolds(*terrain, e.edge, e.witness));
+      edges.push_back(e.edge);
+    }
+    EXPECT_EQ(edges, FindAdaptively(*terrain));
+    EXPECT_GT(horizon.statistics.queue_max, 0);
+  }
+}
+
 TEST(FindHorizonKinetic, SaysThatHeightsAreTooLarge) {
   const Dem dem = MakeDem(32768, 2, [](std::int32_t c, std::int32_t) {
     return c == 0 ? (1 << 30) - 1 : -(1 << 30) + 1;
