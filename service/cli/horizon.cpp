@@ -1,4 +1,3 @@
-#include <map>
 #include <memory>
 #include <string>
 
@@ -15,18 +14,24 @@ namespace {
 struct Call {
   std::string dem;
   std::string file;
-  Engine engine = Engine::kAuto;
+  std::string engine = "auto";
   Wishes wishes;
   ReporterOptions reporter;
 };
+
+Engine EngineOf(const std::string& name) {
+  if (name == "kinetic") return Engine::kKinetic;
+  return name == "adaptive" ? Engine::kAdaptive : Engine::kAuto;
+}
 
 int Run(const Call& call) {
   Result<BuildOptions> options = call.wishes.Options();
   if (!options) return Complain(options.error());
   const StopOnSignal signals;
   Reporter reporter(call.reporter);
-  Status written = WriteHorizonEdges(call.dem, call.file, *options,
-                                     Watch{reporter.progress(), signals.token()}, call.engine);
+  Status written =
+      WriteHorizonEdges(call.dem, call.file, *options, Watch{reporter.progress(), signals.token()},
+                        EngineOf(call.engine));
   reporter.Clear();
   return written ? kExitDone : Complain(written.error());
 }
@@ -44,14 +49,12 @@ void AddHorizon(CLI::App& app, Chosen& chosen) {
                    "file to write; its ending tells the format: .geojson, .fgb, .gpkg")
       ->required()
       ->type_name("FILE");
-  const std::map<std::string, Engine> engines = {
-      {"auto", Engine::kAuto}, {"adaptive", Engine::kAdaptive}, {"kinetic", Engine::kKinetic}};
   command
       ->add_option(
           "--engine", call->engine,
           "algorithm that finds the edges: adaptive, kinetic, or auto, which is adaptive; all "
           "find the same ones")
-      ->transform(CLI::CheckedTransformer(engines).description(""))
+      ->check(CLI::IsMember({"adaptive", "kinetic", "auto"}).description(""))
       ->type_name("ENGINE");
   AddReadWishes(*command, call->wishes);
   AddThreads(*command, call->wishes);

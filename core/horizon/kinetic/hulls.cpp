@@ -48,6 +48,7 @@ void Scene::SettleHull(ClusterId c) {
 std::vector<PointId> Scene::HullOf(std::vector<PointId> candidates) const {
   std::sort(candidates.begin(), candidates.end());
   candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
+  Check(candidates.size() >= 3, "the ground just below a post has a width");
   std::sort(candidates.begin(), candidates.end(), [this](PointId a, PointId b) {
     const int order = OrderAfter(point(a).path, point(b).path, now_);
     return order != 0 ? order < 0 : a < b;
@@ -63,7 +64,7 @@ std::vector<PointId> Scene::HullOf(std::vector<PointId> candidates) const {
   const std::size_t lower = ring.size();
   for (std::size_t i = candidates.size() - 1; i-- > 0;) append(candidates[i], lower);
   ring.pop_back();
-  Check(ring.size() >= 3, "the ground just below a post has a width");
+  Check(ring.size() >= 3, "no ground is a line");
   return ring;
 }
 
@@ -133,6 +134,7 @@ void Scene::KeepInside(PointId p) {
   Check(around.has_value(), "a point that is no corner is in its hull");
   const std::array<PointId, 3>& three = around->corners;
   const std::int64_t end = std::min(inside.end, FirstEnd(three[0], three[1], three[2]));
+  Check(Compare(Moment::At(end), now_) > 0, "points are removed where they end");
   std::optional<Moment> first;
   if (end < inside.end) first = Moment::At(end);
   for (std::size_t i = 0; i < 3; ++i) {
