@@ -73,16 +73,23 @@ class Decider {
 
  private:
   void Work(PredicateCounts& counts, bool reports) {
+    // What hides one candidate is likely to hide the next. Never carried over from one batch to
+    // another: who did that one depends on the threads.
+    std::vector<Skyline::Id> likely;
+    std::vector<Skyline::Id> blockers;
     while (!watch_.StopRequested()) {
       const std::size_t begin = next_.fetch_add(kBatch);
       if (begin >= candidates_.size()) return;
       const std::size_t end = std::min(begin + kBatch, candidates_.size());
+      likely.clear();
       for (std::size_t i = begin; i < end; ++i) {
         const Candidate& c = candidates_[i];
+        blockers.clear();
         witnesses_[i] =
             skyline_.FindSight({terrain_.Point(c.edge.a), terrain_.Point(c.edge.b)}, Ties::kPass,
-                               static_cast<Skyline::Id>(i), nullptr, &counts,
-                               screens_.subspan(c.first_screen, c.screen_count));
+                               static_cast<Skyline::Id>(i), &blockers, &counts,
+                               screens_.subspan(c.first_screen, c.screen_count), likely);
+        if (!witnesses_[i] && !blockers.empty()) std::swap(likely, blockers);
       }
       if (reports) {
         watch_.Report("decide", static_cast<double>(end) / static_cast<double>(candidates_.size()));

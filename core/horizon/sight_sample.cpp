@@ -72,7 +72,8 @@ BasicSightSample<Int>::BasicSightSample(const SegmentIndex& index, const Sighted
     : index_(index), sighted_(sighted), except_(except), screens_(screens), counts_(counts) {}
 
 template <typename Int>
-SightOutcome BasicSightSample<Int>::Look(const BasicDyadic<Int>& t) {
+SightOutcome BasicSightSample<Int>::Look(const BasicDyadic<Int>& t,
+                                         std::span<const std::int32_t> likely) {
   t_ = t;
   const double where = t.ToDouble();
   x_ = sighted_.low.x + (sighted_.high.x - sighted_.low.x) * where;
@@ -88,6 +89,9 @@ SightOutcome BasicSightSample<Int>::Look(const BasicDyadic<Int>& t) {
   outcome_ = SightOutcome::kHidden;
 
   if (!MeetScreens()) return outcome_;
+  for (const std::int32_t id : likely) {
+    if (!MeetIfSeen(id, index_.item(id))) return outcome_;
+  }
   struct Pending {
     SegmentIndex::Place place;
     double distance;
@@ -126,12 +130,16 @@ template <typename Int>
 bool BasicSightSample<Int>::Visit(const SegmentIndex::Node& node) {
   for (std::int32_t id = node.first; id >= 0;) {
     const SegmentIndex::Item& item = index_.item(id);
-    if (item.alive && item.high.z >= least_top_ && id != except_ && !SurelyHidden(item)) {
-      if (!Meet(id, item)) return false;
-    }
+    if (!MeetIfSeen(id, item)) return false;
     id = item.next;
   }
   return true;
+}
+
+template <typename Int>
+bool BasicSightSample<Int>::MeetIfSeen(std::int32_t id, const SegmentIndex::Item& item) {
+  if (!item.alive || item.high.z < least_top_ || id == except_ || SurelyHidden(item)) return true;
+  return Meet(id, item);
 }
 
 template <typename Int>

@@ -82,14 +82,16 @@ class BasicSightSample {
                    std::optional<std::int32_t> except, std::span<const Segment> screens,
                    PredicateCounts* counts);
 
-  SightOutcome Look(const BasicDyadic<Int>& t);
+  /// likely: obstacles that are tried before all others.
+  SightOutcome Look(const BasicDyadic<Int>& t, std::span<const std::int32_t> likely);
 
   [[nodiscard]] const std::vector<Arc>& arcs() const { return arcs_; }
   [[nodiscard]] const Vector& sight() const { return sight_; }
 
  private:
+  // False where the outcome is settled.
   bool Visit(const SegmentIndex::Node& node);
-  /// False where the outcome is settled.
+  bool MeetIfSeen(std::int32_t id, const SegmentIndex::Item& item);
   bool Meet(std::int32_t id, const SegmentIndex::Item& item);
   bool MeetScreens();
   bool MeetCollinear(const Arc& arc, const Vector& from, const Vector& to);

@@ -83,12 +83,14 @@ class SightSearch {
  public:
   SightSearch(const SegmentIndex& index, const Segment& segment, Ties ties,
               std::optional<std::int32_t> except, std::span<const Segment> screens,
-              std::vector<std::int32_t>* blockers, PredicateCounts* counts)
+              std::span<const std::int32_t> likely, std::vector<std::int32_t>* blockers,
+              PredicateCounts* counts)
       : index_(index),
         segment_(segment),
         sighted_{segment.a, segment.b, ties},
         except_(except),
         screens_(screens),
+        likely_(likely.begin(), likely.end()),
         blockers_(blockers),
         counts_(counts),
         short_sample_(index, sighted_, except, screens, counts) {
@@ -110,9 +112,14 @@ class SightSearch {
  private:
   template <typename Int>
   Finding LookWith(BasicSightSample<Int>& sample, const BasicDyadic<Int>& t) {
-    const SightOutcome outcome = sample.Look(t);
+    const SightOutcome outcome = sample.Look(t, likely_);
     if (outcome == SightOutcome::kSight) return {MakeWitness(segment_, t, sample.sight()), {}};
-    return {std::nullopt, RangeOfCover(sighted_, sample, outcome, t, blockers_, counts_)};
+    chain_.clear();
+    const HiddenRange hidden = RangeOfCover(sighted_, sample, outcome, t, &chain_, counts_);
+    if (blockers_ != nullptr) blockers_->insert(blockers_->end(), chain_.begin(), chain_.end());
+    // What hides one point is likely to hide the next.
+    if (!chain_.empty()) likely_ = chain_;
+    return {std::nullopt, hidden};
   }
 
   const SegmentIndex& index_;
@@ -120,6 +127,8 @@ class SightSearch {
   Sighted sighted_;
   std::optional<std::int32_t> except_;
   std::span<const Segment> screens_;
+  std::vector<std::int32_t> likely_;
+  std::vector<std::int32_t> chain_;
   std::vector<std::int32_t>* blockers_;
   PredicateCounts* counts_;
   ShortSightSample short_sample_;
@@ -143,9 +152,9 @@ std::int64_t Skyline::size() const { return index_->segments.alive(); }
 
 std::optional<Witness> Skyline::FindSight(const Segment& segment, Ties ties,
                                           std::optional<Id> except, std::vector<Id>* blockers,
-                                          PredicateCounts* counts,
-                                          std::span<const Segment> screens) const {
-  SightSearch search(index_->segments, segment, ties, except, screens, blockers, counts);
+                                          PredicateCounts* counts, std::span<const Segment> screens,
+                                          std::span<const Id> likely) const {
+  SightSearch search(index_->segments, segment, ties, except, screens, likely, blockers, counts);
   std::deque<HiddenRange> open = {
       {QuadraticRoot::At(Dyadic{0, 0}), QuadraticRoot::At(Dyadic{1, 0})}};
   std::optional<Witness> best;

@@ -70,13 +70,15 @@ class Skyline {
   ///
   /// except: one member to look through, usually the segment itself. blockers: where not null and the
   /// answer is nullopt, receives ids that hide all of it, unsorted. screens: further segments that are
-  /// known not to rise above the set's H; they only save time.
+  /// known not to rise above the set's H; they only save time. likely: members to try first, say
+  /// the blockers of a segment nearby; they only save time too, though another sight may be found.
   /// Cost: about the segments in sight.
   [[nodiscard]] std::optional<Witness> FindSight(const Segment& segment, Ties ties,
                                                  std::optional<Id> except = std::nullopt,
                                                  std::vector<Id>* blockers = nullptr,
                                                  PredicateCounts* counts = nullptr,
-                                                 std::span<const Segment> screens = {}) const;
+                                                 std::span<const Segment> screens = {},
+                                                 std::span<const Id> likely = {}) const;
 
  private:
   struct Index;

@@ -323,5 +323,31 @@ TEST(FindSight, CountsItsDecisions) {
   EXPECT_GT(counts.filtered + counts.exact, 0);
 }
 
+TEST(Skyline, WhatIsTriedFirstChangesNoAnswer) {
+  SegmentSource source(9, 12, 77);
+  for (int round = 0; round < Rounds(2000); ++round) {
+    Skyline skyline(9, 9);
+    std::vector<Segment> set;
+    std::vector<Skyline::Id> likely;
+    for (int i = 0; i < 12; ++i) {
+      set.push_back(source.Chord());
+      const Skyline::Id id = skyline.Insert(set.back());
+      if (source.Below(3) == 0) likely.push_back(id);
+      if (source.Below(6) == 0) skyline.Erase(id);
+    }
+    const Segment segment = source.Chord();
+    for (const Ties ties : kBothTies) {
+      const auto plain = skyline.FindSight(segment, ties);
+      const auto hinted = skyline.FindSight(segment, ties, 3, nullptr, nullptr, {}, likely);
+      const auto same = skyline.FindSight(segment, ties, 3);
+      EXPECT_EQ(hinted.has_value(), same.has_value()) << "round " << round;
+      EXPECT_EQ(
+          skyline.FindSight(segment, ties, std::nullopt, nullptr, nullptr, {}, likely).has_value(),
+          plain.has_value())
+          << "round " << round;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace farhorizon
