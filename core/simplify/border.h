@@ -9,6 +9,10 @@ namespace farhorizon {
 /// The posts at the rim of the terrain: ends of an edge with a triangle on one side only.
 std::vector<bool> OutlinePosts(const Terrain& terrain);
 
+/// Whether the segment from a to b in plan is made of edges of the terrain with a triangle on one side
+/// only, the same side all along.
+bool RunsAlongOutline(const Terrain& terrain, Edge edge);
+
 /// Whether `v` lies on one of the tile's four sides.
 inline bool OnSide(const Dem& dem, VertexId v) {
   const std::int32_t column = dem.Column(v);

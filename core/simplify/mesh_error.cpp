@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "core/simplify/border.h"
 #include "core/simplify/line_sampling.h"
 #include "core/simplify/mesh_edges.h"
 #include "core/simplify/plan.h"
@@ -157,6 +158,15 @@ Result<MeshError> MeasureMeshError(const Terrain& terrain, const Horizon& horizo
   if (!triangles) return std::move(triangles.error());
   const std::optional<std::vector<MeshEdge>> edges = EdgesOf(*triangles);
   if (!edges) return BadMesh("two triangles of the mesh lie over one another", "overlap");
+
+  for (const MeshEdge& e : *edges) {
+    if (e.left && e.right) continue;
+    if (!RunsAlongOutline(terrain, e.edge)) {
+      return BadMesh("the mesh ends between posts " + std::to_string(e.edge.a) + " and " +
+                         std::to_string(e.edge.b) + ", where the terrain goes on or has no edge",
+                     "hole");
+    }
+  }
 
   MeshError error;
   error.displacement = displacement->greatest;

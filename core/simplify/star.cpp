@@ -51,8 +51,17 @@ bool Star::WithinShape(const Side& side, Point3i b, std::int64_t twice_area,
   return slope.by_column <= limits.steepest.by_column && slope.by_row <= limits.steepest.by_row;
 }
 
+bool Star::LeavesOutline(VertexId b) const {
+  const bool closed = neighbours_.size() == sides_.size();
+  // The two ends of an open fan are in one triangle of it each.
+  return !closed && std::count_if(sides_.begin(), sides_.end(), [b](const Side& side) {
+                      return side.w == b || side.x == b;
+                    }) != 1;
+}
+
 bool Star::BuildFan(VertexId b, const TriangleLimits& limits) {
   fan_.clear();
+  if (LeavesOutline(b)) return false;
   hub_ = terrain_->Point(b);
   std::int64_t twice_area = 0;
   for (const Side& side : sides_) {
@@ -65,7 +74,7 @@ bool Star::BuildFan(VertexId b, const TriangleLimits& limits) {
                     blade_area, side.triangle});
   }
   // Blades that all turn the right way and fill the star's area exactly cover it without a gap: the
-  // link condition and, at the border, the outline's shape in plan.
+  // link condition and, where the centre moves along the outline, that it runs straight there.
   return !fan_.empty() && twice_area == twice_area_;
 }
 

@@ -71,6 +71,8 @@ class Star {
     TriangleId triangle;
   };
   [[nodiscard]] bool BuildFan(VertexId b, const TriangleLimits& limits);
+  // Whether the outline would run elsewhere: a centre on the outline may only move along it.
+  [[nodiscard]] bool LeavesOutline(VertexId b) const;
   [[nodiscard]] static bool WithinShape(const Side& side, Point3i b, std::int64_t twice_area,
                                         const TriangleLimits& limits);
   // Error at a post under the fan, and the blade it lies under.

@@ -120,6 +120,20 @@ TEST(LodChain, NoTriangleIsSteeperThanTheDem) {
   }
 }
 
+TEST(LodChain, TheOutlineRunsWhereTheTerrainEnds) {
+  // Many holes: a wrong move along one can take from the domain just what it adds elsewhere.
+  for (std::uint32_t seed = 0; seed < 40; ++seed) {
+    const Dem dem = WithHoles(FractalDem(5, 70 + seed), 12, seed);
+    const Chain chain = Build(dem, Budgets(40, 3));
+    for (const Lod& level : chain.levels) {
+      for (const Edge& edge : OutlineOf(level.mesh.triangles)) {
+        EXPECT_TRUE(RunsAlongOutline(chain.terrain, edge))
+            << "seed " << seed << ", posts " << edge.a << " and " << edge.b;
+      }
+    }
+  }
+}
+
 TEST(LodChain, ALevelKeepsOnlyHorizonEdgesThatTheFinerOneKeepsAndHasThem) {
   const Chain chain = Build(FractalDem(5, 31), Budgets(10, 5));
   for (std::size_t i = 0; i < chain.levels.size(); ++i) {
@@ -189,6 +203,22 @@ TEST(LodChain, TwoNeighboursMeetWithoutACrackAtEveryLevel) {
       EXPECT_EQ(rows.size(), 33U);
     }
   }
+}
+
+TEST(RunsAlongOutline, TellsTheOutlineFromWhatIsWithinOrAcross) {
+  const Dem dem = DrawnDem(R"(
+      1 1 1 1 1
+      1 1 1 1 1
+      1 1 . 1 1
+      1 1 1 1 1
+      1 1 1 1 1)");
+  const Terrain terrain = *Terrain::Build(dem);
+  EXPECT_TRUE(RunsAlongOutline(terrain, {0, 4}));
+  EXPECT_TRUE(RunsAlongOutline(terrain, {4, 24}));
+  EXPECT_FALSE(RunsAlongOutline(terrain, {5, 9}));    // within
+  EXPECT_FALSE(RunsAlongOutline(terrain, {11, 13}));  // across the hole
+  EXPECT_FALSE(RunsAlongOutline(terrain, {0, 9}));    // not along edges at all
+  EXPECT_FALSE(RunsAlongOutline(terrain, {0, 24}));   // edges, with triangles on both sides
 }
 
 TEST(OutlinePosts, AreThoseOfSidesAndOfHoles) {
