@@ -72,7 +72,7 @@ void Scene::SetCorners(ClusterId c, std::vector<PointId> corners) {
   Cluster& hull = clusters_[Index(c)];
   if (corners == hull.corners && !hull.fresh) return;
   const std::vector<PointId> old = std::exchange(hull.corners, std::move(corners));
-  hull.changed = true;
+  hull.recount = true;
   const std::size_t n = hull.corners.size();
   for (std::size_t i = 0; i < n; ++i) {
     const PointId p = hull.corners[i];
@@ -84,7 +84,7 @@ void Scene::SetCorners(ClusterId c, std::vector<PointId> corners) {
     corner.prev = prev;
     corner.next = next;
     Cancel(corner.inside);
-    Touch(p);
+    Shake(p);
     Schedule(Promise::kHull, p,
              FailureAfter(Orientation(point(prev).path, corner.path, point(next).path), now_,
                           FirstEnd(prev, p, next)));
@@ -94,7 +94,7 @@ void Scene::SetCorners(ClusterId c, std::vector<PointId> corners) {
   for (const PointId p : old) {
     if (point(p).corner) continue;
     Cancel(points_[Index(p)].hull);
-    Touch(p);
+    Shake(p);
     if (point(p).alive) unsettled_.push_back(p);
   }
 }
@@ -217,8 +217,13 @@ bool Scene::MergeWhatMeets() {
   for (const SideId side : crossed_) {
     if (Own(side) >= 0 && joins(side)) return true;
   }
-  for (std::size_t i = 0; i < touched_.size(); ++i) {
-    for (const SideId side : point(touched_[i]).sides) {
+  // What goes past an active tangent may go over the hull's edge with it, and all beside it, too.
+  for (const std::int32_t t : doubtful_) {
+    if (tangent(t).touch[0] < 0 || Stands(t)) continue;
+    for (const PointId p : tangent(t).touch) Shake(p);
+  }
+  for (std::size_t i = 0; i < shaken_.size(); ++i) {
+    for (const SideId side : point(shaken_[i]).sides) {
       if (joins(side)) return true;
     }
   }

@@ -154,8 +154,12 @@ void Scene::Fail(Promise promise, std::int32_t id) {
     ++counts_.tangent_failures[both ? 0U : (hull ? 2U : 1U) + (hull && !side.active ? 1U : 0U)];
     if (hull && !side.active) {
       crossed_.push_back(id / 2);
+    } else if (hull) {
+      for (const PointId p : side.keys[which].points) Shake(p);
     } else {
       for (const PointId p : side.keys[which].points) Touch(p);
+      doubtful_.push_back(id / 4);
+      doubtful_.push_back(side.with[which] / 2);
     }
     side.keys[which] = {};
   }
@@ -166,6 +170,14 @@ void Scene::Touch(PointId p) {
   if (touched.touched) return;
   touched.touched = true;
   touched_.push_back(p);
+}
+
+void Scene::Shake(PointId p) {
+  Touch(p);
+  Point& shaken = points_[Index(p)];
+  if (shaken.shaken) return;
+  shaken.shaken = true;
+  shaken_.push_back(p);
 }
 
 void Scene::List(ClusterId c) {
@@ -191,7 +203,7 @@ void Scene::Settle() {
   unsettled_.clear();
   for (const ClusterId c : listed_) {
     Cluster& listed = clusters_[Index(c)];
-    listed.listed = listed.changed = listed.fresh = listed.recount = false;
+    listed.listed = listed.fresh = false;
   }
   listed_.clear();
 }

@@ -108,7 +108,8 @@ class Scene {
     ClusterId cluster = -1;
     bool alive = true;
     bool corner = false;
-    bool touched = false;
+    bool touched = false;  ///< its tangents' order and activities are to be found anew
+    bool shaken = false;   ///< and they may not stand there any more
     bool seen = false;  ///< visual lines with a width touched it
     PointId prev = -1;
     PointId next = -1;
@@ -120,9 +121,8 @@ class Scene {
   struct Cluster {
     std::int32_t slot = -1;  ///< row in the table of tangents
     bool dirty = false;      ///< corners are to be found anew
-    bool changed = false;    ///< they have been
     bool fresh = false;      ///< no tangents yet
-    bool recount = false;
+    bool recount = false;  ///< corners or their tangents are others
     bool listed = false;
     std::vector<PointId> corners;
     std::vector<PointId> loose;
@@ -178,6 +178,7 @@ class Scene {
   void Schedule(Promise promise, std::int32_t id, const std::optional<Moment>& at);
   void Fail(Promise promise, std::int32_t id);
   void Touch(PointId p);
+  void Shake(PointId p);
   void List(ClusterId c);
   [[nodiscard]] int Orient(PointId a, PointId b, PointId c) const {
     return OrientAfter(point(a).path, point(b).path, point(c).path, now_);
@@ -231,6 +232,8 @@ class Scene {
   std::priority_queue<Failure, std::vector<Failure>, Later> queue_;
   std::int64_t live_ = 0;
   std::vector<PointId> touched_;
+  std::vector<PointId> shaken_;
+  std::vector<std::int32_t> doubtful_;  ///< tangents that passed an active one
   std::vector<SideId> crossed_;  ///< inactive, and failed with an edge of their own hull
   std::vector<ClusterId> listed_;
   std::vector<PointId> unsettled_;

@@ -60,8 +60,9 @@ void Scene::Walk(std::int32_t t, bool listed) {
     if (!listed || walked.touch[k] != from[k]) {
       points_[Index(walked.touch[k])].sides.push_back(side);
     }
-    if (listed) Touch(from[k]);
+    if (listed) Shake(from[k]);
     Touch(walked.touch[k]);
+    clusters_[Index(Find(point(walked.touch[k]).cluster))].recount = true;
   }
 }
 
@@ -106,8 +107,8 @@ void Scene::CrossEdges() {
   for (const SideId side : crossed_) {
     if (CrossEdge(side)) continue;
     const PointId p = Own(side);
-    for (const PointId touched : {p, point(p).prev, point(p).next, Other(side)}) {
-      if (touched >= 0) Touch(touched);
+    for (const PointId near : {p, point(p).prev, point(p).next, Other(side)}) {
+      if (near >= 0) Shake(near);
     }
   }
   crossed_.clear();
@@ -131,6 +132,7 @@ void Scene::DropTangents(ClusterId a, ClusterId b) {
     for (std::size_t k = 0; k < 2; ++k) {
       std::erase(points_[Index(dropped.touch[k])].sides, 2 * t + static_cast<SideId>(k));
       Touch(dropped.touch[k]);
+      clusters_[Index(Find(point(dropped.touch[k]).cluster))].recount = true;
       Tangent::Side& side = dropped.sides[k];
       for (Certificate& certificate : side.certificates) Cancel(certificate);
       side.keys = {};
@@ -148,19 +150,22 @@ void Scene::UpdateTangents() {
       if (other != c) MakeTangents(c, other);
     }
   }
-  for (std::size_t i = 0; i < touched_.size(); ++i) {
-    const std::vector<SideId> sides = point(touched_[i]).sides;
+  for (std::size_t i = 0; i < shaken_.size(); ++i) {
+    const std::vector<SideId> sides = point(shaken_[i]).sides;
     for (const SideId side : sides) {
       if (!Stands(side / 2)) Walk(side / 2, true);
     }
   }
+  for (const PointId p : shaken_) points_[Index(p)].shaken = false;
+  shaken_.clear();
+  doubtful_.clear();
   for (const PointId p : touched_) SortSides(p);
   std::vector<ClusterId> around;
   for (const PointId p : touched_) {
-    if (point(p).corner) around.push_back(Find(point(p).cluster));
+    if (!point(p).corner) continue;
+    const ClusterId c = Find(point(p).cluster);
+    if (std::exchange(clusters_[Index(c)].recount, false)) around.push_back(c);
   }
-  std::sort(around.begin(), around.end());
-  around.erase(std::unique(around.begin(), around.end()), around.end());
   const std::size_t sorted = touched_.size();
   for (const ClusterId c : around) Recount(c);
   for (std::size_t i = sorted; i < touched_.size(); ++i) SortSides(touched_[i]);

@@ -129,7 +129,7 @@ TEST(FindHorizonKinetic, AgreesWithTheAdaptiveEngineOnLargerRandomTerrains) {
 }
 
 TEST(FindHorizonKinetic, AgreesWithTheAdaptiveEngineOnMountains) {
-  for (const std::int32_t relief : {5, 100, 3000, 1 << 20, 1 << 29}) {
+  for (const std::int32_t relief : {5, 100, 3000, 1 << 20, 1 << 26}) {
     for (const int roughness : {60, 100, 150}) {
       SCOPED_TRACE(std::to_string(relief) + " " + std::to_string(roughness));
       ExpectTheAdaptiveAnswer(FractalDem(33, relief, roughness, 7));
@@ -199,9 +199,9 @@ TEST(FindHorizonKinetic, SaysThatHeightsAreTooLarge) {
 TEST(FindHorizonKinetic, StopsWhenAskedTo) {
   const Dem dem = FractalDem(33, 3000, 100, 8);
   const Terrain terrain = *Terrain::Build(dem);
-  std::stop_source stop;
-  stop.request_stop();
-  Result<KineticHorizon> horizon = FindHorizonKinetic(terrain, {{}, stop.get_token()});
+  std::stop_source source;
+  source.request_stop();
+  Result<KineticHorizon> horizon = FindHorizonKinetic(terrain, {.stop = source.get_token()});
   ASSERT_FALSE(horizon);
   EXPECT_EQ(horizon.error().code, ErrorCode::kCancelled);
 }
@@ -226,9 +226,9 @@ TEST(FindHorizonKineticLong, HoldsToTheDefinitionOnManyRandomTerrains) {
 
 TEST(FindHorizonKineticLong, AgreesWithTheAdaptiveEngineOnManyRandomTerrains) {
   std::mt19937 random(6);
-  for (int round = 0; round < Rounds(100); ++round) {
+  for (int round = 0; round < Rounds(60); ++round) {
     SCOPED_TRACE(round);
-    ExpectTheAdaptiveAnswer(AnyRandomDem(17, 65, random));
+    ExpectTheAdaptiveAnswer(AnyRandomDem(17, 40, random));
   }
 }
 
