@@ -110,7 +110,7 @@ class Scene {
     bool corner = false;
     bool touched = false;  ///< its tangents' order and activities are to be found anew
     bool shaken = false;   ///< and they may not stand there any more
-    bool seen = false;  ///< visual lines with a width touched it
+    bool seen = false;     ///< visual lines with a width touched it
     PointId prev = -1;
     PointId next = -1;
     int depth = 0;
@@ -122,7 +122,7 @@ class Scene {
     std::int32_t slot = -1;  ///< row in the table of tangents
     bool dirty = false;      ///< corners are to be found anew
     bool fresh = false;      ///< no tangents yet
-    bool recount = false;  ///< corners or their tangents are others
+    bool recount = false;    ///< corners or their tangents are others
     bool listed = false;
     std::vector<PointId> corners;
     std::vector<PointId> loose;
@@ -234,7 +234,7 @@ class Scene {
   std::vector<PointId> touched_;
   std::vector<PointId> shaken_;
   std::vector<std::int32_t> doubtful_;  ///< tangents that passed an active one
-  std::vector<SideId> crossed_;  ///< inactive, and failed with an edge of their own hull
+  std::vector<SideId> crossed_;         ///< inactive, and failed with an edge of their own hull
   std::vector<ClusterId> listed_;
   std::vector<PointId> unsettled_;
   std::vector<int> seen_slot_;
