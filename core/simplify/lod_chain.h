@@ -29,7 +29,8 @@ struct Lod {
 ///
 /// Vertices are posts of the DEM. The tile's four sides keep all their posts, so that neighbours which
 /// are built apart meet without a crack; other rims (of holes, of slanted outlines) keep their shape in
-/// plan. Each level keeps only horizon edges that the finer one keeps. Where the silhouette budget is 0
+/// plan. No triangle is steeper along either axis of the grid than the DEM's steepest.
+/// Each level keeps only horizon edges that the finer one keeps. Where the silhouette budget is 0
 /// it keeps all of them and H is exactly the DEM's; elsewhere H is within the budget, exactly. A budget
 /// below HeightScale's step counts as 0.
 /// Requires: budgets do not fall from level to level.

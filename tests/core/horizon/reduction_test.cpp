@@ -150,11 +150,11 @@ TEST(JoinHorizons, RealDemsCutIntoTilesToo) {
 }
 
 TEST(FindHorizonSegments, StopsWhenAskedTo) {
-  std::stop_source stop;
-  stop.request_stop();
   std::mt19937 random(4);
-  auto stopped =
-      FindHorizonSegments(SomeSegments(10, 9, 9, random), 9, 9, Watch{{}, stop.get_token()});
+  const std::vector<Segment> segments = SomeSegments(10, 9, 9, random);
+  std::stop_source source;
+  source.request_stop();
+  auto stopped = FindHorizonSegments(segments, 9, 9, {.stop = source.get_token()});
   ASSERT_FALSE(stopped);
   EXPECT_EQ(stopped.error().code, ErrorCode::kCancelled);
 }
