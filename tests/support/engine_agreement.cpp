@@ -1,0 +1,101 @@
+#include "tests/support/engine_agreement.h"
+
+#include <algorithm>
+#include <exception>
+#include <iterator>
+#include <optional>
+#include <sstream>
+#include <vector>
+
+#include "tests/oracles/horizon_brute_force.h"
+#include "tests/support/ascii_dem.h"
+#include "tests/support/shrink.h"
+
+namespace farhorizon {
+namespace {
+
+/// The edges of one engine, or why there are none.
+struct Answer {
+  std::optional<std::vector<Edge>> edges;  ///< nullopt: it documented why not
+  std::string offence;
+};
+
+Answer AdaptiveAnswer(const Terrain& terrain, const Engines& engines) {
+  Result<Horizon> horizon = engines.adaptive(terrain);
+  if (!horizon) {
+    if (horizon.error().kind == "sight-too-narrow") return {};
+    return {{}, "the adaptive engine says: " + horizon.error().message};
+  }
+  Answer answer;
+  answer.edges.emplace();
+  for (const HorizonEdge& e : horizon->edges) {
+    answer.edges->push_back(e.edge);
+    if (WitnessHolds(terrain, e.edge, e.witness)) continue;
+    std::ostringstream out;
+    out << "a witness does not hold: edge " << e.edge.a << '-' << e.edge.b << " t " << e.witness.t
+        << " direction " << e.witness.dc << ' ' << e.witness.dr;
+    answer.offence = out.str();
+  }
+  return answer;
+}
+
+Answer KineticAnswer(const Terrain& terrain, const Engines& engines) {
+  Result<KineticHorizon> horizon = engines.kinetic(terrain);
+  if (horizon) return {horizon->edges, {}};
+  if (horizon.error().kind == "kinetic-too-large") return {};
+  return {{}, "the kinetic engine says: " + horizon.error().message};
+}
+
+void NameEdges(const char* what, const std::vector<Edge>& a, const std::vector<Edge>& b,
+               std::ostream& out) {
+  std::vector<Edge> rest;
+  std::set_difference(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(rest));
+  if (rest.empty()) return;
+  out << what;
+  for (const Edge e : rest) out << ' ' << e.a << '-' << e.b;
+}
+
+std::string Difference(const char* left, const Answer& a, const char* right, const Answer& b) {
+  if (!a.edges || !b.edges || *a.edges == *b.edges) return {};
+  std::ostringstream out;
+  out << left << " and " << right << " differ;";
+  NameEdges(" only the former:", *a.edges, *b.edges, out);
+  NameEdges(" only the latter:", *b.edges, *a.edges, out);
+  return out.str();
+}
+
+std::string OffenceOn(const Terrain& terrain, const Engines& engines) {
+  const Answer adaptive = AdaptiveAnswer(terrain, engines);
+  const Answer kinetic = KineticAnswer(terrain, engines);
+  for (const Answer* answer : {&adaptive, &kinetic}) {
+    if (!answer->offence.empty()) return answer->offence;
+  }
+  if (terrain.post_count() <= engines.posts_by_definition) {
+    const Answer definition{HorizonByBruteForce(terrain), {}};
+    const std::string offence =
+        Difference("the adaptive engine", adaptive, "the definition", definition) +
+        Difference("the kinetic engine", kinetic, "the definition", definition);
+    if (!offence.empty()) return offence;
+  }
+  return Difference("the adaptive engine", adaptive, "the kinetic engine", kinetic);
+}
+
+}  // namespace
+
+std::string EngineOffence(const Dem& dem, const Engines& engines) {
+  const Result<Terrain> terrain = Terrain::Build(dem);
+  if (!terrain) return {};
+  try {
+    return OffenceOn(*terrain, engines);
+  } catch (const std::exception& broken) {
+    return std::string("it throws: ") + broken.what();
+  }
+}
+
+std::string SmallestOffence(const Dem& dem, const Engines& engines) {
+  const Dem small =
+      Shrink(dem, [&engines](const Dem& d) { return !EngineOffence(d, engines).empty(); });
+  return EngineOffence(small, engines) + "\non this DEM, the smallest found:\n" + DrawAscii(small);
+}
+
+}  // namespace farhorizon

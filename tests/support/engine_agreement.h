@@ -1,0 +1,33 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "core/horizon/horizon.h"
+#include "core/horizon/horizon_kinetic.h"
+#include "core/terrain/terrain.h"
+
+namespace farhorizon {
+
+/// The engines to be compared: the library's own unless a test of the comparison says otherwise.
+struct Engines {
+  std::function<Result<Horizon>(const Terrain&)> adaptive = [](const Terrain& terrain) {
+    return FindHorizon(terrain, 1, {});
+  };
+  std::function<Result<KineticHorizon>(const Terrain&)> kinetic = [](const Terrain& terrain) {
+    return FindHorizonKinetic(terrain, {});
+  };
+  int posts_by_definition = 0;  ///< DEMs of at most so many posts are held to the brute force too
+};
+
+/// How the engines differ on `dem` from one another or from the definition: what failed, then the edges.
+/// Empty where they agree, and on a DEM without any surface. Every witness is checked. The errors that they
+/// document for extreme heights, sight-too-narrow and kinetic-too-large, are no offence; any other is,
+/// and so is an InternalError.
+std::string EngineOffence(const Dem& dem, const Engines& engines);
+
+/// The smallest DEM to be had on which the engines still offend, drawn, and how they do.
+/// Requires: EngineOffence(dem, engines) is not empty.
+std::string SmallestOffence(const Dem& dem, const Engines& engines);
+
+}  // namespace farhorizon

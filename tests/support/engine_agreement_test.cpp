@@ -1,0 +1,84 @@
+// The comparison of the engines sees what it is there for.
+#include "tests/support/engine_agreement.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/ascii_dem.h"
+#include "tests/support/terrains.h"
+
+namespace farhorizon {
+namespace {
+
+using testing::HasSubstr;
+
+Engines WithAdaptive(const std::function<void(Horizon&)>& change) {
+  Engines engines;
+  engines.adaptive = [change](const Terrain& terrain) {
+    Horizon horizon = *FindHorizon(terrain, 1, {});
+    change(horizon);
+    return Result<Horizon>(std::move(horizon));
+  };
+  return engines;
+}
+
+Engines WithKinetic(Result<KineticHorizon> answer) {
+  Engines engines;
+  engines.kinetic = [answer](const Terrain&) { return answer; };
+  return engines;
+}
+
+TEST(EngineOffence, IsEmptyWhereTheEnginesAgreeAndOnADemWithoutSurface) {
+  EXPECT_EQ(EngineOffence(Crater(true, false, true), {}), "");
+  EXPECT_EQ(EngineOffence(AsciiDem("..\n.1"), {}), "");
+}
+
+TEST(EngineOffence, NamesAnEdgeThatOneEngineMisses) {
+  const Dem pyramid = AsciiDem(".0.\n010\n.0.");
+  const Engines engines = WithAdaptive([](Horizon& horizon) { horizon.edges.pop_back(); });
+  EXPECT_EQ(EngineOffence(pyramid, engines),
+            "the adaptive engine and the kinetic engine differ; only the latter: 4-7");
+}
+
+TEST(EngineOffence, NamesAnEdgeThatBothMissWhereTheDefinitionIsAsked) {
+  Engines engines = WithAdaptive([](Horizon& horizon) { horizon.edges.clear(); });
+  engines.kinetic = [](const Terrain&) { return Result<KineticHorizon>(KineticHorizon{}); };
+  const Dem pyramid = AsciiDem(".0.\n010\n.0.");
+  EXPECT_EQ(EngineOffence(pyramid, engines), "");
+  engines.posts_by_definition = 9;
+  EXPECT_THAT(EngineOffence(pyramid, engines),
+              HasSubstr("the adaptive engine and the definition differ; only the latter: 1-4"));
+}
+
+TEST(EngineOffence, SeesAWitnessThatDoesNotHold) {
+  const Dem pyramid = AsciiDem("000\n010\n000");
+  const Engines engines = WithAdaptive(
+      [](Horizon& horizon) { horizon.edges.front().witness = {.t = 0.5, .dc = 1, .dr = 1}; });
+  EXPECT_THAT(EngineOffence(pyramid, engines),
+              HasSubstr("a witness does not hold: edge 0-4 t 0.5"));
+}
+
+TEST(EngineOffence, AllowsAnEngineItsDocumentedErrorOnly) {
+  const Dem pyramid = AsciiDem(".0.\n010\n.0.");
+  const ErrorCode code = ErrorCode::kUnsupportedData;
+  EXPECT_EQ(EngineOffence(pyramid, WithKinetic(Error{code, "no", "kinetic-too-large"})), "");
+  EXPECT_EQ(EngineOffence(pyramid, WithKinetic(Error{code, "no", "other"})),
+            "the kinetic engine says: no");
+}
+
+TEST(EngineOffence, TurnsABrokenInvariantIntoAnOffence) {
+  Engines engines;
+  engines.kinetic = [](const Terrain&) -> Result<KineticHorizon> {
+    throw InternalError("a hull is a hull");
+  };
+  EXPECT_EQ(EngineOffence(AsciiDem("01\n10"), engines), "it throws: a hull is a hull");
+}
+
+TEST(SmallestOffence, DrawsTheLeastThatStillOffends) {
+  const Engines engines = WithAdaptive([](Horizon& horizon) { horizon.edges.pop_back(); });
+  EXPECT_THAT(SmallestOffence(Crater(false, true, false), engines),
+              HasSubstr("on this DEM, the smallest found:\n. 0\n0 0\n"));
+}
+
+}  // namespace
+}  // namespace farhorizon
