@@ -13,6 +13,11 @@ std::int32_t Below(std::int32_t bound, std::mt19937& random) {
   return static_cast<std::int32_t>(random() % static_cast<std::uint32_t>(bound));
 }
 
+std::int32_t HeightAt(const Dem& dem, std::int32_t column, std::int32_t row) {
+  return dem.heights[static_cast<std::size_t>(row) * static_cast<std::size_t>(dem.columns) +
+                     static_cast<std::size_t>(column)];
+}
+
 std::int32_t& HeightAt(Dem& dem, std::int32_t column, std::int32_t row) {
   return dem.heights[static_cast<std::size_t>(row) * static_cast<std::size_t>(dem.columns) +
                      static_cast<std::size_t>(column)];
@@ -139,6 +144,37 @@ Dem FractalDem(std::int32_t n, std::int32_t relief, int roughness_percent, std::
     amplitude = std::max<std::int64_t>(1, amplitude * roughness_percent / 200);
   }
   return MakeDem(n, n, [&dem](std::int32_t c, std::int32_t r) { return HeightAt(dem, c, r); });
+}
+
+Dem AnyLandscape(std::int32_t min_side, std::int32_t max_side, std::mt19937& random) {
+  constexpr std::array<std::int32_t, 5> kReliefs{8, 60, 700, 9'000, 1 << 22};
+  const std::int32_t columns = min_side + Below(max_side - min_side + 1, random);
+  const std::int32_t rows = min_side + Below(max_side - min_side + 1, random);
+  const std::int32_t relief = kReliefs[static_cast<std::size_t>(Below(5, random))];
+  const Dem ground = FractalDem(std::max(columns, rows), relief, 60 + 10 * Below(8, random),
+                                static_cast<std::uint32_t>(random()));
+  const std::int32_t kind = Below(6, random);
+  const std::int32_t step = 2 + Below(6, random);
+  const std::int32_t slope = std::max(1, relief / (4 + Below(12, random)));
+  const std::int32_t x = Below(columns, random);
+  const std::int32_t y = Below(rows, random);
+  return MakeDem(columns, rows, [&](std::int32_t c, std::int32_t r) -> std::int32_t {
+    const std::int32_t h = HeightAt(ground, c, r);
+    switch (kind) {
+      case 0:  // ridges, folded up from below
+        return std::abs(h - relief / 2);
+      case 1:  // terraces
+        return h / std::max(1, relief / (4 * step)) * 4;
+      case 2:  // lakes of no data
+        return h < relief / step ? kNoHeight : h;
+      case 3:  // a coast: all that is low is flat
+        return std::max(h, relief / 2);
+      case 4:  // a cone with a rough surface
+        return h / (8 * step) - slope * std::max(std::abs(c - x), std::abs(r - y)) / step;
+      default:
+        return h;
+    }
+  });
 }
 
 GridMap operator*(const GridMap& second, const GridMap& first) {

@@ -47,6 +47,10 @@ Dem AnyRandomDem(std::int32_t min_side, std::int32_t max_side, std::mt19937& ran
 /// with the distance between posts (H = 1) times roughness_percent / 100.
 Dem FractalDem(std::int32_t n, std::int32_t relief, int roughness_percent, std::uint32_t seed);
 
+/// Ground of a kind that is found outdoors, min_side ... max_side posts a side: mountains smooth and rough,
+/// low and high; ridges; terraces, with their ties; lakes of no data; a coast; cones. No white noise.
+Dem AnyLandscape(std::int32_t min_side, std::int32_t max_side, std::mt19937& random);
+
 /// A map of the plan that takes the triangulated grid to itself: (x, y) -> (xx x + xy y, yx x + yy y).
 /// There are twelve, products of kTurnSixth and kTranspose.
 struct GridMap {

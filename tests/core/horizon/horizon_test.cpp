@@ -178,32 +178,6 @@ TEST(FindHorizon, LeavesOutNoEdgeThatARandomLineFindsOnWhiteNoise) {
   EXPECT_TRUE(MaximiserIsIn(terrain, Find(terrain), Rounds(2'000), 7));
 }
 
-TEST(FindHorizon, IsCarriedAlongByEveryMapOfTheTriangulatedGrid) {
-  std::mt19937 random(8);
-  for (int round = 0; round < Rounds(40); ++round) {
-    Dem dem = AnyRandomDem(3, 9, random);
-    for (std::int32_t& h : dem.heights) h = h == kNoHeight ? 0 : h;
-    if (round == 0) dem = FractalDem(30, 500, 100, 8);
-    const std::vector<Edge> edges = Find(*Terrain::Build(dem));
-    for (const GridMap& map : AllGridMaps()) {
-      const MappedDem mapped = MapDem(dem, map);
-      ASSERT_EQ(Find(*Terrain::Build(mapped.dem)), MapEdges(edges, mapped.image))
-          << DrawAscii(dem) << map.xx << ' ' << map.xy << ' ' << map.yx << ' ' << map.yy;
-    }
-  }
-}
-
-TEST(FindHorizon, IsTheSameForScaledAndLiftedHeights) {
-  std::mt19937 random(9);
-  for (int round = 0; round < Rounds(100); ++round) {
-    const Dem dem = round == 0 ? FractalDem(33, 500, 100, 9) : AnyRandomDem(3, 9, random);
-    Result<Terrain> terrain = Terrain::Build(dem);
-    if (!terrain) continue;
-    const Dem mapped = MapHeights(dem, 7 + round * 1000, -12345 * round);
-    ASSERT_EQ(Find(*Terrain::Build(mapped)), Find(*terrain)) << DrawAscii(dem);
-  }
-}
-
 TEST(FindHorizon, IsTheSameForAnyNumberOfThreads) {
   for (const Dem& dem : {FractalDem(97, 3000, 100, 10), Paraboloid(33, -1)}) {
     const Terrain terrain = *Terrain::Build(dem);

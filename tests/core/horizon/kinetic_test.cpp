@@ -138,21 +138,6 @@ TEST(FindHorizonKinetic, AgreesWithTheAdaptiveEngineOnMountains) {
   ExpectTheAdaptiveAnswer(FractalDem(65, 3000, 100, 8));
 }
 
-TEST(FindHorizonKinetic, GivesTheSameEdgesWhateverTheMapOfTheGrid) {
-  std::mt19937 random(4);
-  for (int round = 0; round < Rounds(20); ++round) {
-    Dem dem = AnyRandomDem(3, 8, random);
-    // A cell with a hole keeps one triangle however it lies: the maps are for grids without.
-    for (std::int32_t& h : dem.heights) h = h == kNoHeight ? 0 : h;
-    const std::vector<Edge> edges = Find(*Terrain::Build(dem));
-    for (const GridMap& map : AllGridMaps()) {
-      const MappedDem mapped = MapDem(dem, map);
-      EXPECT_EQ(Find(*Terrain::Build(mapped.dem)), MapEdges(edges, mapped.image));
-    }
-    EXPECT_EQ(Find(*Terrain::Build(MapHeights(dem, 12345, -77))), edges);
-  }
-}
-
 TEST(FindHorizonKinetic, CountsTheEventsOfTwoSummits) {
   const Dem dem = AsciiDem(R"(
       0 1 2 3 4
@@ -223,26 +208,6 @@ TEST(FindHorizonKineticLong, HoldsToTheDefinitionOnAllTerrainsOfThreeByThreePost
 TEST(FindHorizonKineticLong, HoldsToTheDefinitionOnManyRandomTerrains) {
   ExpectTheDefinitionOnRandomTerrains(3, 9, Rounds(5000), 5);
 }
-
-TEST(FindHorizonKineticLong, AgreesWithTheAdaptiveEngineOnManyRandomTerrains) {
-  std::mt19937 random(6);
-  for (int round = 0; round < Rounds(60); ++round) {
-    SCOPED_TRACE(round);
-    ExpectTheAdaptiveAnswer(AnyRandomDem(17, 40, random));
-  }
-}
-
-class FindHorizonKineticOnDemLong : public testing::TestWithParam<const char*> {};
-TEST_P(FindHorizonKineticOnDemLong, AgreesWithTheAdaptiveEngine) {
-  ExpectTheAdaptiveAnswerOn(GetParam(), 257);
-}
-INSTANTIATE_TEST_SUITE_P(Large, FindHorizonKineticOnDemLong,
-                         testing::Values("capetown_srtm3_nodata_sea.tif",
-                                         "fortworth_srtm3_rolling.tif",
-                                         "gabilan_lidar_utm10n_1m.tif", "mandakini_alpine_257.tif",
-                                         "n44w072_srtm3_1201.tif", "presidential_srtm3_513.tif",
-                                         "spearfish_nad27_utm13n_30m_nodata.tif",
-                                         "sthelens_utm10n_30m.tif", "zion_257.tif"));
 
 }  // namespace
 }  // namespace farhorizon
