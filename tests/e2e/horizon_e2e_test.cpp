@@ -1,0 +1,113 @@
+// `farhorizon horizon` as it is typed: the program itself, its files, its exit status and what it says.
+#include <cmath>
+#include <filesystem>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/support/json_schema.h"
+#include "tests/support/service_process.h"
+#include "tests/support/temp_dir.h"
+
+namespace farhorizon {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+/// An Arc/Info ASCII grid: hills with a lake of no data.
+std::string HillyGrid(int columns, int rows) {
+  std::string text = "ncols " + std::to_string(columns) + "\nnrows " + std::to_string(rows) +
+                     "\nxllcorner 7\nyllcorner 46\ncellsize 0.001\nNODATA_value -9999\n";
+  for (int r = 0; r < rows; ++r) {
+    for (int c = 0; c < columns; ++c) {
+      const double height =
+          500 + 60 * std::sin(c / 3.0) + 40 * std::cos(r / 2.5 + c / 8.0) + (c * 7 + r * 13) % 5;
+      const bool lake = r / 4 == 2 && c / 5 == 3;
+      text += lake ? "-9999 " : std::to_string(std::lround(height)) + " ";
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+class HorizonE2e : public testing::Test {
+ protected:
+  void SetUp() override { SpillFile(folder_ / "hills.asc", HillyGrid(40, 30)); }
+
+  /// The exit status of `farhorizon horizon hills.asc -o FILE` and what is added.
+  int Run(const std::string& file, const std::vector<std::string>& added) {
+    std::vector<std::string> words = {FARHORIZON_PROGRAM,
+                                      "horizon",
+                                      (folder_ / "hills.asc").string(),
+                                      "-o",
+                                      (folder_ / file).string(),
+                                      "--crs",
+                                      "EPSG:4326"};
+    words.insert(words.end(), added.begin(), added.end());
+    return Process(words, {}, folder_ / "stderr").Wait(std::chrono::seconds(300));
+  }
+  std::string Said() { return SlurpFile(folder_ / "stderr"); }
+
+  std::set<std::pair<json, json>> EdgesIn(const std::string& file) {
+    std::set<std::pair<json, json>> edges;
+    const json collection = json::parse(SlurpFile(folder_ / file));
+    for (const json& feature : collection["features"]) {
+      edges.emplace(feature["properties"]["a"], feature["properties"]["b"]);
+    }
+    return edges;
+  }
+
+  TempDir folder_;
+};
+
+TEST_F(HorizonE2e, EveryEngineFindsTheSameEdges) {
+  for (const char* engine : {"adaptive", "kinetic", "auto"}) {
+    ASSERT_EQ(Run(std::string(engine) + ".geojson", {"--engine", engine}), 0) << Said();
+    EXPECT_EQ(Said(), "") << "nothing to say on a pipe";
+  }
+  ASSERT_EQ(Run("unsaid.geojson", {}), 0) << Said();
+  const auto edges = EdgesIn("adaptive.geojson");
+  EXPECT_GT(edges.size(), 100U);
+  EXPECT_EQ(EdgesIn("kinetic.geojson"), edges);
+  EXPECT_EQ(SlurpFile(folder_ / "auto.geojson"), SlurpFile(folder_ / "adaptive.geojson"));
+  EXPECT_EQ(SlurpFile(folder_ / "unsaid.geojson"), SlurpFile(folder_ / "auto.geojson"));
+  const json shape = json::parse(
+      SlurpFile(std::string(FARHORIZON_SOURCE_DIR) + "/proto/schemas/horizon.schema.json"));
+  for (const char* file : {"adaptive.geojson", "kinetic.geojson"}) {
+    EXPECT_THAT(SchemaOffences(json::parse(SlurpFile(folder_ / file)), shape), testing::IsEmpty());
+  }
+}
+
+TEST_F(HorizonE2e, EveryEngineWritesTheSameBytesForAnyNumberOfThreads) {
+  for (const char* engine : {"adaptive", "kinetic"}) {
+    ASSERT_EQ(Run("one.geojson", {"--engine", engine, "--threads", "1"}), 0) << Said();
+    ASSERT_EQ(Run("three.geojson", {"--engine", engine, "--threads", "3"}), 0) << Said();
+    EXPECT_EQ(SlurpFile(folder_ / "one.geojson"), SlurpFile(folder_ / "three.geojson")) << engine;
+  }
+}
+
+TEST_F(HorizonE2e, AnUnknownEngineIsRefusedByNameWithThoseThatThereAre) {
+  EXPECT_EQ(Run("edges.geojson", {"--engine", "steam"}), 2);
+  EXPECT_THAT(Said(), HasSubstr("--engine"));
+  EXPECT_THAT(Said(), HasSubstr("steam"));
+  for (const char* engine : {"adaptive", "kinetic", "auto"}) {
+    EXPECT_THAT(Said(), HasSubstr(engine));
+  }
+  EXPECT_EQ(Run("edges.geojson", {"--engine"}), 2);
+  EXPECT_THAT(Said(), HasSubstr("--engine"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "edges.geojson"));
+}
+
+TEST_F(HorizonE2e, AnUnknownEndingIsRefusedBeforeAnyWork) {
+  EXPECT_EQ(Run("edges.txt", {"--engine", "kinetic"}), 2);
+  EXPECT_THAT(Said(), HasSubstr(".geojson, .fgb or .gpkg"));
+}
+
+}  // namespace
+}  // namespace farhorizon
