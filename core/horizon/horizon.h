@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/base/progress.h"
@@ -16,6 +17,7 @@ namespace farhorizon {
 struct HorizonEdge {
   Edge edge;
   Witness witness;
+  bool undecided = false;  ///< kept because the work budget ran out: the witness says nothing
 };
 
 /// What the sweep met, for report.json.
@@ -33,6 +35,7 @@ struct HorizonStatistics {
       0;  ///< posts that enlarged a hull; kinetic: failures of hull certificates
   std::int64_t bitangents = 0;  ///< kinetic: failures of bitangent certificates
   std::int64_t queue_max = 0;   ///< kinetic: most events pending
+  std::int64_t undecided = 0;   ///< edges kept undecided; more than 0: the set is a superset
   PredicateCounts predicates;
 };
 
@@ -62,15 +65,38 @@ struct Horizon {
 /// one is an InternalError. kAuto: kAdaptive, which is the faster one on large terrain.
 enum class Engine { kAuto, kAdaptive, kKinetic };
 
+/// What a caller may wish of FindHorizon.
+struct HorizonOptions {
+  int threads = 1;  ///< never changes the answer
+  Engine engine = Engine::kAuto;
+  /// Most decisions (as PredicateCounts counts them) to be made about candidates; with the kinetic engine
+  /// its own steps instead (horizon_kinetic.h). Unset: DefaultWorkBudget.
+  std::optional<std::int64_t> work_budget = std::nullopt;
+  /// Where the budget does not suffice, spend it once more on all candidates evenly, and keep those that
+  /// are undecided then, marked as such, instead of failing. The set is then a superset of the horizon, with
+  /// the same skyline. Where the budget does suffice this changes nothing.
+  bool approximate = false;
+};
+
+/// 2000 decisions an edge of the terrain, and no less than 10^9 in all: some twelve times what the hardest
+/// real DEM known needs. White noise takes n^1.8 in all, n its edges, and outgrows it: the set is 3SUM-hard.
+std::int64_t DefaultWorkBudget(std::int64_t terrain_edges);
+
 /// The edges of `terrain` that lie on the distant horizon for at least one line of sight: creases
 /// that attain the greatest height over the line on a set of lines with non-empty interior.
 ///
-/// Exact for every terrain; the same for any `threads`. Every witness is exact.
+/// Exact for every terrain but where it is approximate and says so; the same for any `threads`. Every
+/// witness is exact.
 /// Errors: kCancelled when the watch says stop; kUnsupportedData, kind sight-too-narrow, with an edge
-/// that is on the horizon by a line of sight that a witness cannot say (skyline.h).
+/// that is on the horizon by a line of sight that a witness cannot say (skyline.h);
+/// kResourceExhausted, kind work-budget, where the budget does not suffice; those of the kinetic engine.
 /// Cost: about O(n log n) on real terrain; a few hundred bytes a candidate, some 20 a post.
-Result<Horizon> FindHorizon(const Terrain& terrain, int threads, const Watch& watch,
-                            Engine engine = Engine::kAuto);
+Result<Horizon> FindHorizon(const Terrain& terrain, const HorizonOptions& options,
+                            const Watch& watch);
+inline Result<Horizon> FindHorizon(const Terrain& terrain, int threads, const Watch& watch,
+                                   Engine engine = Engine::kAuto) {
+  return FindHorizon(terrain, HorizonOptions{.threads = threads, .engine = engine}, watch);
+}
 
 /// The greatest height of the terrain over the plan line through `witness` on `edge` is at the
 /// witness: a check from the heights alone, independent of how the witness was found. Exact for every

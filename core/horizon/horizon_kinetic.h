@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/base/progress.h"
@@ -25,6 +26,7 @@ struct EventCounts {
   std::array<std::int64_t, 4> by_kind{};
   std::int64_t clusters_max = 0;
   std::int64_t queue_max = 0;  ///< certificates pending, and posts to come
+  std::int64_t work = 0;       ///< hulls apart, summed over the stops of the plane
 };
 
 struct KineticHorizon {
@@ -37,8 +39,18 @@ struct KineticHorizon {
 /// FindHorizon the terrain and exact numbers, no algorithm: each is a check of the other.
 ///
 /// Exact for every terrain within the limits, equal heights and posts in line included.
+/// work_budget: most EventCounts::work to be done; unset: DefaultKineticWorkBudget.
 /// Errors: kCancelled; kUnsupportedData, kind kinetic-too-large, where 2 log2(columns or rows) +
-/// 3 log2(range of heights in quanta) is beyond 118: remedy, the adaptive engine.
-Result<KineticHorizon> FindHorizonKinetic(const Terrain& terrain, const Watch& watch);
+/// 3 log2(range of heights in quanta) is beyond 118: remedy, the adaptive engine; kResourceExhausted, kind
+/// work-budget, where the budget is spent, or kMostKineticHulls are apart: the same remedy.
+Result<KineticHorizon> FindHorizonKinetic(const Terrain& terrain, const Watch& watch,
+                                          std::optional<std::int64_t> work_budget = std::nullopt);
+
+/// 200 an edge of the terrain, and no less than 5 * 10^7 in all: some forty times what the hardest real DEM
+/// known needs.
+std::int64_t DefaultKineticWorkBudget(std::int64_t terrain_edges);
+
+/// The tangents of so many hulls, each with every other, take a quarter of a gigabyte and a minute.
+inline constexpr std::int64_t kMostKineticHulls = 1000;
 
 }  // namespace farhorizon

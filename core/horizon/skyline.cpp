@@ -11,6 +11,7 @@
 #include <deque>
 #include <utility>
 
+#include "core/base/result.h"
 #include "core/exact/quadratic.h"
 #include "core/horizon/cover_certificate.h"
 #include "core/horizon/segment_index.h"
@@ -153,13 +154,19 @@ std::int64_t Skyline::size() const { return index_->segments.alive(); }
 std::optional<Witness> Skyline::FindSight(const Segment& segment, Ties ties,
                                           std::optional<Id> except, std::vector<Id>* blockers,
                                           PredicateCounts* counts, std::span<const Segment> screens,
-                                          std::span<const Id> likely) const {
+                                          std::span<const Id> likely, SightLimit* limit) const {
   SightSearch search(index_->segments, segment, ties, except, screens, likely, blockers, counts);
   std::deque<HiddenRange> open = {
       {QuadraticRoot::At(Dyadic{0, 0}), QuadraticRoot::At(Dyadic{1, 0})}};
   std::optional<Witness> best;
   int sights = 0;
+  Check(limit == nullptr || counts != nullptr, "what is limited is counted");
+  const std::int64_t most = limit != nullptr ? counts->Sum() + limit->decisions : 0;
   while (!open.empty() && sights < kMostSights) {
+    if (limit != nullptr && counts->Sum() >= most) {
+      limit->reached = true;
+      break;
+    }
     // One sight is looked for in depth, a simpler one everywhere.
     const HiddenRange gap = best ? open.front() : open.back();
     best ? open.pop_front() : open.pop_back();

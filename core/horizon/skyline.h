@@ -43,6 +43,15 @@ struct PredicateCounts {
   std::int64_t filtered = 0;
   std::int64_t exact = 0;
   std::int64_t tied = 0;
+
+  [[nodiscard]] std::int64_t Sum() const { return filtered + exact + tied; }
+};
+
+/// How much a question may cost, in decisions as PredicateCounts counts them. It is looked at between
+/// points of the segment, so that a last one may go beyond.
+struct SightLimit {
+  std::int64_t decisions = 0;
+  bool reached = false;  ///< set where it ended the search: no sight then means none is known
 };
 
 /// A set of segments that hide what lies behind them: the skyline of a terrain, a mesh, a network.
@@ -72,13 +81,15 @@ class Skyline {
   /// answer is nullopt, receives ids that hide all of it, unsorted. screens: further segments that are
   /// known not to rise above the set's H; they only save time. likely: members to try first, say
   /// the blockers of a segment nearby; they only save time too, though another sight may be found.
+  /// limit: where not null, when to give up; needs counts.
   /// Cost: about the segments in sight.
   [[nodiscard]] std::optional<Witness> FindSight(const Segment& segment, Ties ties,
                                                  std::optional<Id> except = std::nullopt,
                                                  std::vector<Id>* blockers = nullptr,
                                                  PredicateCounts* counts = nullptr,
                                                  std::span<const Segment> screens = {},
-                                                 std::span<const Id> likely = {}) const;
+                                                 std::span<const Id> likely = {},
+                                                 SightLimit* limit = nullptr) const;
 
  private:
   struct Index;

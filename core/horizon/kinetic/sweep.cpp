@@ -37,7 +37,8 @@ bool IsConvex(const Terrain& terrain, Edge edge) {
 
 class Sweep {
  public:
-  Sweep(const Terrain& terrain, const Watch& watch) : terrain_(terrain), watch_(watch) {
+  Sweep(const Terrain& terrain, const Watch& watch, std::int64_t work_budget)
+      : terrain_(terrain), watch_(watch), work_budget_(work_budget) {
     const auto posts = static_cast<std::size_t>(terrain.post_count());
     cluster_.assign(posts, -1);
     arriving_.resize(posts);
@@ -58,12 +59,12 @@ class Sweep {
     return 2 * std::bit_width(extent) + 3 * std::bit_width(range) + 6 <= 124;
   }
 
-  /// False where the watch said stop.
+  /// False where the watch said stop or the budget was spent.
   bool Run() {
     std::size_t next = 0;
     while (next < order_.size()) {
       const std::int64_t s = DepthOf(order_[next]);
-      if (!SinkTo(s)) return false;
+      if (!SinkTo(s) || !MayGoOn()) return false;
       std::size_t end = next + 1;
       while (end < order_.size() && DepthOf(order_[end]) == s) ++end;
       watch_.Report("sweep", static_cast<double>(end) / static_cast<double>(order_.size()));
@@ -76,6 +77,11 @@ class Sweep {
       next = end;
     }
     return true;
+  }
+
+  [[nodiscard]] bool OverBudget() const {
+    return events_.work > work_budget_ ||
+           static_cast<std::int64_t>(scene_.apart().size()) > kMostKineticHulls;
   }
 
   KineticHorizon Take() {
@@ -105,11 +111,17 @@ class Sweep {
   bool SinkTo(std::int64_t s) {
     std::optional<Moment> at = scene_.NextFailure();
     for (; at && Compare(*at, Moment::At(s)) < 0; at = scene_.NextFailure()) {
-      if (watch_.StopRequested()) return false;
+      if (!MayGoOn()) return false;
       scene_.Advance(*at);
       scene_.Settle();
     }
-    return !watch_.StopRequested();
+    return true;
+  }
+
+  // Counts a stop of the plane: all hulls are looked at there.
+  bool MayGoOn() {
+    events_.work += static_cast<std::int64_t>(scene_.apart().size()) + 1;
+    return !OverBudget() && !watch_.StopRequested();
   }
 
   void LookAtLevelEdges(std::size_t next, std::size_t end, std::int64_t s) {
@@ -186,6 +198,7 @@ class Sweep {
 
   const Terrain& terrain_;
   const Watch& watch_;
+  std::int64_t work_budget_;
   Scene scene_;
   std::int32_t summit_ = 0;
   std::vector<VertexId> order_;                 // from the summit down
@@ -199,16 +212,31 @@ class Sweep {
 
 }  // namespace
 
-Result<KineticHorizon> FindHorizonKinetic(const Terrain& terrain, const Watch& watch) {
-  Sweep sweep(terrain, watch);
+std::int64_t DefaultKineticWorkBudget(std::int64_t terrain_edges) {
+  constexpr std::int64_t kPerEdge = 200;
+  constexpr std::int64_t kLeast = 50'000'000;
+  return std::max(kLeast, kPerEdge * terrain_edges);
+}
+
+Result<KineticHorizon> FindHorizonKinetic(const Terrain& terrain, const Watch& watch,
+                                          std::optional<std::int64_t> work_budget) {
+  const std::int64_t budget =
+      work_budget ? *work_budget : DefaultKineticWorkBudget(terrain.CountEdges());
+  Sweep sweep(terrain, watch, budget);
   if (!sweep.Fits()) {
     return Error{ErrorCode::kUnsupportedData,
                  "extent and range of heights are too large for the kinetic engine's numbers; take "
                  "the adaptive engine, or round the heights to a coarser unit",
                  "kinetic-too-large"};
   }
-  if (!sweep.Run()) return Error{ErrorCode::kCancelled, "stopped during the kinetic sweep"};
-  return sweep.Take();
+  if (sweep.Run()) return sweep.Take();
+  if (!sweep.OverBudget()) return Error{ErrorCode::kCancelled, "stopped during the kinetic sweep"};
+  return Error{ErrorCode::kResourceExhausted,
+               "the kinetic engine's work budget of " + std::to_string(budget) +
+                   " is spent, or more than " + std::to_string(kMostKineticHulls) +
+                   " hulls are apart: white noise and forests of spikes do that; take the adaptive "
+                   "engine, raise the work budget, or smooth the heights",
+               "work-budget"};
 }
 
 }  // namespace farhorizon

@@ -217,6 +217,93 @@ TEST(FindHorizon, StopsWhenAskedTo) {
   EXPECT_EQ(horizon.error().code, ErrorCode::kCancelled);
 }
 
+Dem WhiteNoise(std::int32_t side, std::uint32_t seed) {
+  std::mt19937 random(seed);
+  return RandomDem({.columns = side, .rows = side, .max_height = 1'000'000}, random);
+}
+
+TEST(FindHorizon, EndsWithAnErrorWhereTheWorkBudgetDoesNotSuffice) {
+  const Dem dem = WhiteNoise(33, 15);
+  const Terrain terrain = *Terrain::Build(dem);
+  const Horizon whole = HorizonOf(terrain);
+  const std::int64_t needed = whole.statistics.predicates.Sum();
+  for (const int threads : {1, 3}) {
+    Result<Horizon> enough = FindHorizon(terrain, {.threads = threads, .work_budget = needed}, {});
+    ASSERT_TRUE(enough) << enough.error().message;
+    EXPECT_EQ(EdgesOf(*enough), EdgesOf(whole));
+    EXPECT_EQ(enough->statistics.undecided, 0);
+    Result<Horizon> scarce =
+        FindHorizon(terrain, {.threads = threads, .work_budget = needed - 1}, {});
+    ASSERT_FALSE(scarce) << "of the very sum, whatever the threads";
+    EXPECT_EQ(scarce.error().code, ErrorCode::kResourceExhausted);
+    EXPECT_EQ(scarce.error().kind, "work-budget");
+    EXPECT_THAT(scarce.error().message, testing::HasSubstr(std::to_string(needed - 1)));
+    EXPECT_THAT(scarce.error().message, testing::HasSubstr("approximate"));
+  }
+}
+
+TEST(FindHorizon, KeepsAMarkedSupersetWhereItMayBeApproximate) {
+  const Dem dem = WhiteNoise(33, 16);
+  const Terrain terrain = *Terrain::Build(dem);
+  const Horizon exact = HorizonOf(terrain);
+  std::int64_t least_undecided = exact.statistics.candidates;
+  for (const std::int64_t part : {1000, 30, 3}) {
+    const std::int64_t budget = exact.statistics.predicates.Sum() / part;
+    Result<Horizon> some = FindHorizon(terrain, {.work_budget = budget, .approximate = true}, {});
+    ASSERT_TRUE(some);
+    const std::vector<Edge> kept = EdgesOf(*some);
+    const std::vector<Edge> wanted = EdgesOf(exact);
+    EXPECT_TRUE(std::includes(kept.begin(), kept.end(), wanted.begin(), wanted.end()));
+    std::int64_t undecided = 0;
+    for (const HorizonEdge& e : some->edges) {
+      undecided += e.undecided ? 1 : 0;
+      if (e.undecided) continue;
+      EXPECT_TRUE(std::binary_search(wanted.begin(), wanted.end(), e.edge));
+      EXPECT_TRUE(WitnessHolds(terrain, e.edge, e.witness));
+    }
+    EXPECT_GT(undecided, 0);
+    EXPECT_EQ(undecided, some->statistics.undecided);
+    EXPECT_LE(undecided, least_undecided) << "more work, fewer doubts";
+    least_undecided = undecided;
+  }
+  EXPECT_LT(least_undecided, exact.statistics.candidates / 2);
+}
+
+TEST(FindHorizon, IsApproximateInTheSameWayForAnyNumberOfThreads) {
+  const Dem dem = WhiteNoise(49, 17);
+  const Terrain terrain = *Terrain::Build(dem);
+  const auto find = [&terrain](int threads) {
+    return *FindHorizon(terrain, {.threads = threads, .work_budget = 500'000, .approximate = true},
+                        {});
+  };
+  const Horizon one = find(1);
+  ASSERT_GT(one.statistics.undecided, 0);
+  for (const int threads : {2, 5}) {
+    const Horizon many = find(threads);
+    ASSERT_EQ(many.edges.size(), one.edges.size());
+    EXPECT_EQ(many.statistics.predicates.Sum(), one.statistics.predicates.Sum());
+    for (std::size_t i = 0; i < one.edges.size(); ++i) {
+      ASSERT_EQ(many.edges[i].edge, one.edges[i].edge);
+      ASSERT_EQ(many.edges[i].undecided, one.edges[i].undecided);
+      ASSERT_EQ(many.edges[i].witness.t, one.edges[i].witness.t);
+      ASSERT_EQ(many.edges[i].witness.dc, one.edges[i].witness.dc);
+      ASSERT_EQ(many.edges[i].witness.dr, one.edges[i].witness.dr);
+    }
+  }
+}
+
+TEST(FindHorizon, IsNoLessExactForBeingAllowedToApproximate) {
+  const Dem dem = FractalDem(65, 3000, 100, 18);
+  const Terrain terrain = *Terrain::Build(dem);
+  const Horizon plain = HorizonOf(terrain);
+  const Horizon allowed = *FindHorizon(terrain, {.approximate = true}, {});
+  ASSERT_EQ(EdgesOf(allowed), EdgesOf(plain));
+  EXPECT_EQ(allowed.statistics.undecided, 0);
+  for (std::size_t i = 0; i < plain.edges.size(); ++i) {
+    ASSERT_EQ(allowed.edges[i].witness.t, plain.edges[i].witness.t);
+  }
+}
+
 TEST(WitnessHolds, IsTheDefinitionOnRandomLines) {
   std::mt19937 random(13);
   int held = 0;

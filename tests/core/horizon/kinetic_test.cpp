@@ -181,6 +181,35 @@ TEST(FindHorizonKinetic, SaysThatHeightsAreTooLarge) {
   EXPECT_EQ(horizon.error().kind, "kinetic-too-large");
 }
 
+TEST(FindHorizonKinetic, EndsWithAnErrorWhereTheWorkBudgetDoesNotSuffice) {
+  const Dem dem = FractalDem(33, 3000, 100, 8);
+  const Terrain terrain = *Terrain::Build(dem);
+  const KineticHorizon whole = *FindHorizonKinetic(terrain, {});
+  Result<KineticHorizon> enough = FindHorizonKinetic(terrain, {}, whole.events.work);
+  ASSERT_TRUE(enough) << enough.error().message;
+  EXPECT_EQ(enough->edges, whole.edges);
+  Result<KineticHorizon> scarce = FindHorizonKinetic(terrain, {}, whole.events.work - 1);
+  ASSERT_FALSE(scarce);
+  EXPECT_EQ(scarce.error().code, ErrorCode::kResourceExhausted);
+  EXPECT_EQ(scarce.error().kind, "work-budget");
+  const HorizonOptions options{.engine = Engine::kKinetic, .work_budget = 10, .approximate = true};
+  Result<Horizon> chosen = FindHorizon(terrain, options, {});
+  ASSERT_FALSE(chosen) << "its budget leaves no superset behind: the adaptive engine's does";
+  EXPECT_EQ(chosen.error().kind, "work-budget");
+  EXPECT_NE(chosen.error().message.find("take the adaptive engine"), std::string::npos);
+}
+
+// Spikes three posts apart: each is a hull of its own until the plane is down.
+TEST(FindHorizonKineticLong, RefusesMoreHullsThanMemoryIsFor) {
+  const Dem dem = MakeDem(105, 105, [](std::int32_t c, std::int32_t r) {
+    return c % 3 == 1 && r % 3 == 1 ? 1'000'000 + c + 105 * r : 0;
+  });
+  const Terrain terrain = *Terrain::Build(dem);
+  Result<KineticHorizon> horizon = FindHorizonKinetic(terrain, {});
+  ASSERT_FALSE(horizon);
+  EXPECT_EQ(horizon.error().kind, "work-budget");
+}
+
 TEST(FindHorizonKinetic, StopsWhenAskedTo) {
   const Dem dem = FractalDem(33, 3000, 100, 8);
   const Terrain terrain = *Terrain::Build(dem);
