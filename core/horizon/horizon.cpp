@@ -246,6 +246,7 @@ Result<Horizon> FindHorizon(const Terrain& terrain, const HorizonOptions& option
   } else {
     budget = options.work_budget.value_or(budget);
   }
+  horizon.statistics.work_budget = budget;
   Decider decider(terrain, *sweep, watch);
   PredicateCounts& counts = horizon.statistics.predicates;
   bool goes_on = decider.DecideAll(options.threads, budget, counts);

@@ -33,9 +33,10 @@ struct HorizonStatistics {
   std::int64_t minima = 0;        ///< posts with no lower neighbour
   std::int64_t hull_changes =
       0;  ///< posts that enlarged a hull; kinetic: failures of hull certificates
-  std::int64_t bitangents = 0;  ///< kinetic: failures of bitangent certificates
-  std::int64_t queue_max = 0;   ///< kinetic: most events pending
-  std::int64_t undecided = 0;   ///< edges kept undecided; more than 0: the set is a superset
+  std::int64_t bitangents = 0;   ///< kinetic: failures of bitangent certificates
+  std::int64_t queue_max = 0;    ///< kinetic: most events pending
+  std::int64_t undecided = 0;    ///< edges kept undecided; more than 0: the set is a superset
+  std::int64_t work_budget = 0;  ///< that was in force, in decisions
   PredicateCounts predicates;
 };
 

@@ -1,5 +1,6 @@
 #include "core/io/horizon_features.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -59,8 +60,12 @@ std::string FeatureText(const HorizonFeature& feature) {
   text += Bracketed({Coordinates(feature.from), Coordinates(feature.to)});
   text += R"(},"properties":{"a":)" + Pair(feature.a[0], feature.a[1]);
   text += R"(,"b":)" + Pair(feature.b[0], feature.b[1]);
-  text += R"(,"witness":{"t":)" + Exact(feature.witness.t);
-  text += R"(,"direction":)" + Pair(feature.witness.dc, feature.witness.dr) + "}";
+  if (feature.undecided) {
+    text += R"(,"undecided":true)";
+  } else {
+    text += R"(,"witness":{"t":)" + Exact(feature.witness.t);
+    text += R"(,"direction":)" + Pair(feature.witness.dc, feature.witness.dr) + "}";
+  }
   if (feature.level_kept) text += R"(,"level_kept":)" + std::to_string(*feature.level_kept);
   return text + "}}";
 }
@@ -74,16 +79,19 @@ Geodetic ReadPosition(const Json& position) {
 HorizonFeature ReadFeature(const Json& feature) {
   const Json& line = feature.at("geometry").at("coordinates");
   const Json& properties = feature.at("properties");
-  const Json& witness = properties.at("witness");
   HorizonFeature result{};
   result.a = properties.at("a").get<std::array<std::int32_t, 2>>();
   result.b = properties.at("b").get<std::array<std::int32_t, 2>>();
   result.from = ReadPosition(line.at(0));
   result.to = ReadPosition(line.at(1));
-  result.witness.t = witness.at("t").get<double>();
-  const auto direction = witness.at("direction").get<std::array<std::int64_t, 2>>();
-  result.witness.dc = direction[0];
-  result.witness.dr = direction[1];
+  result.undecided = properties.value("undecided", false);
+  if (!result.undecided) {
+    const Json& witness = properties.at("witness");
+    result.witness.t = witness.at("t").get<double>();
+    const auto direction = witness.at("direction").get<std::array<std::int64_t, 2>>();
+    result.witness.dc = direction[0];
+    result.witness.dr = direction[1];
+  }
   if (properties.contains("level_kept")) {
     result.level_kept = properties.at("level_kept").get<int>();
   }
@@ -97,7 +105,13 @@ Error BadGeoJson(const std::string& message) {
 }  // namespace
 
 std::string WriteHorizonGeoJson(const std::vector<HorizonFeature>& features) {
-  std::string text = "{\"type\":\"FeatureCollection\",\"features\":[";
+  const auto undecided = std::count_if(features.begin(), features.end(),
+                                       [](const HorizonFeature& f) { return f.undecided; });
+  std::string text = R"({"type":"FeatureCollection",)";
+  if (undecided > 0) {
+    text += R"("approximate":true,"undecided":)" + std::to_string(undecided) + ",";
+  }
+  text += R"("features":[)";
   const char* separator = "\n";
   for (const HorizonFeature& feature : features) {
     text += separator + FeatureText(feature);

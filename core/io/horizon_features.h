@@ -19,11 +19,14 @@ struct HorizonFeature {
   Geodetic to;
   Witness witness;
   std::optional<int> level_kept;  ///< unset where no levels were built, or none keeps it
+  bool undecided = false;         ///< kept for want of work: there is no witness
 };
 
 /// horizon.geojson: an RFC 7946 FeatureCollection, a LineString a feature, one feature a line of
 /// text.
 ///
+/// Where some are undecided the collection says `approximate` and how many, and they have `undecided` in
+/// the place of a witness.
 /// Witnesses are printed without loss: t as the shortest text of its double, directions as integers.
 /// Those are below 2^53, which every JSON reader keeps, unless cliffs of 2^26 quanta and more differ
 /// by single ones; then a few are up to 2^62, and a reader that takes all numbers for doubles, as

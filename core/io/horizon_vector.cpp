@@ -43,9 +43,11 @@ bool AddFeature(OGRLayerH layer, const HorizonFeature& edge) {
   const std::unique_ptr<void, DestroyFeature> feature(OGR_F_Create(OGR_L_GetLayerDefn(layer)));
   const std::int32_t numbers[] = {edge.a[0], edge.a[1], edge.b[0], edge.b[1]};
   for (int i = 0; i < 4; ++i) OGR_F_SetFieldInteger(feature.get(), i, numbers[i]);
-  OGR_F_SetFieldDouble(feature.get(), 4, edge.witness.t);
-  OGR_F_SetFieldInteger64(feature.get(), 5, edge.witness.dc);
-  OGR_F_SetFieldInteger64(feature.get(), 6, edge.witness.dr);
+  if (!edge.undecided) {  // else null
+    OGR_F_SetFieldDouble(feature.get(), 4, edge.witness.t);
+    OGR_F_SetFieldInteger64(feature.get(), 5, edge.witness.dc);
+    OGR_F_SetFieldInteger64(feature.get(), 6, edge.witness.dr);
+  }
   if (edge.level_kept) OGR_F_SetFieldInteger(feature.get(), 7, *edge.level_kept);
   const OGRGeometryH line = OGR_G_CreateGeometry(wkbLineString25D);
   for (const Geodetic& g : {edge.from, edge.to}) {

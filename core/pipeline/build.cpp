@@ -182,7 +182,11 @@ Status BuildArtifacts(const fs::path& dem, const fs::path& directory, const Buil
   Result<std::vector<LevelPlan>> plans = PlanLevels(**source, options);
   if (!plans) return std::move(plans.error());
 
-  Result<Horizon> horizon = FindHorizon((*source)->terrain(), options.threads, watch);
+  Result<Horizon> horizon = FindHorizon((*source)->terrain(),
+                                        {.threads = options.threads,
+                                         .work_budget = options.work_budget,
+                                         .approximate = options.approximate},
+                                        watch);
   if (!horizon) return std::move(horizon.error());
 
   std::vector<LevelBudget> budgets;

@@ -22,7 +22,10 @@ struct BuildOptions {
   std::optional<std::string> vertical_datum;
   std::optional<double> nodata;
   std::int64_t max_posts = 64'000'000;
-  int threads = 1;  ///< never changes a byte of the result
+  std::optional<std::int64_t>
+      work_budget;           ///< decisions about candidates; unset: by the terrain's size
+  bool approximate = false;  ///< past the budget: a superset of the horizon, marked, not an error
+  int threads = 1;           ///< never changes a byte of the result
 };
 
 /// DEM in, artifacts out: reads `dem`, finds its horizon, builds and encodes the levels, measures

@@ -19,7 +19,12 @@ Status WriteHorizonEdges(const std::filesystem::path& dem, const std::filesystem
   watch.Report("read", 0);
   Result<std::unique_ptr<Source>> source = Source::Open(dem, options);
   if (!source) return std::move(source.error());
-  Result<Horizon> horizon = FindHorizon((*source)->terrain(), options.threads, watch, engine);
+  Result<Horizon> horizon = FindHorizon((*source)->terrain(),
+                                        {.threads = options.threads,
+                                         .engine = engine,
+                                         .work_budget = options.work_budget,
+                                         .approximate = options.approximate},
+                                        watch);
   if (!horizon) return std::move(horizon.error());
   Result<std::vector<HorizonFeature>> features = (*source)->Features(*horizon, {});
   if (!features) return std::move(features.error());

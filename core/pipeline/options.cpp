@@ -67,11 +67,22 @@ Status Read(const std::string& name, const std::string& value, BuildOptions& opt
     if (!ReadNumber(value, options.nodata.emplace())) return Invalid(name, value, "a number");
     return Done{};
   }
+  if (name == "workBudget") {
+    if (!ReadNumber(value, options.work_budget.emplace())) {
+      return Invalid(name, value, "a whole number");
+    }
+    return Done{};
+  }
+  if (name == "approximate") {
+    if (value != "true" && value != "false") return Invalid(name, value, "true or false");
+    options.approximate = value == "true";
+    return Done{};
+  }
   if (name == "triangles") return NotYet("triangles");
   return Error{ErrorCode::kInvalidArgument,
                "there is no parameter \"" + name +
                    "\"; known are levels, maxError, silhouetteError, formats, skirt, crs, "
-                   "verticalDatum and nodata",
+                   "verticalDatum, nodata, workBudget and approximate",
                "unknown-parameter"};
 }
 
@@ -91,6 +102,9 @@ Status CheckOptions(const BuildOptions& options) {
   if (options.skirt_m > 0) return NotYet("a skirt");
   if (options.nodata && std::isinf(*options.nodata)) {
     return Invalid("nodata", Text(*options.nodata), "a finite number or nan");
+  }
+  if (options.work_budget && *options.work_budget < 1) {
+    return Invalid("workBudget", std::to_string(*options.work_budget), "1 or more");
   }
   if (options.formats.empty()) return Invalid("formats", "", "at least one format");
   constexpr std::array kKnown = {"3dtiles", "drc", "geojson", "flatgeobuf"};

@@ -44,6 +44,9 @@ DemReport ReadDemReport(const Json& json) {
 Json ToJson(const HorizonStatistics& s, std::int64_t horizon_edges) {
   return {{"terrain_edges", s.terrain_edges},
           {"horizon_edges", horizon_edges},
+          {"approximate", s.undecided > 0},
+          {"undecided", s.undecided},
+          {"work_budget", s.work_budget},
           {"candidates", s.candidates},
           {"peaks", s.peaks},
           {"clusters_max", s.clusters_max},
@@ -66,6 +69,9 @@ void ReadHorizon(const Json& json, Report& report) {
   HorizonStatistics& s = report.statistics;
   json.at("horizon_edges").get_to(report.horizon_edges);
   json.at("terrain_edges").get_to(s.terrain_edges);
+  // Reports from before there was a budget have neither.
+  s.undecided = json.value("undecided", std::int64_t{0});
+  s.work_budget = json.value("work_budget", std::int64_t{0});
   json.at("candidates").get_to(s.candidates);
   json.at("peaks").get_to(s.peaks);
   json.at("clusters_max").get_to(s.clusters_max);

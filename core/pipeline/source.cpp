@@ -105,6 +105,7 @@ Result<std::vector<HorizonFeature>> Source::Features(const Horizon& horizon,
     feature.from = (*points)[2 * i];
     feature.to = (*points)[2 * i + 1];
     feature.witness = e.witness;
+    feature.undecided = e.undecided;
     if (i < level_kept.size() && level_kept[i] >= 0) feature.level_kept = level_kept[i];
     features.push_back(feature);
   }

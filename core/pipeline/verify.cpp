@@ -79,6 +79,7 @@ int LinesThatSeeMore(const Terrain& terrain, const std::vector<Segment>& set) {
 struct PublishedEdges {
   std::vector<Edge> edges;
   std::vector<int> level_kept;
+  std::int64_t undecided = 0;
 };
 
 // Features by the terrain's own names; counts those that name no edge or stand elsewhere.
@@ -99,8 +100,10 @@ PublishedEdges VerifyFeatures(const Source& source, const std::vector<HorizonFea
       continue;
     }
     const Edge edge{f.a[1] * dem.columns + f.a[0], f.b[1] * dem.columns + f.b[0]};
-    const bool holds = edge.a < edge.b && WitnessHolds(source.terrain(), edge, f.witness);
+    const bool holds =
+        edge.a < edge.b && (f.undecided || WitnessHolds(source.terrain(), edge, f.witness));
     blind += holds ? 0 : 1;
+    published.undecided += f.undecided ? 1 : 0;
     published.edges.push_back(edge);
     published.level_kept.push_back(f.level_kept.value_or(-1));
     ends.push_back(edge.a);
@@ -199,6 +202,14 @@ void VerifyTileset(const Source& source, const fs::path& directory, const Report
   claims.Add(off < 1e-6, "tileset.json places the local frame where the DEM is");
 }
 
+// What is approximate was made so by the budget alone, and comes out the same again.
+Result<Horizon> FindAsClaimed(const Source& source, const Report& report, int threads,
+                              const Watch& watch) {
+  HorizonOptions options{.threads = threads, .approximate = report.statistics.undecided > 0};
+  if (report.statistics.work_budget > 0) options.work_budget = report.statistics.work_budget;
+  return FindHorizon(source.terrain(), options, watch);
+}
+
 // What the report was made with, as far as the files tell.
 bool Has(const std::vector<LevelReport>& levels, std::int64_t LevelReport::*bytes) {
   return std::any_of(levels.begin(), levels.end(),
@@ -224,8 +235,9 @@ Result<std::vector<ClaimCheck>> VerifyArtifacts(const fs::path& dem, const fs::p
       report->dem.rows != (*source)->dem().rows) {
     return std::move(claims).Take();
   }
-  Result<Horizon> horizon = FindHorizon((*source)->terrain(), options.threads, watch);
+  Result<Horizon> horizon = FindAsClaimed(**source, *report, options.threads, watch);
   if (!horizon) return std::move(horizon.error());
+  claims.Same("undecided edges", report->statistics.undecided, horizon->statistics.undecided);
   claims.Same("terrain edges", report->statistics.terrain_edges, (*source)->terrain().CountEdges());
   claims.Same("horizon edges", report->horizon_edges,
               static_cast<std::int64_t>(horizon->edges.size()));
@@ -240,6 +252,8 @@ Result<std::vector<ClaimCheck>> VerifyArtifacts(const fs::path& dem, const fs::p
                 static_cast<std::int64_t>(features->size()));
     published = VerifyFeatures(**source, *features, claims);
     VerifySet(published->edges, *horizon, claims);
+    claims.Same("horizon.geojson edges that are undecided", report->statistics.undecided,
+                published->undecided);
   }
   Result<PostNormals> normals = FindPostNormals((*source)->terrain(), (*source)->placement());
   if (!normals) return std::move(normals.error());

@@ -57,6 +57,7 @@ void AddHorizon(CLI::App& app, Chosen& chosen) {
       ->check(CLI::IsMember({"adaptive", "kinetic", "auto"}).description(""))
       ->type_name("ENGINE");
   AddReadWishes(*command, call->wishes);
+  AddWorkWishes(*command, call->wishes);
   AddThreads(*command, call->wishes);
   AddReporterOptions(*command, call->reporter);
   command->callback([call, &chosen] { chosen = [call] { return Run(*call); }; });

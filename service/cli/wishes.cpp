@@ -43,6 +43,7 @@ void AddBuildWishes(CLI::App& command, Wishes& wishes) {
       "of 3dtiles, drc, quantized-mesh, geojson, flatgeobuf (3dtiles,drc,geojson)");
   Add(command, wishes, "--skirt", "skirt", "M", "depth of a skirt at the border, metres (none)");
   AddReadWishes(command, wishes);
+  AddWorkWishes(command, wishes);
 }
 
 void AddReadWishes(CLI::App& command, Wishes& wishes) {
@@ -50,6 +51,15 @@ void AddReadWishes(CLI::App& command, Wishes& wishes) {
   Add(command, wishes, "--vertical-datum", "verticalDatum", "CRS",
       "vertical reference system, instead of the file's");
   Add(command, wishes, "--nodata", "nodata", "H", "height that stands for no data");
+}
+
+void AddWorkWishes(CLI::App& command, Wishes& wishes) {
+  Add(command, wishes, "--work-budget", "workBudget", "N",
+      "decisions about edges after which to give up (2000 for each edge of the terrain, at least a "
+      "billion)");
+  command.add_flag_callback(
+      "--approximate", [&wishes] { wishes.parameters["approximate"] = "true"; },
+      "where the work budget does not suffice, keep what is undecided, marked as such");
 }
 
 void AddThreads(CLI::App& command, Wishes& wishes) {

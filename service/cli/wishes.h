@@ -23,6 +23,8 @@ struct Wishes {
 void AddBuildWishes(CLI::App& command, Wishes& wishes);
 /// --crs, --vertical-datum, --nodata.
 void AddReadWishes(CLI::App& command, Wishes& wishes);
+/// --work-budget, --approximate.
+void AddWorkWishes(CLI::App& command, Wishes& wishes);
 /// --threads.
 void AddThreads(CLI::App& command, Wishes& wishes);
 

@@ -25,6 +25,7 @@ constexpr std::array kKindStatuses = {
     KindStatus{"draining", 503},       KindStatus{"queue-full", 503},
     KindStatus{"no-space", 507},       KindStatus{"memory-limit", 422},
     KindStatus{"timeout", 422},        KindStatus{"file-limit", 422},
+    KindStatus{"work-budget", 422},
 };
 
 int StatusOf(const Error& error) {

@@ -256,7 +256,7 @@ HttpResponse HandleSubmission(const HandlerContext& context, const HttpRequest& 
 /// A number or a text as a parameter's text.
 std::optional<std::string> ScalarText(const nlohmann::json& value) {
   if (value.is_string()) return value.get<std::string>();
-  if (value.is_number()) return value.dump();
+  if (value.is_number() || value.is_boolean()) return value.dump();
   return std::nullopt;
 }
 

@@ -109,5 +109,36 @@ TEST_F(HorizonE2e, AnUnknownEndingIsRefusedBeforeAnyWork) {
   EXPECT_THAT(Said(), HasSubstr(".geojson, .fgb or .gpkg"));
 }
 
+TEST_F(HorizonE2e, EndsPastTheWorkBudgetAndNamesTheRemedy) {
+  EXPECT_EQ(Run("edges.geojson", {"--work-budget", "1000"}), 1);
+  EXPECT_THAT(Said(), HasSubstr("work budget of 1000"));
+  EXPECT_THAT(Said(), HasSubstr("approximate"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "edges.geojson"));
+  EXPECT_EQ(Run("edges.geojson", {"--engine", "kinetic", "--work-budget", "100"}), 1);
+  EXPECT_THAT(Said(), HasSubstr("take the adaptive engine"));
+  EXPECT_EQ(Run("edges.geojson", {"--work-budget", "0"}), 2);
+  EXPECT_THAT(Said(), HasSubstr("workBudget"));
+}
+
+TEST_F(HorizonE2e, WritesAMarkedSupersetWhereItMayBeApproximate) {
+  ASSERT_EQ(Run("exact.geojson", {"--approximate"}), 0) << Said();
+  ASSERT_EQ(Run("some.geojson", {"--work-budget", "3000", "--approximate"}), 0) << Said();
+  const json exact = json::parse(SlurpFile(folder_ / "exact.geojson"));
+  EXPECT_FALSE(exact.contains("approximate")) << "a budget that suffices leaves no doubt";
+  const json some = json::parse(SlurpFile(folder_ / "some.geojson"));
+  EXPECT_EQ(some["approximate"], true);
+  int undecided = 0;
+  for (const json& feature : some["features"]) {
+    undecided += feature["properties"].contains("undecided") ? 1 : 0;
+  }
+  EXPECT_GT(undecided, 0);
+  EXPECT_EQ(some["undecided"], undecided);
+  const auto kept = EdgesIn("some.geojson");
+  for (const auto& edge : EdgesIn("exact.geojson")) EXPECT_EQ(kept.count(edge), 1U);
+  const json shape = json::parse(
+      SlurpFile(std::string(FARHORIZON_SOURCE_DIR) + "/proto/schemas/horizon.schema.json"));
+  EXPECT_THAT(SchemaOffences(some, shape), testing::IsEmpty());
+}
+
 }  // namespace
 }  // namespace farhorizon

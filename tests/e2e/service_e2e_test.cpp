@@ -132,6 +132,27 @@ TEST_F(ServiceE2e, AJobLeavesTheBytesThatBuildLeaves) {
   EXPECT_EQ(LeftOver("spool") + LeftOver("work"), 0U);
 }
 
+TEST_F(ServiceE2e, AJobPastItsWorkBudgetFailsOrIsApproximate) {
+  Start();
+  const auto submit = [this](const std::string& wishes) {
+    const RawAnswer answer =
+        Ask(port_, "POST", "/jobs?crs=EPSG:4326&levels=1&filename=a.asc&workBudget=2000" + wishes,
+            "Content-Type: application/octet-stream\r\n", SmallGrid());
+    EXPECT_EQ(answer.status, 201) << answer.body;
+    return "/jobs/" + json::parse(answer.body).value("jobID", "");
+  };
+  const std::string strict = submit("");
+  EXPECT_EQ(WaitForEnd(strict), "failed");
+  EXPECT_EQ(FailureOf(strict), "work-budget");
+  EXPECT_EQ(Ask(port_, "GET", strict + "/results").status, 422);
+  const std::string lenient = submit("&approximate=true");
+  ASSERT_EQ(WaitForEnd(lenient), "successful");
+  const json report = json::parse(Ask(port_, "GET", lenient + "/results/report.json").body);
+  EXPECT_EQ(report["horizon"]["approximate"], true);
+  EXPECT_GT(report["horizon"]["undecided"], 0);
+  EXPECT_EQ(report["horizon"]["work_budget"], 2000);
+}
+
 TEST_F(ServiceE2e, BadInputIsRefusedBeforeTheJobAndLeavesNothing) {
   Start();
   const RawAnswer bare = Ask(port_, "POST", "/jobs?filename=a.asc",

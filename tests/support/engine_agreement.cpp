@@ -39,6 +39,33 @@ Answer AdaptiveAnswer(const Terrain& terrain, const Engines& engines) {
   return answer;
 }
 
+/// What is wrong with the superset that a small budget leaves.
+std::string ApproximateOffence(const Terrain& terrain, const std::vector<Edge>& exact,
+                               const Engines& engines) {
+  Result<Horizon> horizon = engines.approximate(terrain);
+  if (!horizon) {
+    return horizon.error().kind == "sight-too-narrow"
+               ? std::string()
+               : "approximating, the adaptive engine says: " + horizon.error().message;
+  }
+  std::vector<Edge> kept;
+  std::vector<Edge> decided;
+  for (const HorizonEdge& e : horizon->edges) {
+    kept.push_back(e.edge);
+    if (!e.undecided) decided.push_back(e.edge);
+    if (!e.undecided && !WitnessHolds(terrain, e.edge, e.witness)) {
+      return "approximating, a witness does not hold";
+    }
+  }
+  if (!std::includes(kept.begin(), kept.end(), exact.begin(), exact.end())) {
+    return "the approximate set is no superset";
+  }
+  if (!std::includes(exact.begin(), exact.end(), decided.begin(), decided.end())) {
+    return "the approximate set has decided for an edge that is not on the horizon";
+  }
+  return {};
+}
+
 Answer KineticAnswer(const Terrain& terrain, const Engines& engines) {
   Result<KineticHorizon> horizon = engines.kinetic(terrain);
   if (horizon) return {horizon->edges, {}};
@@ -77,7 +104,10 @@ std::string OffenceOn(const Terrain& terrain, const Engines& engines) {
         Difference("the kinetic engine", kinetic, "the definition", definition);
     if (!offence.empty()) return offence;
   }
-  return Difference("the adaptive engine", adaptive, "the kinetic engine", kinetic);
+  const std::string offence =
+      Difference("the adaptive engine", adaptive, "the kinetic engine", kinetic);
+  if (!offence.empty() || !adaptive.edges) return offence;
+  return ApproximateOffence(terrain, *adaptive.edges, engines);
 }
 
 }  // namespace

@@ -17,11 +17,16 @@ struct Engines {
   std::function<Result<KineticHorizon>(const Terrain&)> kinetic = [](const Terrain& terrain) {
     return FindHorizonKinetic(terrain, {});
   };
+  /// Under a work budget that does not suffice for much.
+  std::function<Result<Horizon>(const Terrain&)> approximate = [](const Terrain& terrain) {
+    return FindHorizon(terrain, {.work_budget = 200, .approximate = true}, {});
+  };
   int posts_by_definition = 0;  ///< DEMs of at most so many posts are held to the brute force too
 };
 
 /// How the engines differ on `dem` from one another or from the definition: what failed, then the edges.
-/// Empty where they agree, and on a DEM without any surface. Every witness is checked. The errors that they
+/// Empty where they agree, and on a DEM without any surface. Every witness is checked, and that what is
+/// approximate is a superset, all beyond the horizon undecided. The errors that they
 /// document for extreme heights, sight-too-narrow and kinetic-too-large, are no offence; any other is,
 /// and so is an InternalError.
 std::string EngineOffence(const Dem& dem, const Engines& engines);

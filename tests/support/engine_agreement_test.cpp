@@ -43,6 +43,7 @@ TEST(EngineOffence, NamesAnEdgeThatOneEngineMisses) {
 TEST(EngineOffence, NamesAnEdgeThatBothMissWhereTheDefinitionIsAsked) {
   Engines engines = WithAdaptive([](Horizon& horizon) { horizon.edges.clear(); });
   engines.kinetic = [](const Terrain&) { return Result<KineticHorizon>(KineticHorizon{}); };
+  engines.approximate = engines.adaptive;
   const Dem pyramid = AsciiDem(".0.\n010\n.0.");
   EXPECT_EQ(EngineOffence(pyramid, engines), "");
   engines.posts_by_definition = 9;
@@ -64,6 +65,22 @@ TEST(EngineOffence, AllowsAnEngineItsDocumentedErrorOnly) {
   EXPECT_EQ(EngineOffence(pyramid, WithKinetic(Error{code, "no", "kinetic-too-large"})), "");
   EXPECT_EQ(EngineOffence(pyramid, WithKinetic(Error{code, "no", "other"})),
             "the kinetic engine says: no");
+}
+
+TEST(EngineOffence, SeesAnApproximateSetThatIsNoSupersetOrDecidesWrongly) {
+  const Dem pyramid = AsciiDem("000\n010\n000");
+  Engines engines;
+  engines.approximate = [](const Terrain&) { return Result<Horizon>(Horizon{}); };
+  EXPECT_EQ(EngineOffence(pyramid, engines), "the approximate set is no superset");
+  engines = WithAdaptive([](Horizon& horizon) { horizon.edges.pop_back(); });
+  engines.kinetic = [](const Terrain& terrain) {
+    KineticHorizon horizon = *FindHorizonKinetic(terrain, {});
+    horizon.edges.pop_back();
+    return Result<KineticHorizon>(std::move(horizon));
+  };
+  engines.approximate = [](const Terrain& terrain) { return FindHorizon(terrain, 1, {}); };
+  EXPECT_EQ(EngineOffence(pyramid, engines),
+            "the approximate set has decided for an edge that is not on the horizon");
 }
 
 TEST(EngineOffence, TurnsABrokenInvariantIntoAnOffence) {

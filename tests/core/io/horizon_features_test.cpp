@@ -28,6 +28,22 @@ HorizonFeature Feature() {
   return feature;
 }
 
+TEST(HorizonGeoJson, MarksWhatIsUndecidedAndSaysHowMuch) {
+  HorizonFeature undecided = Feature();
+  undecided.undecided = true;
+  const std::string text = WriteHorizonGeoJson({Feature(), undecided});
+  EXPECT_THAT(text, HasSubstr(R"("approximate":true,"undecided":1,"features":[)"));
+  const nlohmann::json json = nlohmann::json::parse(text);
+  EXPECT_FALSE(json["features"][0]["properties"].contains("undecided"));
+  EXPECT_EQ(json["features"][1]["properties"]["undecided"], true);
+  EXPECT_FALSE(json["features"][1]["properties"].contains("witness"));
+  const std::vector<HorizonFeature> read = *ReadHorizonGeoJson(text);
+  EXPECT_FALSE(read[0].undecided);
+  EXPECT_TRUE(read[1].undecided);
+  EXPECT_EQ(WriteHorizonGeoJson(read), text);
+  EXPECT_THAT(WriteHorizonGeoJson({Feature()}), Not(HasSubstr("approximate")));
+}
+
 TEST(HorizonGeoJson, IsTheTextThatTheContractShows) {
   HorizonFeature feature = Feature();
   feature.level_kept = 2;

@@ -11,7 +11,9 @@ TEST(ParseOptions, ReadsTheParametersOfAJob) {
                                                {"silhouetteError", "1"},
                                                {"formats", "drc,geojson"},
                                                {"crs", "EPSG:32610"},
-                                               {"nodata", "-9999"}});
+                                               {"nodata", "-9999"},
+                                               {"workBudget", "5000000000"},
+                                               {"approximate", "true"}});
   ASSERT_TRUE(options);
   EXPECT_EQ(options->levels, 3);
   EXPECT_EQ(options->max_error_m, 2.5);
@@ -19,6 +21,8 @@ TEST(ParseOptions, ReadsTheParametersOfAJob) {
   EXPECT_EQ(options->formats, (std::vector<std::string>{"drc", "geojson"}));
   EXPECT_EQ(options->crs, "EPSG:32610");
   EXPECT_EQ(options->nodata, -9999);
+  EXPECT_EQ(options->work_budget, 5'000'000'000);
+  EXPECT_TRUE(options->approximate);
 }
 
 TEST(ParseOptions, NamesWhatItDoesNotKnow) {
@@ -53,7 +57,8 @@ INSTANTIATE_TEST_SUITE_P(
                     BadParameter{"maxError", "inf"}, BadParameter{"maxError", "3m"},
                     BadParameter{"silhouetteError", "-0.5"}, BadParameter{"skirt", "-1"},
                     BadParameter{"formats", ""}, BadParameter{"formats", "stl"},
-                    BadParameter{"nodata", "inf"}));
+                    BadParameter{"nodata", "inf"}, BadParameter{"workBudget", "0"},
+                    BadParameter{"workBudget", "1e9"}, BadParameter{"approximate", "1"}));
 
 TEST(ParseOptions, SaysOfWhatIsNotBuiltThatItIsNot) {
   for (const auto& [name, value] : std::map<std::string, std::string>{

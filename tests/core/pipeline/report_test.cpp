@@ -14,6 +14,8 @@ Report SomeReport() {
   report.statistics.candidates = 60000;
   report.statistics.peaks = 12;
   report.statistics.predicates = {1, 2, 3};
+  report.statistics.undecided = 9;
+  report.statistics.work_budget = 1'000'000'000'000;
   report.levels.push_back(
       {0, 10, 11, 12, 2.5, 0.5, {1.5, 0.5}, {0.25, 0.125}, 3.5, 0.0625, 1000, 900});
   return report;
@@ -26,6 +28,9 @@ TEST(Report, ReadsBackWhatItWrote) {
   EXPECT_EQ(WriteReport(*read), text);
   EXPECT_EQ(read->levels.front().silhouette.max_m, 0.25);
   EXPECT_EQ(read->dem.heights_rounded, true);
+  EXPECT_EQ(read->statistics.undecided, 9);
+  EXPECT_EQ(read->statistics.work_budget, 1'000'000'000'000);
+  EXPECT_NE(text.find(R"("approximate": true)"), std::string::npos) << text;
 }
 
 TEST(Report, NamesTheMemberThatIsMissing) {

@@ -114,5 +114,53 @@ TEST_F(Verify, NormalsThatAreNotTheDemsAreFound) {
   EXPECT_FALSE(Names(lines, "lod0 normals"));
 }
 
+// White noise under a budget that leaves much undecided.
+class BuiltApproximately : public Built {
+ protected:
+  void SetUp() override {
+    std::string text =
+        "ncols 25\nnrows 25\nxllcorner 500000\nyllcorner 5100000\ncellsize 30\n"
+        "NODATA_value -9999\n";
+    std::uint32_t noise = 1;
+    for (int i = 0; i < 25 * 25; ++i) {
+      noise = noise * 1664525U + 1013904223U;
+      text += std::to_string(noise >> 20U) + (i % 25 < 24 ? " " : "\n");
+    }
+    SpillFile(folder_ / "hills.asc", text);
+    options_.crs = "EPSG:32610";
+    options_.levels = 1;
+    options_.work_budget = 20'000;
+    options_.approximate = true;
+    Status built = BuildArtifacts(folder_ / "hills.asc", folder_ / "out", options_, watch_);
+    ASSERT_TRUE(built) << built.error().message;
+  }
+};
+
+using VerifyApproximate = BuiltApproximately;
+
+TEST_F(VerifyApproximate, EveryClaimHoldsAndSaysThatTheSetIsASuperset) {
+  // What was asked for stands in the report; the one who verifies does not know it.
+  options_.work_budget.reset();
+  options_.approximate = false;
+  EXPECT_TRUE(False().empty()) << False().front();
+  EXPECT_NE(SlurpFile(folder_ / "out" / "report.json").find(R"("approximate": true)"),
+            std::string::npos);
+  EXPECT_NE(SlurpFile(folder_ / "out" / "horizon.geojson").find(R"("undecided":true)"),
+            std::string::npos);
+}
+
+TEST_F(VerifyApproximate, AReportThatHidesADoubtIsFound) {
+  Change("report.json", R"("approximate": true)", R"("approximate":false)");
+  EXPECT_TRUE(Names(False(), "report.json"));
+}
+
+TEST_F(VerifyApproximate, ItIsAnErrorWhereItMayNotBeApproximate) {
+  options_.approximate = false;
+  Status built = BuildArtifacts(folder_ / "hills.asc", folder_ / "other", options_, watch_);
+  ASSERT_FALSE(built);
+  EXPECT_EQ(built.error().kind, "work-budget");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "other" / "report.json"));
+}
+
 }  // namespace
 }  // namespace farhorizon
