@@ -1,7 +1,9 @@
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "core/pipeline/horizon_edges.h"
+#include "core/pipeline/trace.h"
 #include "service/cli/command.h"
 #include "service/cli/reporter.h"
 #include "service/cli/signals.h"
@@ -15,6 +17,7 @@ struct Call {
   std::string dem;
   std::string file;
   std::string engine = "auto";
+  std::optional<double> trace_level_m;
   Wishes wishes;
   ReporterOptions reporter;
 };
@@ -29,9 +32,11 @@ int Run(const Call& call) {
   if (!options) return Complain(options.error());
   const StopOnSignal signals;
   Reporter reporter(call.reporter);
+  const Watch watch{reporter.progress(), signals.token()};
   Status written =
-      WriteHorizonEdges(call.dem, call.file, *options, Watch{reporter.progress(), signals.token()},
-                        EngineOf(call.engine));
+      call.trace_level_m
+          ? WriteSweepPicture(call.dem, call.file, *call.trace_level_m, *options, watch)
+          : WriteHorizonEdges(call.dem, call.file, *options, watch, EngineOf(call.engine));
   reporter.Clear();
   return written ? kExitDone : Complain(written.error());
 }
@@ -46,7 +51,8 @@ void AddHorizon(CLI::App& app, Chosen& chosen) {
       ->type_name("");
   command
       ->add_option("-o,--output", call->file,
-                   "file to write; its ending tells the format: .geojson, .fgb, .gpkg")
+                   "file to write; its ending tells the format: .geojson, .fgb, .gpkg; with "
+                   "--trace-level .svg")
       ->required()
       ->type_name("FILE");
   command
@@ -56,6 +62,11 @@ void AddHorizon(CLI::App& app, Chosen& chosen) {
           "find the same ones")
       ->check(CLI::IsMember({"adaptive", "kinetic", "auto"}).description(""))
       ->type_name("ENGINE");
+  command
+      ->add_option("--trace-level", call->trace_level_m,
+                   "instead of the edges, draw the sweep at the height of Z metres: contours, "
+                   "hulls, bitangents, candidates")
+      ->type_name("Z");
   AddReadWishes(*command, call->wishes);
   AddWorkWishes(*command, call->wishes);
   AddThreads(*command, call->wishes);

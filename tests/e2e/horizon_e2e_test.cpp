@@ -140,5 +140,26 @@ TEST_F(HorizonE2e, WritesAMarkedSupersetWhereItMayBeApproximate) {
   EXPECT_THAT(SchemaOffences(some, shape), testing::IsEmpty());
 }
 
+TEST_F(HorizonE2e, DrawsTheSweepAtALevel) {
+  ASSERT_EQ(Run("sweep.svg", {"--trace-level", "520.4"}), 0) << Said();
+  const std::string svg = SlurpFile(folder_ / "sweep.svg");
+  EXPECT_THAT(svg, testing::StartsWith("<svg "));
+  EXPECT_THAT(svg, HasSubstr("hills.asc at 520 m")) << "the DEM's heights are whole metres";
+  EXPECT_THAT(svg, HasSubstr("class=\"contours\""));
+  ASSERT_EQ(Run("again.svg", {"--trace-level", "520.4", "--threads", "2"}), 0) << Said();
+  EXPECT_EQ(SlurpFile(folder_ / "again.svg"), svg);
+}
+
+TEST_F(HorizonE2e, RefusesALevelWithoutASliceAndAPictureThatIsNoSvg) {
+  EXPECT_EQ(Run("sweep.svg", {"--trace-level", "9999"}), 2);
+  EXPECT_THAT(Said(), HasSubstr("no ground is cut at 9999 m; heights are 40"));
+  EXPECT_EQ(Run("sweep.svg", {"--trace-level", "1e30"}), 2);
+  EXPECT_EQ(Run("sweep.svg", {"--trace-level", "nan"}), 2);
+  EXPECT_EQ(Run("sweep.svg", {"--trace-level", "high"}), 2);
+  EXPECT_EQ(Run("sweep.geojson", {"--trace-level", "520"}), 2);
+  EXPECT_THAT(Said(), HasSubstr("must end in .svg"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "sweep.svg"));
+}
+
 }  // namespace
 }  // namespace farhorizon

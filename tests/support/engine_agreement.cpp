@@ -122,9 +122,12 @@ std::string EngineOffence(const Dem& dem, const Engines& engines) {
   }
 }
 
+Dem SmallestOffender(const Dem& dem, const Engines& engines) {
+  return Shrink(dem, [&engines](const Dem& d) { return !EngineOffence(d, engines).empty(); });
+}
+
 std::string SmallestOffence(const Dem& dem, const Engines& engines) {
-  const Dem small =
-      Shrink(dem, [&engines](const Dem& d) { return !EngineOffence(d, engines).empty(); });
+  const Dem small = SmallestOffender(dem, engines);
   return EngineOffence(small, engines) + "\non this DEM, the smallest found:\n" + DrawAscii(small);
 }
 

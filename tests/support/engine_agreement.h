@@ -31,8 +31,11 @@ struct Engines {
 /// and so is an InternalError.
 std::string EngineOffence(const Dem& dem, const Engines& engines);
 
-/// The smallest DEM to be had on which the engines still offend, drawn, and how they do.
+/// The smallest DEM to be had on which the engines still offend.
 /// Requires: EngineOffence(dem, engines) is not empty.
+Dem SmallestOffender(const Dem& dem, const Engines& engines);
+
+/// How the engines offend on it, and its drawing.
 std::string SmallestOffence(const Dem& dem, const Engines& engines);
 
 }  // namespace farhorizon

@@ -1,10 +1,13 @@
 // The comparison of the engines sees what it is there for.
 #include "tests/support/engine_agreement.h"
 
+#include <fstream>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/support/ascii_dem.h"
+#include "tests/support/engines_agree.h"
 #include "tests/support/terrains.h"
 
 namespace farhorizon {
@@ -89,6 +92,23 @@ TEST(EngineOffence, TurnsABrokenInvariantIntoAnOffence) {
     throw InternalError("a hull is a hull");
   };
   EXPECT_EQ(EngineOffence(AsciiDem("01\n10"), engines), "it throws: a hull is a hull");
+}
+
+TEST(EnginesAgree, LeavesAPictureOfTheSweepWhereTheyDoNot) {
+  EXPECT_TRUE(EnginesAgree(Crater(false, true, false)));
+  const Engines engines = WithAdaptive([](Horizon& horizon) {
+    std::erase_if(horizon.edges, [](const HorizonEdge& e) { return e.edge.b == 4; });
+  });
+  const testing::AssertionResult result = EnginesAgree(AsciiDem("000\n090\n000"), engines);
+  ASSERT_FALSE(result);
+  const std::string message = result.message();
+  EXPECT_THAT(message, HasSubstr("the adaptive engine and the kinetic engine differ"));
+  const std::string path = message.substr(message.find("picture: ") + 9);
+  std::ifstream picture(path);
+  ASSERT_TRUE(picture) << message;
+  std::string first;
+  std::getline(picture, first);
+  EXPECT_THAT(first, testing::StartsWith("<svg "));
 }
 
 TEST(SmallestOffence, DrawsTheLeastThatStillOffends) {

@@ -14,8 +14,11 @@
 #include <vector>
 
 #include "core/horizon/horizon_kinetic.h"
+#include "core/horizon/hull_sweep.h"
 #include "core/horizon/kinetic/level_sight.h"
 #include "core/horizon/kinetic/scene.h"
+#include "core/horizon/kinetic/trace.h"
+#include "core/horizon/sweep_trace.h"
 
 namespace farhorizon {
 namespace {
@@ -59,10 +62,11 @@ class Sweep {
     return 2 * std::bit_width(extent) + 3 * std::bit_width(range) + 6 <= 124;
   }
 
-  /// False where the watch said stop or the budget was spent.
-  bool Run() {
+  /// Down to depth `last`, its own events included. False where the watch said stop or the budget was
+  /// spent.
+  bool Run(std::int64_t last = kinetic::kNever) {
     std::size_t next = 0;
-    while (next < order_.size()) {
+    while (next < order_.size() && DepthOf(order_[next]) <= last) {
       const std::int64_t s = DepthOf(order_[next]);
       if (!SinkTo(s) || !MayGoOn()) return false;
       std::size_t end = next + 1;
@@ -76,8 +80,16 @@ class Sweep {
           events_.queue_max, scene_.queue_size() + static_cast<std::int64_t>(order_.size() - end));
       next = end;
     }
+    if (last == kinetic::kNever) return true;
+    if (!SinkTo(last)) return false;
+    scene_.Advance(Moment::At(last));
+    scene_.Settle();
     return true;
   }
+
+  [[nodiscard]] const Scene& scene() const { return scene_; }
+  [[nodiscard]] std::int32_t summit() const { return summit_; }
+  [[nodiscard]] std::int32_t lowest() const { return Height(order_.back()); }
 
   [[nodiscard]] bool OverBudget() const {
     return events_.work > work_budget_ ||
@@ -218,25 +230,64 @@ std::int64_t DefaultKineticWorkBudget(std::int64_t terrain_edges) {
   return std::max(kLeast, kPerEdge * terrain_edges);
 }
 
+namespace {
+
+Error TooLarge() {
+  return {ErrorCode::kUnsupportedData,
+          "extent and range of heights are too large for the kinetic engine's numbers; take the "
+          "adaptive engine, or round the heights to a coarser unit",
+          "kinetic-too-large"};
+}
+
+// Why Run() was false.
+Error Stopped(const Sweep& sweep, std::int64_t budget) {
+  if (!sweep.OverBudget()) return {ErrorCode::kCancelled, "stopped during the kinetic sweep"};
+  return {ErrorCode::kResourceExhausted,
+          "the kinetic engine's work budget of " + std::to_string(budget) +
+              " is spent, or more than " + std::to_string(kMostKineticHulls) +
+              " hulls are apart: white noise and forests of spikes do that; take the adaptive "
+              "engine, raise the work budget, or smooth the heights",
+          "work-budget"};
+}
+
+}  // namespace
+
 Result<KineticHorizon> FindHorizonKinetic(const Terrain& terrain, const Watch& watch,
                                           std::optional<std::int64_t> work_budget) {
   const std::int64_t budget =
       work_budget ? *work_budget : DefaultKineticWorkBudget(terrain.CountEdges());
   Sweep sweep(terrain, watch, budget);
-  if (!sweep.Fits()) {
-    return Error{ErrorCode::kUnsupportedData,
-                 "extent and range of heights are too large for the kinetic engine's numbers; take "
-                 "the adaptive engine, or round the heights to a coarser unit",
-                 "kinetic-too-large"};
+  if (!sweep.Fits()) return TooLarge();
+  if (!sweep.Run()) return Stopped(sweep, budget);
+  return sweep.Take();
+}
+
+Result<SweepTrace> TraceSweep(const Terrain& terrain, std::int32_t level, const Watch& watch) {
+  const std::int64_t budget = DefaultKineticWorkBudget(terrain.CountEdges());
+  Sweep sweep(terrain, watch, budget);
+  if (level > sweep.summit() || level < sweep.lowest()) {
+    return Error{ErrorCode::kInvalidArgument, "the terrain has no slice at this level",
+                 "no-such-level"};
   }
-  if (sweep.Run()) return sweep.Take();
-  if (!sweep.OverBudget()) return Error{ErrorCode::kCancelled, "stopped during the kinetic sweep"};
-  return Error{ErrorCode::kResourceExhausted,
-               "the kinetic engine's work budget of " + std::to_string(budget) +
-                   " is spent, or more than " + std::to_string(kMostKineticHulls) +
-                   " hulls are apart: white noise and forests of spikes do that; take the adaptive "
-                   "engine, raise the work budget, or smooth the heights",
-               "work-budget"};
+  if (!sweep.Fits()) return TooLarge();
+  const std::int64_t s = std::int64_t{sweep.summit()} - level;
+  if (!sweep.Run(s)) return Stopped(sweep, budget);
+  Result<HullSweep> culled = SweepHulls(terrain, watch);
+  if (!culled) return std::move(culled.error());
+  SweepTrace trace;
+  trace.level = level;
+  trace.columns = terrain.dem().columns;
+  trace.rows = terrain.dem().rows;
+  trace.contours = ContoursAt(terrain, level);
+  for (const Candidate& candidate : culled->candidates) {
+    const Point3i a = terrain.Point(candidate.edge.a);
+    const Point3i b = terrain.Point(candidate.edge.b);
+    if (std::max(a.z, b.z) < level || std::min(a.z, b.z) > level) continue;
+    trace.candidates.push_back({PlanPoint{static_cast<double>(a.x), static_cast<double>(a.y)},
+                                PlanPoint{static_cast<double>(b.x), static_cast<double>(b.y)}});
+  }
+  kinetic::TraceScene(sweep.scene(), s, trace);
+  return trace;
 }
 
 }  // namespace farhorizon
