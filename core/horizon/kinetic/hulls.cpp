@@ -86,8 +86,8 @@ void Scene::SetCorners(ClusterId c, std::vector<PointId> corners) {
     Cancel(corner.inside);
     Shake(p);
     Schedule(Promise::kHull, p,
-             FailureAfter(Orientation(point(prev).path, corner.path, point(next).path), now_,
-                          FirstEnd(prev, p, next)));
+             TurnAfter(point(prev).path, corner.path, point(next).path, 1, now_,
+                       FirstEnd(prev, p, next)));
   }
   for (const PointId p : old) points_[Index(p)].corner = false;
   for (const PointId p : hull.corners) points_[Index(p)].corner = true;
@@ -140,7 +140,7 @@ void Scene::KeepInside(PointId p) {
   for (std::size_t i = 0; i < 3; ++i) {
     const MovingPoint& from = point(three[i]).path;
     const MovingPoint& to = point(three[(i + 1) % 3]).path;
-    const std::optional<Moment> at = FailureAfter(Orientation(from, to, inside.path), now_, end);
+    const std::optional<Moment> at = TurnAfter(from, to, inside.path, 1, now_, end);
     if (at && (!first || Compare(*at, *first) < 0)) first = at;
   }
   Schedule(Promise::kInside, p, first);

@@ -1,5 +1,6 @@
 #include "core/horizon/kinetic/moving_point.h"
 
+#include <array>
 #include <cmath>
 
 namespace farhorizon::kinetic {
@@ -51,6 +52,30 @@ int FilteredOrientation(const MovingPoint& a, const MovingPoint& b, const Moving
   return value < -error ? -1 : 0;
 }
 
+// Whether doubles are sure that sign times the orientation is positive from now to end. On [0, 1] a
+// quadratic is above the least of its values at both ends and its polar form at (0, 1).
+bool SurelyHolds(const MovingPoint& a, const MovingPoint& b, const MovingPoint& c, int sign,
+                 const Moment& now, std::int64_t end) {
+  const auto last = static_cast<double>(end);
+  const std::array p{NearlyAt(a, now.lo), NearlyAt(a, last)};
+  const std::array q{NearlyAt(b, now.lo), NearlyAt(b, last)};
+  const std::array r{NearlyAt(c, now.lo), NearlyAt(c, last)};
+  const auto holds = [&](std::size_t i, std::size_t k) {
+    const auto minor = [i, k](const std::array<Nearly, 2>& u, const std::array<Nearly, 2>& v) {
+      return u[i].x * v[k].y - u[i].y * v[k].x + u[k].x * v[i].y - u[k].y * v[i].x;
+    };
+    const auto size = [i, k](const std::array<Nearly, 2>& u, const std::array<Nearly, 2>& v) {
+      return u[i].size_x * v[k].size_y + u[i].size_y * v[k].size_x + u[k].size_x * v[i].size_y +
+             u[k].size_y * v[i].size_x;
+    };
+    const double value = p[0].d * minor(q, r) + q[0].d * minor(r, p) + r[0].d * minor(p, q);
+    // Each term: two coordinates off by 2^-51 each, three products, five sums.
+    return sign * value >
+           (p[0].d * size(q, r) + q[0].d * size(r, p) + r[0].d * size(p, q)) * 0x1p-48;
+  };
+  return holds(0, 1) && holds(0, 0) && holds(1, 1);
+}
+
 }  // namespace
 
 MovingPoint MovingPoint::Sliding(Point3i high, Point3i low, std::int64_t summit) {
@@ -73,6 +98,14 @@ int OrientAfter(const MovingPoint& a, const MovingPoint& b, const MovingPoint& c
                 const Moment& now) {
   const int sign = FilteredOrientation(a, b, c, now);
   return sign != 0 ? sign : SignAfter(Orientation(a, b, c), now);
+}
+
+std::optional<Moment> TurnAfter(const MovingPoint& a, const MovingPoint& b, const MovingPoint& c,
+                                int sign, const Moment& now, std::int64_t end) {
+  if (SurelyHolds(a, b, c, sign, now, end)) return std::nullopt;
+  Quadratic q = Orientation(a, b, c);
+  if (sign < 0) q = {-q.c0, -q.c1, -q.c2};
+  return FailureAfter(q, now, end);
 }
 
 int OrderAfter(const MovingPoint& a, const MovingPoint& b, const Moment& now) {

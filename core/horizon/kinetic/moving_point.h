@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "core/horizon/kinetic/moment.h"
 #include "core/terrain/terrain.h"
@@ -29,6 +30,11 @@ Quadratic Orientation(const MovingPoint& a, const MovingPoint& b, const MovingPo
 /// The sign of that orientation just after `now`; 0 only where they stay in line for ever. Exact.
 int OrientAfter(const MovingPoint& a, const MovingPoint& b, const MovingPoint& c,
                 const Moment& now);
+
+/// The first moment strictly between now and end at which sign times that orientation becomes negative.
+/// Requires: it is not negative just after now.
+std::optional<Moment> TurnAfter(const MovingPoint& a, const MovingPoint& b, const MovingPoint& c,
+                                int sign, const Moment& now, std::int64_t end);
 
 /// The order of a and b by x, then y, just after `now`: -1, 0, 1. Exact.
 int OrderAfter(const MovingPoint& a, const MovingPoint& b, const Moment& now);

@@ -279,9 +279,8 @@ void Scene::Certify(SideId s, std::size_t which, SideId with) {
     return;
   }
   const auto [a, b, c] = key.points;
-  Quadratic q = Orientation(point(a).path, point(b).path, point(c).path);
-  if (key.sign < 0) q = {-q.c0, -q.c1, -q.c2};
-  Schedule(Promise::kTangent, id, FailureAfter(q, now_, FirstEnd(a, b, c)));
+  Schedule(Promise::kTangent, id,
+           TurnAfter(point(a).path, point(b).path, point(c).path, key.sign, now_, FirstEnd(a, b, c)));
 }
 
 void Scene::CheckAll() const {
