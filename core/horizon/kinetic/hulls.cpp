@@ -80,6 +80,7 @@ void Scene::SetCorners(ClusterId c, std::vector<PointId> corners) {
     const PointId next = hull.corners[(i + 1) % n];
     Point& corner = points_[Index(p)];
     corner.cluster = c;
+    corner.index = static_cast<std::int32_t>(i);
     if (corner.corner && corner.prev == prev && corner.next == next && !hull.fresh) continue;
     corner.prev = prev;
     corner.next = next;
@@ -214,13 +215,15 @@ bool Scene::MergeWhatMeets() {
     Join(a, b);
     return true;
   };
-  for (const SideId side : crossed_) {
+  for (const auto& [side, p] : crossed_) {
     if (Own(side) >= 0 && joins(side)) return true;
   }
   // What goes past an active tangent may go over the hull's edge with it, and all beside it, too.
-  for (const std::int32_t t : doubtful_) {
-    if (tangent(t).touch[0] < 0 || Stands(t)) continue;
-    for (const PointId p : tangent(t).touch) Shake(p);
+  for (const Passed& passed : passed_) {
+    for (const std::int32_t t : {passed.side / 2, passed.with / 2}) {
+      if (tangent(t).touch[0] < 0 || Stands(t)) continue;
+      for (const PointId p : tangent(t).touch) Shake(p);
+    }
   }
   for (std::size_t i = 0; i < shaken_.size(); ++i) {
     for (const SideId side : point(shaken_[i]).sides) {

@@ -61,10 +61,10 @@ bool LevelSight::OnTheRight(const Gap& gap, ClusterId other) const {
 
 void LevelSight::AddGaps(ClusterId c, PointId p) {
   const Scene::Point& corner = scene_.point(p);
-  int depth = corner.depth;
+  bool free = corner.depth == 0;
   SideId before = -1;
   const auto add = [&](SideId after) {
-    if (depth != 0 || !scene_.HasWidth(p, before, after)) return;
+    if (!free || !scene_.HasWidth(p, before, after)) return;
     const Gap gap{corner.path.At(s_), before < 0 ? Towards(corner.prev, p) : DirectionOf(before),
                   after < 0 ? Towards(p, corner.next) : DirectionOf(after)};
     if (Cross(gap.from, gap.to) <= 0) return;
@@ -73,9 +73,9 @@ void LevelSight::AddGaps(ClusterId c, PointId p) {
     }
     gaps_.push_back(gap);
   };
-  for (const SideId side : corner.sides) {
+  for (const SideId side : corner.lit) {
     add(side);
-    depth += Scene::Starts(side) ? 1 : -1;
+    free = !free;
     before = side;
   }
   add(-1);

@@ -108,6 +108,21 @@ std::optional<Moment> TurnAfter(const MovingPoint& a, const MovingPoint& b, cons
   return FailureAfter(q, now, end);
 }
 
+Aim AimAt(const MovingPoint& from, const MovingPoint& to, const Moment& now) {
+  const double s = now.lo;
+  const double off = now.hi - now.lo;
+  const Nearly p = NearlyAt(from, s);
+  const Nearly q = NearlyAt(to, s);
+  const double x = q.x * p.d - p.x * q.d;
+  const double y = q.y * p.d - p.y * q.d;
+  const double size = (q.size_x + q.size_y) * p.d + (p.size_x + p.size_y) * q.d;
+  const double norm = std::fabs(x) + std::fabs(y);
+  // As in FilteredOrientation, with one product and one sum.
+  const double error = size * (0x1p-49 + (s > 0 ? 4 * off / s : 0));
+  if (!(off <= s * 0x1p-40) || error * 4 > norm) return {0, 0, 1};
+  return {x / norm, y / norm, error / norm * 2 + 0x1p-51};
+}
+
 int OrderAfter(const MovingPoint& a, const MovingPoint& b, const Moment& now) {
   const int sign = SignAfter(
       {Int128{a.x} * b.d - Int128{b.x} * a.d, Int128{a.vx} * b.d - Int128{b.vx} * a.d, 0}, now);

@@ -36,6 +36,21 @@ int OrientAfter(const MovingPoint& a, const MovingPoint& b, const MovingPoint& c
 std::optional<Moment> TurnAfter(const MovingPoint& a, const MovingPoint& b, const MovingPoint& c,
                                 int sign, const Moment& now, std::int64_t end);
 
+/// A direction whose coordinates' sizes add up to 1, each off by `error` at most.
+struct Aim {
+  double x = 0;
+  double y = 0;
+  double error = 0;
+};
+/// Where `to` is seen from `from` just after `now`.
+Aim AimAt(const MovingPoint& from, const MovingPoint& to, const Moment& now);
+/// The sign of the cross product of a and b if it is sure, else 0.
+inline int TurnOf(const Aim& a, const Aim& b) {
+  const double value = a.x * b.y - a.y * b.x;
+  const double error = 2 * (a.error + b.error) + 0x1p-50;
+  return value > error ? 1 : value < -error ? -1 : 0;
+}
+
 /// The order of a and b by x, then y, just after `now`: -1, 0, 1. Exact.
 int OrderAfter(const MovingPoint& a, const MovingPoint& b, const Moment& now);
 

@@ -30,7 +30,6 @@ ClusterId Scene::NewCluster() {
   if (free == in_slot_.end()) {
     const std::size_t slots = in_slot_.size() + 1;
     in_slot_.push_back(id);
-    seen_slot_.push_back(0);
     tangents_.resize(slots * (slots - 1) / 2 * 4);
   } else {
     *free = id;
@@ -56,17 +55,23 @@ ClusterId Scene::Join(ClusterId a, ClusterId b) {
   if (a == b) return a;
   if (cluster(a).corners.size() < cluster(b).corners.size()) std::swap(a, b);
   ++counts_.merges;
+  Cluster& kept = clusters_[Index(a)];
+  Cluster& lost = clusters_[Index(b)];
+  kept.fresh = lost.fresh = true;
   for (const ClusterId other : apart_) {
     if (other != a) DropTangents(a, other);
     if (other != b && other != a) DropTangents(b, other);
   }
-  Cluster& kept = clusters_[Index(a)];
-  Cluster& lost = clusters_[Index(b)];
+  for (const Cluster* joined : {&kept, &lost}) {
+    for (const PointId p : joined->corners) {
+      points_[Index(p)].sides.clear();
+      points_[Index(p)].lit.clear();
+    }
+  }
   for (const PointId p : lost.corners) points_[Index(p)].cluster = a;
   kept.corners.insert(kept.corners.end(), lost.corners.begin(), lost.corners.end());
   kept.loose.insert(kept.loose.end(), lost.loose.begin(), lost.loose.end());
   kept.dirty = true;
-  kept.fresh = true;
   in_slot_[Index(lost.slot)] = -1;
   lost = Cluster();
   roots_[Index(b)] = a;
@@ -147,21 +152,26 @@ void Scene::Fail(Promise promise, std::int32_t id) {
     clusters_[Index(c)].loose.push_back(id);
     List(c);
   } else {
-    Tangent::Side& side = SideOf(id / 2);
-    const auto which = static_cast<std::size_t>(id % 2);
-    const bool hull = side.with[which] < 0;
-    const bool both = !hull && side.active && Active(side.with[which]);
-    ++counts_.tangent_failures[both ? 0U : (hull ? 2U : 1U) + (hull && !side.active ? 1U : 0U)];
-    if (hull && !side.active) {
-      crossed_.push_back(id / 2);
-    } else if (hull) {
-      for (const PointId p : side.keys[which].points) Shake(p);
-    } else {
-      for (const PointId p : side.keys[which].points) Touch(p);
-      doubtful_.push_back(id / 4);
-      doubtful_.push_back(side.with[which] / 2);
-    }
-    side.keys[which] = {};
+    FailTangent(id / 2, static_cast<std::size_t>(id % 2));
+  }
+}
+
+void Scene::FailTangent(SideId id, std::size_t which) {
+  Tangent::Side& side = SideOf(id);
+  const SideId with = side.with[which];
+  const std::array<PointId, 3> points = side.keys[which].points;
+  side.keys[which] = {};
+  if (with >= 0) {
+    const int active = (side.active ? 1 : 0) + (Active(with) ? 1 : 0);
+    ++(active == 0 ? counts_.hanging_failures : counts_.tangent_failures[active == 2 ? 0 : 1]);
+    passed_.push_back({id, which, with, points});
+    return;
+  }
+  ++counts_.tangent_failures[side.active ? 2 : 3];
+  if (side.active) {
+    for (const PointId p : points) Shake(p);
+  } else {
+    crossed_.emplace_back(id, Own(id));
   }
 }
 
@@ -170,6 +180,12 @@ void Scene::Touch(PointId p) {
   if (touched.touched) return;
   touched.touched = true;
   touched_.push_back(p);
+}
+
+void Scene::TouchAround(PointId p) {
+  for (const PointId near : {p, point(p).prev, point(p).next}) {
+    if (near >= 0) Touch(near);
+  }
 }
 
 void Scene::Shake(PointId p) {

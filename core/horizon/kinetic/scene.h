@@ -35,6 +35,7 @@ struct SceneCounts {
   /// Figure 3.1: A two active scene bitangents, B active and inactive, C active and hull, D inactive
   /// and hull.
   std::array<std::int64_t, 4> tangent_failures{};
+  std::int64_t hanging_failures = 0;  ///< two inactive ones
   std::int64_t merges = 0;
   std::int64_t clusters_max = 0;
   std::int64_t queue_max = 0;
@@ -49,18 +50,35 @@ struct SceneCounts {
 ///    certificate kInside for it. So the corners are the hull.
 ///  - each two clusters have four tangents: two that leave both on one side (outer), two that part
 ///    them (inner). While both of these stand, the hulls are apart.
-///  - tangents around a hull lie between its edges: each corner has those it supports, active ones in
-///    order of direction. Going round, a tangent starts or ends the hiding by the other hull; `depth`
-///    counts the hulls that hide the lines at the corner's first edge. Lines of depth 0 are visual
-///    lines; a tangent beside some is active. Every tangent has certificates (kTangent) with the
-///    nearest active tangents or hull edges on either side, the four kinds of figure 3.1; inactive
-///    ones among themselves are not ordered.
+///  - round each hull goes its search tree (section 3.2.5), in two levels: an array of its corners, and
+///    at each corner `lit`, the active tangents in order of direction. Going round, a tangent starts or
+///    ends the hiding by the other hull. Between two neighbours in lit, or one and an edge of the hull,
+///    is a gap: of visual lines or hidden, in turn. `depth` counts the hulls that hide the lines at the
+///    corner's first edge; where it is 0, the first gap is free. A tangent beside visual lines is
+///    active, and all that stand in hidden gaps are not.
+///  - every tangent has certificates (kTangent) towards both sides. An active one: with its neighbours
+///    in lit, or the hull's edge. An inactive one: with the border of its gap (an active tangent or the
+///    hull's edge), the four kinds of figure 3.1, or with another inactive one that stands between.
+///    Inactive ones are not ordered otherwise.
+///
+/// Where an active and an inactive tangent change places, the thesis gives all certificates of the one
+/// to the other. Here they stay (`hanging`): the one that lost its place is certified with its
+/// successor, and so is, through it, all that hangs on it: the tournament that chapter 5 asks for. So
+/// three corners that come in line cost O(log k) in place of O(k), k hulls; but two inactive tangents
+/// that become active part their gap, and all in it are looked at, as in lemma 3.13.
+///
+/// A new hull (lemma 3.5): for each of the others, its four tangents by search, and at each corner
+/// between a start and its end, where visual lines were, the active ones there are taken out. Depths do
+/// for the rest: O(h + log k) a pair, h the corners on the way.
+///
 /// Ground at or above the plane only grows, so visual lines are never born: a tangent becomes active
 /// only where it passes one that is (or its hulls are new), and there all three supports are looked at.
 ///
-/// Simultaneous events are one step: what they touch is put right by the signs of all predicates just
-/// after the moment. What is then still in line is so for good; such ties are broken by one rule: hiding
-/// starts before it ends, then by id. A gap between two tied tangents has no width and shows nothing.
+/// Simultaneous events are one step. Three corners in line and nothing else are handled in place, and
+/// checked by the signs of the predicates just after the moment; what is touched by anything else is
+/// put in order anew by those signs (Rebuild). What is then still in line is so for good; such ties are
+/// broken by one rule: hiding starts before it ends, then by id. A gap between two tied tangents has no
+/// width and shows nothing.
 class Scene {
  public:
   /// A point that is in `cluster` from the coming Settle() until depth `end`. tag: the caller's.
@@ -97,7 +115,10 @@ class Scene {
       bool active = false;
       std::array<Certificate, 2> certificates;  ///< with what is before, after it
       std::array<Key, 2> keys;
-      std::array<SideId, 2> with{-1, -1};  ///< the other tangent; -1: the hull's edge
+      /// The other tangent; -1: the hull's edge; itself: none, the one after has it.
+      std::array<SideId, 2> with{-1, -1};
+      /// How many have their certificate towards what is before (0), after (1) them with this one.
+      std::array<std::int32_t, 2> hanging{};
     };
     std::array<Side, 2> sides;
   };
@@ -113,8 +134,10 @@ class Scene {
     bool seen = false;     ///< visual lines with a width touched it
     PointId prev = -1;
     PointId next = -1;
+    std::int32_t index = 0;  ///< in its cluster's corners
     int depth = 0;
-    std::vector<SideId> sides;
+    std::vector<SideId> sides;  ///< in no order
+    std::vector<SideId> lit;
     Certificate hull;
     Certificate inside;
   };
@@ -122,7 +145,7 @@ class Scene {
     std::int32_t slot = -1;  ///< row in the table of tangents
     bool dirty = false;      ///< corners are to be found anew
     bool fresh = false;      ///< no tangents yet
-    bool recount = false;    ///< corners or their tangents are others
+    bool recount = false;    ///< corners are others, or tangents moved among them
     bool listed = false;
     std::vector<PointId> corners;
     std::vector<PointId> loose;
@@ -177,7 +200,9 @@ class Scene {
   void Cancel(Certificate& certificate);
   void Schedule(Promise promise, std::int32_t id, const std::optional<Moment>& at);
   void Fail(Promise promise, std::int32_t id);
+  void FailTangent(SideId side, std::size_t which);
   void Touch(PointId p);
+  void TouchAround(PointId p);
   void Shake(PointId p);
   void List(ClusterId c);
   [[nodiscard]] int Orient(PointId a, PointId b, PointId c) const {
@@ -212,15 +237,61 @@ class Scene {
   [[nodiscard]] bool Stands(std::int32_t tangent) const;
   [[nodiscard]] bool CrossEdge(SideId side);
   void CrossEdges();
+  void WalkFreely(std::int32_t tangent);
+  void Walk(std::int32_t tangent);
+  struct Arc {
+    SideId start = -1;
+    SideId end = -1;
+  };
+  static std::array<Arc, 2> ArcsOf(std::int32_t first, SideId k);
+  void HideArc(const Arc& arc);
+  void ReleaseArcs();
   void MakeTangents(ClusterId a, ClusterId b);
   void DropTangents(ClusterId a, ClusterId b);
-  void Walk(std::int32_t tangent, bool listed);
-  void UpdateTangents();
-  [[nodiscard]] bool Before(SideId a, SideId b) const;
-  void SortSides(PointId p);
   void Recount(ClusterId c);
-  void Refresh(PointId p);
+  void WalkShaken();
+  void ShakeHanging(PointId p);
+  void UpdateTangents();
+
+  // gaps.cpp
+  [[nodiscard]] bool Before(SideId a, SideId b) const;
+  [[nodiscard]] std::size_t LitIndex(PointId p, SideId side) const;
+  [[nodiscard]] bool FreeAt(PointId p, std::size_t gap) const;
+  [[nodiscard]] SideId LitOr(PointId p, std::size_t index) const;
+  void Shade(PointId p, SideId from, SideId to);
+  void SortSides(PointId p);
+  void Rebuild(PointId p);
+  void LightUp(PointId p);
+  void TakeOff(PointId p, SideId side);
+  void Rehang(SideId side, std::size_t which);
+  [[nodiscard]] bool Holds(SideId side, std::size_t which) const;
+  void Renew(SideId side);
+  void Relink(PointId p, std::size_t index);
   void Certify(SideId side, std::size_t which, SideId with);
+
+  // passing.cpp
+  struct Passed {
+    SideId side;
+    std::size_t which;
+    SideId with;
+    std::array<PointId, 3> points;
+  };
+  struct Pair {
+    PointId at;
+    SideId first;
+    SideId second;
+  };
+  [[nodiscard]] std::optional<std::size_t> PlaceOf(const Pair& pair) const;
+  void Collapse(const Pair& pair, std::size_t index);
+  void Exchange(const Pair& pair, std::size_t index);
+  void Part(const Pair& pair, std::size_t index);
+  [[nodiscard]] bool PassThree(const Passed& passed);
+  void PassTangents();
+
+  // check.cpp
+  void CheckPair(ClusterId c, ClusterId other) const;
+  void CheckCorner(PointId p) const;
+  void CheckChain(SideId side, std::size_t which) const;
 
   Moment now_;
   std::vector<Point> points_;
@@ -233,12 +304,14 @@ class Scene {
   std::int64_t live_ = 0;
   std::vector<PointId> touched_;
   std::vector<PointId> shaken_;
-  std::vector<std::int32_t> doubtful_;  ///< tangents that passed an active one
-  std::vector<SideId> crossed_;         ///< inactive, and failed with an edge of their own hull
+  std::vector<Passed> passed_;
+  std::vector<std::pair<PointId, PointId>> released_;  ///< corners at which arcs began and ended
+  std::vector<int> turns_;
+  std::vector<std::pair<Aim, SideId>> aimed_;
+  /// Inactive, and failed with an edge of their own hull; at their corner then.
+  std::vector<std::pair<SideId, PointId>> crossed_;
   std::vector<ClusterId> listed_;
   std::vector<PointId> unsettled_;
-  std::vector<int> seen_slot_;
-  int seen_round_ = 0;
   SceneCounts counts_;
 };
 

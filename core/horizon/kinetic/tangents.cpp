@@ -1,4 +1,4 @@
-// Bitangents of pairs of hulls, their activity and their certificates (sections 3.2.1 to 3.2.3).
+// Bitangents of pairs of hulls: where they stand, and what they hide (sections 3.2.1 to 3.2.3).
 #include <algorithm>
 #include <utility>
 
@@ -14,13 +14,18 @@ std::int32_t Scene::FirstTangent(ClusterId a, ClusterId b) const {
 }
 
 // Which way the side's own corner must go for its hull to be left of the tangent: 0, -1 or 1. For any
-// point outside a convex ring, following these steps ends at the right one of its two tangents.
+// point outside a convex ring, following these steps ends at the right one of its two tangents. One that
+// stays in line with an edge of the hull hides it: a start stands before it, an end after it. So what a
+// hull hides contains what its parts did, whatever is in line.
 int Scene::StepAt(SideId side) const {
   const PointId p = Own(side);
   const PointId q = Other(side);
   const int sense = Ahead(side) ? 1 : -1;
-  if (sense * Orient(p, q, point(p).next) < 0) return 1;
-  return sense * Orient(point(p).prev, p, q) < 0 ? -1 : 0;
+  const int next = sense * Orient(p, q, point(p).next);
+  if (next < 0) return 1;
+  const int prev = sense * Orient(point(p).prev, p, q);
+  if (prev < 0) return -1;
+  return Starts(side) ? (prev == 0 ? -1 : 0) : (next == 0 ? 1 : 0);
 }
 
 bool Scene::Stands(std::int32_t t) const {
@@ -28,18 +33,17 @@ bool Scene::Stands(std::int32_t t) const {
   return point(p).corner && point(q).corner && StepAt(2 * t) == 0 && StepAt(2 * t + 1) == 0;
 }
 
-// Moves the ends of a tangent to where it stands; `listed`: the corners' lists know it.
-// Each round turns the line one way, so it ends; [Archambault03] section 3.2.2 walks alike.
-void Scene::Walk(std::int32_t t, bool listed) {
+// Moves the ends of a tangent to where it stands. Each round turns the line one way, so it ends;
+// [Archambault03] section 3.2.2 walks alike.
+void Scene::WalkFreely(std::int32_t t) {
   Tangent& walked = tangents_[Index(t)];
-  const std::array<PointId, 2> from = walked.touch;
-  for (std::size_t k = 0; k < 2; ++k) {
-    const Point& old = point(from[k]);
+  for (PointId& p : walked.touch) {
+    const Point& old = point(p);
     if (old.corner) continue;
     const ClusterId c = Find(old.cluster);
-    walked.touch[k] = cluster(c).corners[0];
+    p = cluster(c).corners[0];
     for (const PointId near : {old.next, old.prev}) {
-      if (near >= 0 && point(near).corner && Find(point(near).cluster) == c) walked.touch[k] = near;
+      if (near >= 0 && point(near).corner && Find(point(near).cluster) == c) p = near;
     }
   }
   std::int64_t steps = 0;
@@ -54,26 +58,31 @@ void Scene::Walk(std::int32_t t, bool listed) {
       }
     }
   }
+}
+
+void Scene::Walk(std::int32_t t) {
+  const std::array<PointId, 2> from = tangent(t).touch;
+  WalkFreely(t);
   for (std::size_t k = 0; k < 2; ++k) {
+    const PointId to = tangent(t).touch[k];
     const SideId side = 2 * t + static_cast<SideId>(k);
-    if (listed && walked.touch[k] != from[k]) std::erase(points_[Index(from[k])].sides, side);
-    if (!listed || walked.touch[k] != from[k]) {
-      points_[Index(walked.touch[k])].sides.push_back(side);
+    if (to == from[k]) {
+      if (!point(to).touched) Renew(side);
+      continue;
     }
-    if (listed) Shake(from[k]);
-    Touch(walked.touch[k]);
-    clusters_[Index(Find(point(walked.touch[k]).cluster))].recount = true;
+    Shake(from[k]);
+    TakeOff(from[k], side);
+    points_[Index(to)].sides.push_back(side);
+    Touch(to);
+    clusters_[Index(Find(point(to).cluster))].recount = true;
   }
 }
 
 // Takes an inactive tangent over the edge of its hull that it crosses, all else being as it was: it
-// changes no activity, and nobody's certificate is with it. False, and nothing done, where more than that
-// happens at once.
+// changes no activity. False, and nothing done, where more than that happens at once.
 bool Scene::CrossEdge(SideId s) {
-  Tangent& crossing = tangents_[Index(s / 2)];
-  PointId& p = crossing.touch[s % 2 ? 1 : 0];
+  PointId& p = tangents_[Index(s / 2)].touch[s % 2 ? 1 : 0];
   const PointId from = p;
-  if (from < 0) return true;
   const PointId q = Other(s);
   const SideId opposite = s ^ 1;
   if (!point(from).corner || !point(q).corner || point(from).touched || point(q).touched ||
@@ -83,35 +92,76 @@ bool Scene::CrossEdge(SideId s) {
   const int step = StepAt(s);
   if (step == 0) return false;
   p = step > 0 ? point(from).next : point(from).prev;
-  std::vector<SideId>& sides = points_[Index(p)].sides;
-  SideId near = -1;  // the first active tangent that it comes to
-  for (const SideId other : sides) {
-    if (Active(other) && (near < 0 || step < 0)) near = other;
-  }
-  const bool plain = !point(p).touched && Stands(s / 2) &&
+  const std::vector<SideId>& lit = point(p).lit;
+  const SideId near = lit.empty() ? -1 : step > 0 ? lit.front() : lit.back();
+  const PointId edge = step > 0 ? p : from;
+  const int depth = point(edge).depth - (Starts(s) ? step : -step);
+  const bool plain = depth > 0 && !point(p).touched && Stands(s / 2) &&
                      (near < 0 || (step > 0 ? Before(s, near) : Before(near, s)));
   if (!plain) {
     p = from;
     return false;
   }
-  std::erase(points_[Index(from)].sides, s);
-  sides.insert(step > 0 ? sides.begin() : sides.end(), s);
-  points_[Index(step > 0 ? p : from)].depth -= (Starts(s) ? 1 : -1) * step;
+  TakeOff(from, s);
+  points_[Index(p)].sides.push_back(s);
+  points_[Index(edge)].depth = depth;
   Certify(s, 0, step > 0 ? -1 : near);
   Certify(s, 1, step > 0 ? near : -1);
-  for (const std::size_t which : {0U, 1U}) Certify(opposite, which, SideOf(opposite).with[which]);
+  Renew(opposite);
   return true;
 }
 
 void Scene::CrossEdges() {
-  for (const SideId side : crossed_) {
-    if (CrossEdge(side)) continue;
-    const PointId p = Own(side);
-    for (const PointId near : {p, point(p).prev, point(p).next, Other(side)}) {
-      if (near >= 0) Shake(near);
+  for (const auto& [side, p] : crossed_) {
+    if (Own(side) < 0) {
+      TouchAround(p);
+    } else if (!CrossEdge(side)) {
+      for (const PointId near :
+           {Own(side), point(Own(side)).prev, point(Own(side)).next, Other(side)}) {
+        if (near >= 0) Shake(near);
+      }
     }
   }
   crossed_.clear();
+}
+
+// The sides at which the lines begin and end that the hull touched there hides from the k-th of a pair:
+// those that meet it ahead, and behind.
+std::array<Scene::Arc, 2> Scene::ArcsOf(std::int32_t first, SideId k) {
+  std::array<Arc, 2> arcs;
+  for (SideId side = 2 * first + k; side < 2 * (first + 4); side += 2) {
+    Arc& arc = arcs[Ahead(side) ? 0 : 1];
+    (Starts(side) ? arc.start : arc.end) = side;
+  }
+  return arcs;
+}
+
+void Scene::HideArc(const Arc& arc) {
+  const PointId last = Own(arc.end);
+  PointId p = Own(arc.start);
+  if (cluster(Find(point(p).cluster)).recount) {
+    Touch(p);
+    Touch(last);
+    return;
+  }
+  for (bool begins = true;; begins = false, p = point(p).next) {
+    Shade(p, begins ? arc.start : -1, p == last ? arc.end : -1);
+    if (!begins) ++points_[Index(p)].depth;
+    if (p == last) return;
+  }
+}
+
+// What was hidden by hulls that are no more is hidden by those that they are part of now. So depths go
+// down only when those have their tangents: at no moment is it free.
+void Scene::ReleaseArcs() {
+  for (const auto& [from, last] : released_) {
+    if (cluster(Find(point(from).cluster)).recount) continue;
+    for (PointId p = from; p != last;) {
+      p = point(p).next;
+      --points_[Index(p)].depth;
+    }
+  }
+  released_.clear();
 }
 
 void Scene::MakeTangents(ClusterId a, ClusterId b) {
@@ -119,182 +169,136 @@ void Scene::MakeTangents(ClusterId a, ClusterId b) {
   if (tangent(first).touch[0] >= 0) return;
   if (cluster(a).slot > cluster(b).slot) std::swap(a, b);
   for (std::int32_t t = first; t < first + 4; ++t) {
-    tangents_[Index(t)].touch = {cluster(a).corners[0], cluster(b).corners[0]};
-    Walk(t, false);
+    Tangent& made = tangents_[Index(t)];
+    made.touch = {cluster(a).corners[0], cluster(b).corners[0]};
+    for (Tangent::Side& side : made.sides) side.hanging = {};
+    WalkFreely(t);
+    for (const SideId side : {2 * t, 2 * t + 1}) points_[Index(Own(side))].sides.push_back(side);
+  }
+  for (const SideId k : {0, 1}) {
+    for (const Arc& arc : ArcsOf(first, k)) HideArc(arc);
   }
 }
 
 void Scene::DropTangents(ClusterId a, ClusterId b) {
   const std::int32_t first = FirstTangent(a, b);
+  if (tangent(first).touch[0] < 0) return;
+  for (const SideId k : {0, 1}) {
+    for (const Arc& arc : ArcsOf(first, k)) released_.emplace_back(Own(arc.start), Own(arc.end));
+  }
+  for (SideId side = 2 * first; side < 2 * (first + 4); ++side) {
+    // Certificates do not tell of what comes in line just where a point ends.
+    if (now_.whole && point(Other(side)).end <= now_.s) TouchAround(Own(side));
+    TakeOff(Own(side), side);
+  }
   for (std::int32_t t = first; t < first + 4; ++t) {
     Tangent& dropped = tangents_[Index(t)];
-    if (dropped.touch[0] < 0) return;
-    for (std::size_t k = 0; k < 2; ++k) {
-      std::erase(points_[Index(dropped.touch[k])].sides, 2 * t + static_cast<SideId>(k));
-      Touch(dropped.touch[k]);
-      clusters_[Index(Find(point(dropped.touch[k]).cluster))].recount = true;
-      Tangent::Side& side = dropped.sides[k];
-      for (Certificate& certificate : side.certificates) Cancel(certificate);
-      side.keys = {};
-      side.active = false;
-    }
     dropped.touch = {-1, -1};
+    for (Tangent::Side& side : dropped.sides) {
+      side.active = false;
+      side.with = {-1, -1};
+    }
   }
 }
 
+// How many hulls hide the lines at each corner's first edge.
+void Scene::Recount(ClusterId c) {
+  const std::vector<PointId>& ring = cluster(c).corners;
+  std::vector<int>& turns = turns_;  // by how much it is more than at the corner before
+  turns.assign(ring.size() + 1, 0);
+  for (const ClusterId other : apart_) {
+    if (other == c) continue;
+    const std::int32_t first = FirstTangent(c, other);
+    for (const Arc& arc : ArcsOf(first, cluster(c).slot < cluster(other).slot ? 0 : 1)) {
+      const std::int32_t from = point(Own(arc.start)).index;
+      const std::int32_t to = point(Own(arc.end)).index;
+      ++turns[Index(from + 1)];
+      --turns[Index(to + 1)];
+      if (from > to) ++turns[0];
+    }
+  }
+  int depth = 0;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    depth += turns[i];
+    Point& corner = points_[Index(ring[i])];
+    if (corner.depth != depth && (corner.depth == 0 || depth == 0 || !corner.lit.empty())) {
+      Touch(ring[i]);
+    }
+    corner.depth = depth;
+  }
+}
+
+void Scene::WalkShaken() {
+  for (std::size_t i = 0; i < shaken_.size(); ++i) {
+    const std::vector<SideId> sides = point(shaken_[i]).sides;
+    for (const SideId side : sides) {
+      if (!point(Own(side)).corner || StepAt(side) != 0) Walk(side / 2);
+    }
+  }
+  for (const PointId p : shaken_) points_[Index(p)].shaken = false;
+  shaken_.clear();
+}
+
+// What hangs on others has no certificate with the hull's edge, and may have gone over it with them.
+void Scene::ShakeHanging(PointId p) {
+  if (!point(p).corner) return;
+  for (const SideId side : point(p).sides) {
+    const Tangent::Side& hanging = SideOf(side);
+    if ((hanging.with[0] >= 0 || hanging.with[1] >= 0) && StepAt(side) != 0) {
+      Shake(p);
+      return;
+    }
+  }
+}
+
+namespace {
+
+bool SameThree(std::array<PointId, 3> a, std::array<PointId, 3> b) {
+  std::sort(a.begin(), a.end());
+  std::sort(b.begin(), b.end());
+  return a == b;
+}
+
+}  // namespace
+
 void Scene::UpdateTangents() {
-  CrossEdges();
+  const bool alone = listed_.empty() && shaken_.empty() && touched_.empty() && crossed_.empty() &&
+                     std::all_of(passed_.begin(), passed_.end(), [&](const Passed& passed) {
+                       return SameThree(passed.points, passed_.front().points);
+                     });
+  if (alone) {
+    PassTangents();
+  } else {
+    for (const Passed& passed : passed_) {
+      for (const PointId p : passed.points) Touch(p);
+    }
+    CrossEdges();
+  }
+  passed_.clear();
+  WalkShaken();
   for (const ClusterId c : listed_) {
     if (Find(c) != c || !cluster(c).fresh) continue;
     for (const ClusterId other : apart_) {
       if (other != c) MakeTangents(c, other);
     }
   }
-  for (std::size_t i = 0; i < shaken_.size(); ++i) {
-    const std::vector<SideId> sides = point(shaken_[i]).sides;
-    for (const SideId side : sides) {
-      if (!Stands(side / 2)) Walk(side / 2, true);
+  ReleaseArcs();
+  std::size_t looked_at = 0;
+  for (bool done = false; !done;) {
+    for (; looked_at < touched_.size(); ++looked_at) ShakeHanging(touched_[looked_at]);
+    WalkShaken();
+    for (std::size_t i = 0; i < touched_.size(); ++i) {
+      if (!point(touched_[i]).corner) continue;
+      const ClusterId c = Find(point(touched_[i]).cluster);
+      if (std::exchange(clusters_[Index(c)].recount, false)) Recount(c);
     }
+    done = looked_at == touched_.size();
   }
-  for (const PointId p : shaken_) points_[Index(p)].shaken = false;
-  shaken_.clear();
-  doubtful_.clear();
-  for (const PointId p : touched_) SortSides(p);
-  std::vector<ClusterId> around;
   for (const PointId p : touched_) {
-    if (!point(p).corner) continue;
-    const ClusterId c = Find(point(p).cluster);
-    if (std::exchange(clusters_[Index(c)].recount, false)) around.push_back(c);
-  }
-  const std::size_t sorted = touched_.size();
-  for (const ClusterId c : around) Recount(c);
-  for (std::size_t i = sorted; i < touched_.size(); ++i) SortSides(touched_[i]);
-  for (const PointId p : touched_) {
-    if (point(p).corner) Refresh(p);
     points_[Index(p)].touched = false;
+    if (point(p).corner) Rebuild(p);
   }
   touched_.clear();
-}
-
-// The order of two tangents at one corner just after the moment.
-bool Scene::Before(SideId a, SideId b) const {
-  const int sense = Ahead(a) == Ahead(b) ? 1 : -1;
-  const int turn = sense * Orient(Own(a), Other(a), Other(b));
-  if (turn != 0) return turn > 0;
-  return Starts(a) != Starts(b) ? Starts(a) : a < b;
-}
-
-void Scene::SortSides(PointId p) {
-  std::vector<SideId>& sides = points_[Index(p)].sides;
-  for (std::size_t i = 1; i < sides.size(); ++i) {
-    for (std::size_t k = i; k > 0 && Before(sides[k], sides[k - 1]); --k) {
-      std::swap(sides[k], sides[k - 1]);
-    }
-  }
-}
-
-// How many hulls hide the lines at each corner's first edge. Another hull's tangents alternate, so the
-// first one met tells whether it hides the lines where the round begins.
-void Scene::Recount(ClusterId c) {
-  ++seen_round_;
-  int depth = 0;
-  for (const PointId p : cluster(c).corners) {
-    for (const SideId side : point(p).sides) {
-      const std::int32_t slot = cluster(Find(point(Other(side)).cluster)).slot;
-      int& seen = seen_slot_[Index(slot)];
-      if (seen != seen_round_ && !Starts(side)) ++depth;
-      seen = seen_round_;
-    }
-  }
-  for (const PointId p : cluster(c).corners) {
-    Point& corner = points_[Index(p)];
-    if (corner.depth != depth) Touch(p);
-    corner.depth = depth;
-    for (const SideId side : corner.sides) depth += Starts(side) ? 1 : -1;
-  }
-}
-
-bool Scene::HasWidth(PointId p, SideId before, SideId after) const {
-  if (before < 0 && after < 0) return true;
-  const auto sense = [](SideId side) { return Ahead(side) ? 1 : -1; };
-  if (before < 0) return sense(after) * Orient(point(p).prev, p, Other(after)) > 0;
-  if (after < 0) return sense(before) * Orient(p, Other(before), point(p).next) > 0;
-  return sense(before) * sense(after) * Orient(p, Other(before), Other(after)) > 0;
-}
-
-// Activities, certificates and what is seen at one corner, whose tangents are in order.
-void Scene::Refresh(PointId p) {
-  Point& corner = points_[Index(p)];
-  const std::vector<SideId>& sides = corner.sides;
-  int depth = corner.depth;
-  for (std::size_t i = 0; i <= sides.size(); ++i) {
-    if (depth == 0 && !corner.seen) {
-      corner.seen = HasWidth(p, i == 0 ? -1 : sides[i - 1], i == sides.size() ? -1 : sides[i]);
-    }
-    Check(depth >= 0, "a hull hides lines once at most");
-    if (i == sides.size()) break;
-    const int after = depth + (Starts(sides[i]) ? 1 : -1);
-    SideOf(sides[i]).active = depth == 0 || after == 0;
-    depth = after;
-  }
-  SideId before = -1;
-  for (const SideId side : sides) {
-    Certify(side, 0, before);
-    if (Active(side)) before = side;
-  }
-  SideId after = -1;
-  for (std::size_t i = sides.size(); i-- > 0;) {
-    const SideId side = sides[i];
-    if (Active(side) && after >= 0) {
-      Certify(side, 1, side);  // the one after has the certificate with this one
-    } else {
-      Certify(side, 1, after);
-    }
-    if (Active(side)) after = side;
-  }
-}
-
-// The certificate of a tangent with what is next before (0) or after it (1): another tangent, the edge
-// of the hull (-1), or none (itself).
-void Scene::Certify(SideId s, std::size_t which, SideId with) {
-  Tangent::Side& side = SideOf(s);
-  side.with[which] = with;
-  const SideId id = 2 * s + static_cast<SideId>(which);
-  Tangent::Key key;
-  if (with != s) {
-    const PointId p = Own(s);
-    const PointId q = Other(s);
-    const bool scene = with >= 0;
-    key.sign = (Ahead(s) ? 1 : -1) * (!scene || Ahead(with) ? 1 : -1);
-    if (which == 0) {
-      key.points = scene ? std::array{p, Other(with), q} : std::array{point(p).prev, p, q};
-    } else {
-      key.points = {p, q, scene ? Other(with) : point(p).next};
-    }
-  }
-  if (key == side.keys[which]) return;
-  side.keys[which] = key;
-  if (key.sign == 0) {
-    Cancel(side.certificates[which]);
-    return;
-  }
-  const auto [a, b, c] = key.points;
-  Schedule(Promise::kTangent, id,
-           TurnAfter(point(a).path, point(b).path, point(c).path, key.sign, now_, FirstEnd(a, b, c)));
-}
-
-void Scene::CheckAll() const {
-  for (const ClusterId c : apart_) {
-    for (const PointId p : cluster(c).corners) {
-      Check(Orient(point(p).prev, p, point(p).next) > 0, "corners are strictly convex");
-    }
-    for (const ClusterId other : apart_) {
-      if (other >= c) continue;
-      Check(!Meet(c, other), "hulls are apart");
-      const std::int32_t first = FirstTangent(c, other);
-      for (std::int32_t t = first; t < first + 4; ++t) Check(Stands(t), "tangents stand");
-    }
-  }
 }
 
 }  // namespace farhorizon::kinetic
