@@ -37,7 +37,8 @@ std::string WriteHorizonGeoJson(const std::vector<HorizonFeature>& features);
 /// cause.
 Result<std::vector<HorizonFeature>> ReadHorizonGeoJson(const std::string& text);
 
-/// FlatGeobuf or GeoPackage, by the ending of `path` (".fgb", ".gpkg"), through OGR.
+/// FlatGeobuf or GeoPackage, by the ending of `path` (".fgb", ".gpkg"), through OGR. Where an edge is
+/// undecided its witness is null.
 /// Errors: kIo where the driver failed.
 Status WriteHorizonVector(const std::vector<HorizonFeature>& features,
                           const std::filesystem::path& path);

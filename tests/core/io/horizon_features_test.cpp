@@ -123,6 +123,26 @@ TEST(HorizonVector, ReadsBackThroughOgrWithAllItsFields) {
   }
 }
 
+TEST(HorizonVector, LeavesTheWitnessOfAnUndecidedEdgeNull) {
+  const TempDir dir;
+  HorizonFeature undecided = Feature();
+  undecided.undecided = true;
+  for (const char* name : {"horizon.fgb", "horizon.gpkg"}) {
+    ASSERT_TRUE(WriteHorizonVector({Feature(), undecided}, dir / name));
+    const GDALDatasetH dataset =
+        GDALOpenEx((dir / name).c_str(), GDAL_OF_VECTOR, nullptr, nullptr, nullptr);
+    ASSERT_NE(dataset, nullptr) << name;
+    const OGRLayerH layer = GDALDatasetGetLayer(dataset, 0);
+    int with_witness = 0;
+    while (const OGRFeatureH f = OGR_L_GetNextFeature(layer)) {
+      with_witness += OGR_F_IsFieldSetAndNotNull(f, OGR_F_GetFieldIndex(f, "witness_t"));
+      OGR_F_Destroy(f);
+    }
+    EXPECT_EQ(with_witness, 1) << name;
+    GDALClose(dataset);
+  }
+}
+
 TEST(HorizonVector, SameFeaturesSameBytes) {
   const TempDir dir;
   for (const char* ending : {".fgb", ".gpkg"}) {
