@@ -9,15 +9,6 @@
 #include "core/horizon/kinetic/scene.h"
 
 namespace farhorizon::kinetic {
-namespace {
-
-// The sign of the orientation of a, b, c at a whole depth.
-int OrientAt(const MovingPoint& a, const MovingPoint& b, const MovingPoint& c, std::int64_t s) {
-  const Quadratic q = Orientation(a, b, c);
-  return SignOf((q.c2 * s + q.c1) * s + q.c0);
-}
-
-}  // namespace
 
 void Scene::SettleHull(ClusterId c) {
   Cluster& hull = clusters_[Index(c)];

@@ -100,6 +100,11 @@ int OrientAfter(const MovingPoint& a, const MovingPoint& b, const MovingPoint& c
   return sign != 0 ? sign : SignAfter(Orientation(a, b, c), now);
 }
 
+int OrientAt(const MovingPoint& a, const MovingPoint& b, const MovingPoint& c, std::int64_t s) {
+  const Quadratic q = Orientation(a, b, c);
+  return SignOf((q.c2 * s + q.c1) * s + q.c0);
+}
+
 std::optional<Moment> TurnAfter(const MovingPoint& a, const MovingPoint& b, const MovingPoint& c,
                                 int sign, const Moment& now, std::int64_t end) {
   if (SurelyHolds(a, b, c, sign, now, end)) return std::nullopt;

@@ -31,6 +31,9 @@ Quadratic Orientation(const MovingPoint& a, const MovingPoint& b, const MovingPo
 int OrientAfter(const MovingPoint& a, const MovingPoint& b, const MovingPoint& c,
                 const Moment& now);
 
+/// The sign of that orientation at a whole depth. Exact.
+int OrientAt(const MovingPoint& a, const MovingPoint& b, const MovingPoint& c, std::int64_t s);
+
 /// The first moment strictly between now and end at which sign times that orientation becomes negative.
 /// Requires: it is not negative just after now.
 std::optional<Moment> TurnAfter(const MovingPoint& a, const MovingPoint& b, const MovingPoint& c,

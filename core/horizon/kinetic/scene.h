@@ -246,11 +246,12 @@ class Scene {
   static std::array<Arc, 2> ArcsOf(std::int32_t first, SideId k);
   void HideArc(const Arc& arc);
   void ReleaseArcs();
+  void TouchWhatIsInLine(SideId side);
   void MakeTangents(ClusterId a, ClusterId b);
   void DropTangents(ClusterId a, ClusterId b);
   void Recount(ClusterId c);
   void WalkShaken();
-  void ShakeHanging(PointId p);
+  void LookAtTouched(PointId p);
   void UpdateTangents();
 
   // gaps.cpp

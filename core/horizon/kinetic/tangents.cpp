@@ -180,6 +180,34 @@ void Scene::MakeTangents(ClusterId a, ClusterId b) {
   }
 }
 
+// Certificates do not tell of what comes in line just where a point ends.
+void Scene::TouchWhatIsInLine(SideId s) {
+  const PointId p = Own(s);
+  if (!now_.whole || std::min(point(p).end, point(Other(s)).end) > now_.s) return;
+  const auto in_line = [this](PointId a, PointId b, PointId c) {
+    return OrientAt(point(a).path, point(b).path, point(c).path, now_.s) == 0;
+  };
+  const auto fails = [&](SideId side, std::size_t which) {
+    const Tangent::Key& key = SideOf(side).keys[which];
+    return key.sign != 0 && in_line(key.points[0], key.points[1], key.points[2]);
+  };
+  const std::vector<SideId>& sides = point(p).sides;
+  const Tangent::Side& side = SideOf(s);
+  const bool hangs = side.hanging[0] != 0 || side.hanging[1] != 0;
+  const auto tied = [&](SideId other) {
+    return (SideOf(other).with[0] == s && fails(other, 0)) ||
+           (SideOf(other).with[1] == s && fails(other, 1));
+  };
+  if (!fails(s, 0) && !fails(s, 1) && !(hangs && std::any_of(sides.begin(), sides.end(), tied))) {
+    return;
+  }
+  TouchAround(p);
+  for (const SideId other : sides) {
+    const PointId q = Other(other);  // -1: dropped before, with its hull
+    if (q >= 0 && in_line(p, Other(s), q)) Touch(q);
+  }
+}
+
 void Scene::DropTangents(ClusterId a, ClusterId b) {
   const std::int32_t first = FirstTangent(a, b);
   if (tangent(first).touch[0] < 0) return;
@@ -187,8 +215,7 @@ void Scene::DropTangents(ClusterId a, ClusterId b) {
     for (const Arc& arc : ArcsOf(first, k)) released_.emplace_back(Own(arc.start), Own(arc.end));
   }
   for (SideId side = 2 * first; side < 2 * (first + 4); ++side) {
-    // Certificates do not tell of what comes in line just where a point ends.
-    if (now_.whole && point(Other(side)).end <= now_.s) TouchAround(Own(side));
+    TouchWhatIsInLine(side);
     TakeOff(Own(side), side);
   }
   for (std::int32_t t = first; t < first + 4; ++t) {
@@ -239,15 +266,29 @@ void Scene::WalkShaken() {
   shaken_.clear();
 }
 
-// What hangs on others has no certificate with the hull's edge, and may have gone over it with them.
-void Scene::ShakeHanging(PointId p) {
+// What hangs on others has no certificate with the hull's edge, and may have gone over it with them. And
+// where points end, tangents may have changed places here that parted at a third corner.
+void Scene::LookAtTouched(PointId p) {
   if (!point(p).corner) return;
   for (const SideId side : point(p).sides) {
     const Tangent::Side& hanging = SideOf(side);
     if ((hanging.with[0] >= 0 || hanging.with[1] >= 0) && StepAt(side) != 0) {
       Shake(p);
-      return;
+      break;
     }
+  }
+  if (!now_.whole) return;
+  SortSides(p);
+  for (std::size_t i = 1; i < aimed_.size(); ++i) {
+    if (TurnOf(aimed_[i - 1].first, aimed_[i].first) != 0) continue;
+    const PointId a = Other(aimed_[i - 1].second);
+    const PointId b = Other(aimed_[i].second);
+    if (OrientAt(point(p).path, point(a).path, point(b).path, now_.s) != 0 ||
+        Orient(p, a, b) == 0) {
+      continue;
+    }
+    Touch(a);
+    Touch(b);
   }
 }
 
@@ -285,7 +326,7 @@ void Scene::UpdateTangents() {
   ReleaseArcs();
   std::size_t looked_at = 0;
   for (bool done = false; !done;) {
-    for (; looked_at < touched_.size(); ++looked_at) ShakeHanging(touched_[looked_at]);
+    for (; looked_at < touched_.size(); ++looked_at) LookAtTouched(touched_[looked_at]);
     WalkShaken();
     for (std::size_t i = 0; i < touched_.size(); ++i) {
       if (!point(touched_[i]).corner) continue;
