@@ -9,6 +9,7 @@
 #include <benchmark/benchmark.h>
 
 #include "core/horizon/horizon.h"
+#include "core/horizon/horizon_kinetic.h"
 #include "core/io/dem_reader.h"
 #include "core/terrain/terrain.h"
 #include "tests/support/terrains.h"
@@ -65,6 +66,45 @@ void FindHorizonOf(benchmark::State& state, const std::filesystem::path& path) {
   MeasureHorizon(state, *dem, 1);
 }
 
+// Counters: the events of the kinetic engine, to be held against chapter 4 of [Archambault03].
+void FindHorizonKineticOf(benchmark::State& state, const std::filesystem::path& path) {
+  Result<Dem> dem = ReadDem(path, {});
+  if (!dem) {
+    state.SkipWithError(dem.error().message.c_str());
+    return;
+  }
+  Result<Terrain> terrain = Terrain::Build(*dem);
+  if (!terrain) {
+    state.SkipWithError(terrain.error().message.c_str());
+    return;
+  }
+  EventCounts events;
+  for (auto _ : state) {
+    Result<KineticHorizon> horizon = FindHorizonKinetic(*terrain, {});
+    if (!horizon) {
+      state.SkipWithError(horizon.error().message.c_str());
+      return;
+    }
+    events = horizon->events;
+  }
+  const auto count = [&state](const char* name, std::int64_t value) {
+    state.counters[name] = static_cast<double>(value);
+  };
+  count("peak", events.peak);
+  count("regular", events.regular);
+  count("saddle", events.saddle);
+  count("minimum", events.minimum);
+  count("merge", events.merge);
+  count("hull", events.hull);
+  count("inside", events.inside);
+  count("two_active", events.by_kind[0]);
+  count("active_inactive", events.by_kind[1]);
+  count("active_hull", events.by_kind[2]);
+  count("inactive_hull", events.by_kind[3]);
+  count("clusters_max", events.clusters_max);
+  count("queue_max", events.queue_max);
+}
+
 // Nothing is registered where the folder is absent.
 void RegisterRealDems() {
   std::vector<std::filesystem::path> paths;
@@ -76,6 +116,10 @@ void RegisterRealDems() {
   for (const std::filesystem::path& path : paths) {
     benchmark::RegisterBenchmark(("FindHorizonOf/" + path.stem().string()).c_str(), FindHorizonOf,
                                  path)
+        ->UseRealTime()
+        ->Unit(benchmark::kMillisecond);
+    benchmark::RegisterBenchmark(("FindHorizonKineticOf/" + path.stem().string()).c_str(),
+                                 FindHorizonKineticOf, path)
         ->UseRealTime()
         ->Unit(benchmark::kMillisecond);
   }
