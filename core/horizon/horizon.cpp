@@ -72,10 +72,11 @@ class Decider {
   [[nodiscard]] std::vector<HorizonEdge> Edges() const {
     std::vector<HorizonEdge> edges;
     for (std::size_t i = 0; i < candidates_.size(); ++i) {
+      const std::optional<Witness>& witness = witnesses_[i];
       if (decided_[i] == 0) {
         edges.push_back({candidates_[i].edge, {}, true});
-      } else if (witnesses_[i]) {
-        edges.push_back({candidates_[i].edge, *witnesses_[i]});
+      } else if (witness) {
+        edges.push_back({candidates_[i].edge, *witness});
       }
     }
     return edges;

@@ -135,6 +135,13 @@ class SightSearch {
   ShortSightSample short_sample_;
 };
 
+// Whether the decisions are past those that the limit allows; it is told so.
+bool IsReached(SightLimit* limit, const PredicateCounts* counts, std::int64_t most) {
+  if (limit == nullptr || counts->Sum() < most) return false;
+  limit->reached = true;
+  return true;
+}
+
 }  // namespace
 
 struct Skyline::Index {
@@ -162,11 +169,7 @@ std::optional<Witness> Skyline::FindSight(const Segment& segment, Ties ties,
   int sights = 0;
   Check(limit == nullptr || counts != nullptr, "what is limited is counted");
   const std::int64_t most = limit != nullptr ? counts->Sum() + limit->decisions : 0;
-  while (!open.empty() && sights < kMostSights) {
-    if (limit != nullptr && counts->Sum() >= most) {
-      limit->reached = true;
-      break;
-    }
+  while (!open.empty() && sights < kMostSights && !IsReached(limit, counts, most)) {
     // One sight is looked for in depth, a simpler one everywhere.
     const HiddenRange gap = best ? open.front() : open.back();
     best ? open.pop_front() : open.pop_back();

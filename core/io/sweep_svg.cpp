@@ -123,8 +123,10 @@ std::string Legend(const Drawing& drawing, const std::string& title,
 std::string DrawSweep(const SweepTrace& trace, const std::string& title) {
   const Drawing drawing(trace);
   std::vector<std::string> contours;
+  contours.reserve(trace.contours.size());
   for (const auto& contour : trace.contours) contours.push_back(drawing.Path(contour, false));
   std::vector<std::string> hulls;
+  hulls.reserve(trace.hulls.size());
   for (const auto& hull : trace.hulls) hulls.push_back(drawing.Path(hull, true));
   std::array<std::string, 2> bitangents;  // inactive, active: one path each, they are many
   std::array<std::size_t, 2> counts{};

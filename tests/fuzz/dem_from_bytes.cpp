@@ -82,7 +82,8 @@ void LayRectangle(Dem& dem, Reader& reader) {
   const std::int32_t r1 = std::min(r0 + size / 16 % dem.rows, dem.rows - 1);
   for (std::int32_t r = r0; r <= r1; ++r) {
     for (std::int32_t c = c0; c <= c1; ++c) {
-      std::int32_t& h = dem.heights[static_cast<std::size_t>(r * dem.columns + c)];
+      const VertexId v = r * dem.columns + c;
+      std::int32_t& h = dem.heights[static_cast<std::size_t>(v)];
       if (what % 4 == 0) h = height;
       if (what % 4 == 1) h = height + (what / 4 % 8 - 3) * (c - c0) + (what / 32 - 3) * (r - r0);
       if (what % 4 == 2 && h != kNoHeight) h = Clamped(h + (std::int64_t{height} << (what / 8)));

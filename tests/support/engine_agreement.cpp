@@ -99,13 +99,12 @@ std::string OffenceOn(const Terrain& terrain, const Engines& engines) {
   }
   if (terrain.post_count() <= engines.posts_by_definition) {
     const Answer definition{HorizonByBruteForce(terrain), {}};
-    const std::string offence =
+    std::string offence =
         Difference("the adaptive engine", adaptive, "the definition", definition) +
         Difference("the kinetic engine", kinetic, "the definition", definition);
     if (!offence.empty()) return offence;
   }
-  const std::string offence =
-      Difference("the adaptive engine", adaptive, "the kinetic engine", kinetic);
+  std::string offence = Difference("the adaptive engine", adaptive, "the kinetic engine", kinetic);
   if (!offence.empty() || !adaptive.edges) return offence;
   return ApproximateOffence(terrain, *adaptive.edges, engines);
 }

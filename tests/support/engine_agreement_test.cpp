@@ -25,7 +25,7 @@ Engines WithAdaptive(const std::function<void(Horizon&)>& change) {
   return engines;
 }
 
-Engines WithKinetic(Result<KineticHorizon> answer) {
+Engines WithKinetic(const Result<KineticHorizon>& answer) {
   Engines engines;
   engines.kinetic = [answer](const Terrain&) { return answer; };
   return engines;

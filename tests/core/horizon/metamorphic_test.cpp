@@ -63,7 +63,8 @@ Dem WithoutHoles(Dem dem) {
 }
 
 std::int32_t HeightAt(const Dem& dem, std::int32_t c, std::int32_t r) {
-  return dem.heights[static_cast<std::size_t>(r * dem.columns + c)];
+  const VertexId v = r * dem.columns + c;
+  return dem.heights[static_cast<std::size_t>(v)];
 }
 
 // The sixth turns and their mirror images take the triangulated grid to itself, but a cell that lost a post

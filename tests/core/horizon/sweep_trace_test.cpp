@@ -67,38 +67,51 @@ TEST(TraceSweep, SeesTwoSummitsAsTwoHullsWithFourBitangentsAllActive) {
   EXPECT_EQ((*TraceSweep(terrain, 9, {})).hulls.size(), 1U);
 }
 
+constexpr double kRounded = 1e-6;
+
+bool IsConvex(const std::vector<PlanPoint>& hull) {
+  for (std::size_t i = 0; i + 2 < hull.size(); ++i) {
+    if (Turn(hull[i], hull[i + 1], hull[i + 2]) <= -kRounded) return false;
+  }
+  return true;
+}
+
+bool IsIn(const std::vector<PlanPoint>& hull, PlanPoint p) {
+  for (std::size_t i = 0; i < hull.size(); ++i) {
+    if (Turn(hull[i], hull[(i + 1) % hull.size()], p) < -kRounded) return false;
+  }
+  return hull.size() > 2 || std::hypot(hull[0].x - p.x, hull[0].y - p.y) < 2;
+}
+
+/// The posts of the terrain, the highest first.
+std::vector<VertexId> ByHeight(const Terrain& terrain) {
+  std::vector<VertexId> posts;
+  for (VertexId v = 0; v < terrain.post_count(); ++v) {
+    if (terrain.IsVertex(v)) posts.push_back(v);
+  }
+  std::sort(posts.begin(), posts.end(),
+            [&terrain](VertexId a, VertexId b) { return terrain.Point(a).z > terrain.Point(b).z; });
+  return posts;
+}
+
 TEST(TraceSweep, KeepsHullsConvexAndRoundAllGroundAboveTheLevel) {
   std::mt19937 random(1);
   for (int round = 0; round < Rounds(60); ++round) {
     const Dem dem = AnyLandscape(9, 24, random);
     Result<Terrain> terrain = Terrain::Build(dem);
     if (!terrain) continue;
-    std::vector<std::int32_t> heights;
-    for (VertexId v = 0; v < terrain->post_count(); ++v) {
-      if (terrain->IsVertex(v)) heights.push_back(terrain->Point(v).z);
-    }
-    std::sort(heights.begin(), heights.end());
-    const std::int32_t level = heights[heights.size() / 2];
-    if (level == heights.front()) continue;
+    const std::vector<VertexId> posts = ByHeight(*terrain);
+    const std::int32_t level = terrain->Point(posts[posts.size() / 2]).z;
     const SweepTrace trace = *TraceSweep(*terrain, level, {});
     const std::size_t m = trace.hulls.size();
     EXPECT_EQ(trace.bitangents.size(), m * (m - 1) / 2 * 4);
-    constexpr double kRounded = 1e-6;
-    for (const auto& hull : trace.hulls) {
-      for (std::size_t i = 0; i + 2 < hull.size(); ++i) {
-        EXPECT_GT(Turn(hull[i], hull[i + 1], hull[i + 2]), -kRounded);
-      }
-    }
-    for (VertexId v = 0; v < terrain->post_count(); ++v) {
-      if (!terrain->IsVertex(v) || terrain->Point(v).z < level) continue;
+    EXPECT_TRUE(std::all_of(trace.hulls.begin(), trace.hulls.end(), IsConvex)) << DrawAscii(dem);
+    for (const VertexId v : posts) {
+      if (terrain->Point(v).z < level) break;
       const PlanPoint p{static_cast<double>(dem.Column(v)), static_cast<double>(dem.Row(v))};
-      const bool inside = std::any_of(trace.hulls.begin(), trace.hulls.end(), [&](const auto& h) {
-        for (std::size_t i = 0; i < h.size(); ++i) {
-          if (Turn(h[i], h[(i + 1) % h.size()], p) < -kRounded) return false;
-        }
-        return h.size() > 2 || std::hypot(h[0].x - p.x, h[0].y - p.y) < 2;
-      });
-      EXPECT_TRUE(inside) << DrawAscii(dem) << "level " << level << " post " << v;
+      EXPECT_TRUE(std::any_of(trace.hulls.begin(), trace.hulls.end(),
+                              [p](const auto& hull) { return IsIn(hull, p); }))
+          << DrawAscii(dem) << "level " << level << " post " << v;
     }
   }
 }
