@@ -69,17 +69,19 @@ class Decider {
     return static_cast<std::int64_t>(undecided_.size());
   }
 
-  [[nodiscard]] std::vector<HorizonEdge> Edges() const {
-    std::vector<HorizonEdge> edges;
+  /// The edges, and the screens of each.
+  void AppendEdges(Horizon& horizon) const {
     for (std::size_t i = 0; i < candidates_.size(); ++i) {
       const std::optional<Witness>& witness = witnesses_[i];
-      if (decided_[i] == 0) {
-        edges.push_back({candidates_[i].edge, {}, true});
-      } else if (witness) {
-        edges.push_back({candidates_[i].edge, *witness});
+      const bool undecided = decided_[i] == 0;
+      if (!undecided && !witness) continue;
+      const Candidate& c = candidates_[i];
+      horizon.edges.push_back({c.edge, undecided ? Witness{} : witness.value(), undecided});
+      for (const Segment& screen : screens_.subspan(c.first_screen, c.screen_count)) {
+        horizon.screens.push_back(screen);
       }
+      horizon.screen_ends.push_back(horizon.screens.size());
     }
-    return edges;
   }
 
  private:
@@ -257,7 +259,7 @@ Result<Horizon> FindHorizon(const Terrain& terrain, const HorizonOptions& option
   }
   if (!goes_on) return Error{ErrorCode::kCancelled, "stopped while deciding horizon edges"};
   horizon.statistics.undecided = decider.undecided();
-  horizon.edges = decider.Edges();
+  decider.AppendEdges(horizon);
   Check(!kinetic || horizon.edges.size() == sweep->candidates.size(),
         "every edge of the kinetic engine has a line of sight");
   for (const HorizonEdge& e : horizon.edges) {

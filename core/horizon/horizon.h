@@ -57,6 +57,10 @@ class HullForest {
 
 struct Horizon {
   std::vector<HorizonEdge> edges;  ///< by rising (a, b)
+  /// For the edge i those from screen_ends[i - 1] (0 for the first) up to screen_ends[i]: segments that
+  /// do not rise above the skyline and hide much of what the edge cannot see. They only save time.
+  std::vector<Segment> screens;
+  std::vector<std::size_t> screen_ends;
   HorizonStatistics statistics;
   HullForest hulls;
 };

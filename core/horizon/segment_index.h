@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -26,6 +27,13 @@ class SegmentIndex {
     std::int32_t max_y;
     std::int32_t top;         ///< greatest height below
     std::int32_t first = -1;  ///< items of this node itself
+
+    /// Of the box from a point of the plan.
+    [[nodiscard]] double SquaredDistance(double x, double y) const {
+      const double dx = std::max({min_x - x, 0.0, x - max_x});
+      const double dy = std::max({min_y - y, 0.0, y - max_y});
+      return dx * dx + dy * dy;
+    }
   };
 
   SegmentIndex(std::int32_t columns, std::int32_t rows);

@@ -15,21 +15,6 @@
 namespace farhorizon {
 namespace {
 
-MovingVector ToPoint(const Sighted& e, const Point3i& v) {
-  return {v.x - e.low.x, v.y - e.low.y, e.low.x - e.high.x, e.low.y - e.high.y};
-}
-
-// Towards the point of low -> high at the height of e(t), times the rise of low -> high.
-MovingVector ToSlice(const Sighted& e, const Point3i& low, const Point3i& high) {
-  const std::int64_t rise = std::int64_t{high.z} - low.z;
-  const std::int64_t below = std::int64_t{e.low.z} - low.z;
-  const std::int64_t climb = std::int64_t{e.high.z} - e.low.z;
-  const std::int64_t run_x = high.x - low.x;
-  const std::int64_t run_y = high.y - low.y;
-  return {(low.x - e.low.x) * rise + run_x * below, (low.y - e.low.y) * rise + run_y * below,
-          (e.low.x - e.high.x) * rise + run_x * climb, (e.low.y - e.high.y) * rise + run_y * climb};
-}
-
 // The key of direction.h in plain floating point, for pruning.
 double Key(double x, double y) {
   if (y < 0 || (y == 0 && x < 0)) {
@@ -45,13 +30,21 @@ bool IsNear(double x, double y) {
   return std::max(std::abs(x), std::abs(y)) < kNear;
 }
 
-double SquaredDistance(const SegmentIndex::Node& node, double x, double y) {
-  const double dx = std::max({node.min_x - x, 0.0, x - node.max_x});
-  const double dy = std::max({node.min_y - y, 0.0, y - node.max_y});
-  return dx * dx + dy * dy;
+}  // namespace
+
+MovingVector ToPoint(const Sighted& e, const Point3i& v) {
+  return {v.x - e.low.x, v.y - e.low.y, e.low.x - e.high.x, e.low.y - e.high.y};
 }
 
-}  // namespace
+MovingVector ToSlice(const Sighted& e, const Point3i& low, const Point3i& high) {
+  const std::int64_t rise = std::int64_t{high.z} - low.z;
+  const std::int64_t below = std::int64_t{e.low.z} - low.z;
+  const std::int64_t climb = std::int64_t{e.high.z} - e.low.z;
+  const std::int64_t run_x = high.x - low.x;
+  const std::int64_t run_y = high.y - low.y;
+  return {(low.x - e.low.x) * rise + run_x * below, (low.y - e.low.y) * rise + run_y * below,
+          (e.low.x - e.high.x) * rise + run_x * climb, (e.low.y - e.high.y) * rise + run_y * climb};
+}
 
 Quadratic Cross(const MovingVector& a, const MovingVector& b) {
   return {Int128{a.ax} * b.ay - Int128{a.ay} * b.ax,
@@ -112,7 +105,7 @@ SightOutcome BasicSightSample<Int>::Look(const BasicDyadic<Int>& t,
       if (!index_.Exists(below)) continue;
       const SegmentIndex::Node& node_below = index_.At(below);
       if (node_below.top < least_top_) continue;
-      stack[depth++] = {below, SquaredDistance(node_below, x_, y_)};
+      stack[depth++] = {below, node_below.SquaredDistance(x_, y_)};
     }
     // The nearest child last, so that it is the next.
     std::sort(stack.begin() + static_cast<std::ptrdiff_t>(base),

@@ -36,7 +36,14 @@ struct MovingVector {
     return {(Int{ax} << t.k) + Int{bx} * t.n, (Int{ay} << t.k) + Int{by} * t.n};
   }
   [[nodiscard]] bool IsZero() const { return ax == 0 && ay == 0 && bx == 0 && by == 0; }
+  friend bool operator==(const MovingVector&, const MovingVector&) = default;
 };
+
+/// From the point of the segment at t to `v`.
+MovingVector ToPoint(const Sighted& e, const Point3i& v);
+/// From there to the point of low -> high at the height of the segment's point, times the rise of
+/// low -> high. Requires: low.z < high.z.
+MovingVector ToSlice(const Sighted& e, const Point3i& low, const Point3i& high);
 
 /// Cross and dot product of two moving vectors.
 Quadratic Cross(const MovingVector& a, const MovingVector& b);

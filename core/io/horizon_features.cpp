@@ -16,6 +16,8 @@ namespace {
 // A tenth of a millimetre on the ground, and in height.
 constexpr int kDegreeDecimals = 9;
 constexpr int kMetreDecimals = 4;
+// Shares of a half turn, and measures of the lines that see an edge.
+constexpr int kMeasureDecimals = 9;
 
 // The shortest text of `value` rounded to `decimals`.
 std::string Rounded(double value, int decimals) {
@@ -63,6 +65,11 @@ std::string FeatureText(const HorizonFeature& feature) {
   if (feature.undecided) {
     text += R"(,"undecided":true)";
   } else {
+    text += R"(,"azimuths":)" + IntervalsText(feature.azimuths, kAzimuthDecimals);
+    text += R"(,"spans":)" + IntervalsText(feature.spans, kSpanDecimals);
+    text += R"(,"angular_share":)" + Rounded(feature.angular_share, kMeasureDecimals);
+    text += R"(,"line_measure_m":)" + Rounded(feature.line_measure_m, kMeasureDecimals);
+    text += R"(,"prominence_m":)" + Rounded(feature.prominence_m, kMetreDecimals);
     text += R"(,"witness":{"t":)" + Exact(feature.witness.t);
     text += R"(,"direction":)" + Pair(feature.witness.dc, feature.witness.dr) + "}";
   }
@@ -86,6 +93,11 @@ HorizonFeature ReadFeature(const Json& feature) {
   result.to = ReadPosition(line.at(1));
   result.undecided = properties.value("undecided", false);
   if (!result.undecided) {
+    result.azimuths = properties.at("azimuths").get<std::vector<std::array<double, 2>>>();
+    result.spans = properties.at("spans").get<std::vector<std::array<double, 2>>>();
+    result.angular_share = properties.at("angular_share").get<double>();
+    result.line_measure_m = properties.at("line_measure_m").get<double>();
+    result.prominence_m = properties.at("prominence_m").get<double>();
     const Json& witness = properties.at("witness");
     result.witness.t = witness.at("t").get<double>();
     const auto direction = witness.at("direction").get<std::array<std::int64_t, 2>>();
@@ -103,6 +115,15 @@ Error BadGeoJson(const std::string& message) {
 }
 
 }  // namespace
+
+std::string IntervalsText(const std::vector<std::array<double, 2>>& intervals, int decimals) {
+  std::string text(1, '[');
+  for (const auto& [from, to] : intervals) {
+    if (text.size() > 1) text += ',';
+    text += Bracketed({Rounded(from, decimals), Rounded(to, decimals)});
+  }
+  return text += ']';
+}
 
 std::string WriteHorizonGeoJson(const std::vector<HorizonFeature>& features) {
   const auto undecided = std::count_if(features.begin(), features.end(),

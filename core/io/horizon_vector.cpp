@@ -27,7 +27,10 @@ constexpr std::pair<const char*, OGRFieldType> kFields[] = {
     {"a_column", OFTInteger},         {"a_row", OFTInteger},
     {"b_column", OFTInteger},         {"b_row", OFTInteger},
     {"witness_t", OFTReal},           {"direction_columns", OFTInteger64},
-    {"direction_rows", OFTInteger64}, {"level_kept", OFTInteger}};
+    {"direction_rows", OFTInteger64}, {"level_kept", OFTInteger},
+    {"azimuths", OFTString},          {"spans", OFTString},
+    {"angular_share", OFTReal},       {"line_measure_m", OFTReal},
+    {"prominence_m", OFTReal}};
 
 bool AddFields(OGRLayerH layer) {
   for (const auto& [name, type] : kFields) {
@@ -47,6 +50,10 @@ bool AddFeature(OGRLayerH layer, const HorizonFeature& edge) {
     OGR_F_SetFieldDouble(feature.get(), 4, edge.witness.t);
     OGR_F_SetFieldInteger64(feature.get(), 5, edge.witness.dc);
     OGR_F_SetFieldInteger64(feature.get(), 6, edge.witness.dr);
+    OGR_F_SetFieldString(feature.get(), 8, IntervalsText(edge.azimuths, kAzimuthDecimals).c_str());
+    OGR_F_SetFieldString(feature.get(), 9, IntervalsText(edge.spans, kSpanDecimals).c_str());
+    const double weights[] = {edge.angular_share, edge.line_measure_m, edge.prominence_m};
+    for (int i = 0; i < 3; ++i) OGR_F_SetFieldDouble(feature.get(), 10 + i, weights[i]);
   }
   if (edge.level_kept) OGR_F_SetFieldInteger(feature.get(), 7, *edge.level_kept);
   const OGRGeometryH line = OGR_G_CreateGeometry(wkbLineString25D);

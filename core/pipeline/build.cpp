@@ -120,8 +120,9 @@ Status WriteTilesetFor(const Source& source, const std::vector<LevelReport>& lev
 
 Status WriteFeatures(const Source& source, const Horizon& horizon,
                      const std::vector<int>& level_kept, const BuildOptions& options,
-                     ArtifactWriter& writer) {
-  Result<std::vector<HorizonFeature>> features = source.Features(horizon, level_kept);
+                     const Watch& watch, ArtifactWriter& writer) {
+  Result<std::vector<HorizonFeature>> features =
+      source.Features(horizon, level_kept, options.threads, watch);
   if (!features) return std::move(features.error());
   if (Asks(options, "geojson")) {
     Status added = writer.Add("horizon.geojson", WriteHorizonGeoJson(*features));
@@ -209,7 +210,7 @@ Status BuildArtifacts(const fs::path& dem, const fs::path& directory, const Buil
   }
   watch.Report("write", 0);
   Status features =
-      WriteFeatures(**source, *horizon, LevelsKept(*horizon, *chain), options, writer);
+      WriteFeatures(**source, *horizon, LevelsKept(*horizon, *chain), options, watch, writer);
   if (!features) return features;
   const Report report{Version(), (*source)->report(),
                       static_cast<std::int64_t>(horizon->edges.size()), horizon->statistics,

@@ -26,7 +26,8 @@ Status WriteHorizonEdges(const std::filesystem::path& dem, const std::filesystem
                                          .approximate = options.approximate},
                                         watch);
   if (!horizon) return std::move(horizon.error());
-  Result<std::vector<HorizonFeature>> features = (*source)->Features(*horizon, {});
+  Result<std::vector<HorizonFeature>> features =
+      (*source)->Features(*horizon, {}, options.threads, watch);
   if (!features) return std::move(features.error());
   if (ending == ".geojson") return WriteFile(out, WriteHorizonGeoJson(*features));
   return WriteHorizonVector(*features, out);

@@ -89,4 +89,37 @@ Result<std::vector<GridPoint>> Placement::ToGrid(const std::vector<Enu>& points)
   return grid;
 }
 
+Result<std::vector<GroundStep>> Placement::StepsAt(
+    const std::vector<std::array<double, 2>>& points) const {
+  // The point itself, and half a step to each side of it.
+  constexpr std::size_t kEach = 5;
+  std::vector<MapPoint> around;
+  around.reserve(points.size() * kEach);
+  for (const auto& [column, row] : points) {
+    around.push_back(MapPointAt(*dem_, column, row, 0));
+    around.push_back(MapPointAt(*dem_, column - 0.5, row, 0));
+    around.push_back(MapPointAt(*dem_, column + 0.5, row, 0));
+    around.push_back(MapPointAt(*dem_, column, row - 0.5, 0));
+    around.push_back(MapPointAt(*dem_, column, row + 0.5, 0));
+  }
+  Result<std::vector<Geodetic>> geodetic = transform_.ToGeodetic(around);
+  if (!geodetic) return std::move(geodetic.error());
+  for (Geodetic& g : *geodetic) g.height_m = 0;
+  Result<std::vector<Ecef>> ecef = transform_.ToEcef(*geodetic);
+  if (!ecef) return std::move(ecef.error());
+  std::vector<GroundStep> steps;
+  steps.reserve(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const std::size_t at = i * kEach;
+    const TangentFrame here((*geodetic)[at], (*ecef)[at]);
+    const Enu west = here.ToEnu((*ecef)[at + 1]);
+    const Enu east = here.ToEnu((*ecef)[at + 2]);
+    const Enu north = here.ToEnu((*ecef)[at + 3]);
+    const Enu south = here.ToEnu((*ecef)[at + 4]);
+    steps.push_back({east.east - west.east, east.north - west.north, south.east - north.east,
+                     south.north - north.north});
+  }
+  return steps;
+}
+
 }  // namespace farhorizon

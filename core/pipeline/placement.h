@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "core/base/result.h"
@@ -10,6 +11,15 @@
 #include "core/terrain/terrain.h"
 
 namespace farhorizon {
+
+/// What a step of one column and of one row is on the ground, in the directions of true east and north at
+/// one place; metres, along the ellipsoid.
+struct GroundStep {
+  double column_east_m = 0;
+  double column_north_m = 0;
+  double row_east_m = 0;
+  double row_north_m = 0;
+};
 
 /// Where a DEM stands on the globe: the way of its posts to the local frame, each through PROJ, and the
 /// way of a decoded mesh back to the grid.
@@ -30,6 +40,9 @@ class Placement {
   [[nodiscard]] Result<std::vector<Enu>> ToEnu(const std::vector<Geodetic>& points) const;
   [[nodiscard]] Result<std::vector<Enu>> ToEnu(const std::vector<VertexId>& posts) const;
   [[nodiscard]] Result<std::vector<GridPoint>> ToGrid(const std::vector<Enu>& points) const;
+  /// At points given as [column, row], which may lie between posts.
+  [[nodiscard]] Result<std::vector<GroundStep>> StepsAt(
+      const std::vector<std::array<double, 2>>& points) const;
 
  private:
   Placement(const Dem& dem, GlobeTransform transform, TangentFrame frame);

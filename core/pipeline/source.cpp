@@ -6,6 +6,7 @@
 
 #include "core/io/dem_reader.h"
 #include "core/io/files.h"
+#include "core/pipeline/edge_view.h"
 
 namespace farhorizon {
 namespace {
@@ -88,7 +89,8 @@ Result<BoundingRegion> Source::Region() const {
 }
 
 Result<std::vector<HorizonFeature>> Source::Features(const Horizon& horizon,
-                                                     const std::vector<int>& level_kept) const {
+                                                     const std::vector<int>& level_kept,
+                                                     int threads, const Watch& watch) const {
   std::vector<VertexId> ends;
   for (const HorizonEdge& e : horizon.edges) {
     ends.push_back(e.edge.a);
@@ -96,6 +98,8 @@ Result<std::vector<HorizonFeature>> Source::Features(const Horizon& horizon,
   }
   Result<std::vector<Geodetic>> points = placement_->ToGeodetic(ends);
   if (!points) return std::move(points.error());
+  Result<std::vector<EdgeView>> views = FindViews(*terrain_, horizon, *placement_, threads, watch);
+  if (!views) return std::move(views.error());
   std::vector<HorizonFeature> features;
   for (std::size_t i = 0; i < horizon.edges.size(); ++i) {
     const HorizonEdge& e = horizon.edges[i];
@@ -104,10 +108,16 @@ Result<std::vector<HorizonFeature>> Source::Features(const Horizon& horizon,
     feature.b = {dem_.Column(e.edge.b), dem_.Row(e.edge.b)};
     feature.from = (*points)[2 * i];
     feature.to = (*points)[2 * i + 1];
+    EdgeView& view = (*views)[i];
+    feature.azimuths = std::move(view.azimuths);
+    feature.spans = std::move(view.spans);
+    feature.angular_share = view.angular_share;
+    feature.line_measure_m = view.line_measure_m;
+    feature.prominence_m = view.prominence_m;
     feature.witness = e.witness;
     feature.undecided = e.undecided;
     if (i < level_kept.size() && level_kept[i] >= 0) feature.level_kept = level_kept[i];
-    features.push_back(feature);
+    features.push_back(std::move(feature));
   }
   return features;
 }

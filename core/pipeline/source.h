@@ -34,8 +34,9 @@ class Source {
 
   /// The horizon edges as they are published. level_kept: for each edge the coarsest level that has it,
   /// -1 for none; empty where no levels were built.
-  [[nodiscard]] Result<std::vector<HorizonFeature>> Features(
-      const Horizon& horizon, const std::vector<int>& level_kept) const;
+  [[nodiscard]] Result<std::vector<HorizonFeature>> Features(const Horizon& horizon,
+                                                             const std::vector<int>& level_kept,
+                                                             int threads, const Watch& watch) const;
 
  private:
   Source() = default;

@@ -16,6 +16,7 @@
 #include "core/pipeline/report.h"
 #include "core/pipeline/source.h"
 #include "core/pipeline/verify_level.h"
+#include "core/pipeline/verify_sights.h"
 
 namespace farhorizon {
 namespace {
@@ -254,6 +255,8 @@ Result<std::vector<ClaimCheck>> VerifyArtifacts(const fs::path& dem, const fs::p
     VerifySet(published->edges, *horizon, claims);
     claims.Same("horizon.geojson edges that are undecided", report->statistics.undecided,
                 published->undecided);
+    Status sights = VerifySights(**source, *horizon, *features, options.threads, watch, claims);
+    if (!sights) return std::move(sights.error());
   }
   Result<PostNormals> normals = FindPostNormals((*source)->terrain(), (*source)->placement());
   if (!normals) return std::move(normals.error());

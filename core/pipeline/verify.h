@@ -17,7 +17,7 @@ struct ClaimCheck {
 };
 
 /// Measures every claim that `directory` makes about `dem` again, from the files alone: hashes, counts,
-/// the set of horizon edges, each witness, both errors of each level on its decoded mesh, the tileset.
+/// the set of horizon edges, each witness, azimuths, spans and weights, both errors of each level on its decoded mesh, the tileset.
 /// options: crs, vertical_datum and nodata as they were given to the build; threads.
 /// Errors: where a file is missing or cannot be read at all.
 Result<std::vector<ClaimCheck>> VerifyArtifacts(const std::filesystem::path& dem,

@@ -22,6 +22,11 @@ HorizonFeature Feature() {
   feature.b = {4, 5};
   feature.from = {-84.25, 36.5000000004, 1076};
   feature.to = {-84.1234567891, 36.49, 1075.12349};
+  feature.azimuths = {{12.5, 13}, {170.25, 190.125}};
+  feature.spans = {{0, 0.25}, {0.5, 1}};
+  feature.angular_share = 0.125;
+  feature.line_measure_m = 3.5;
+  feature.prominence_m = 1.25;
   feature.witness.t = 0.1 + 0.2;
   feature.witness.dc = -7;
   feature.witness.dr = 2;
@@ -52,7 +57,9 @@ TEST(HorizonGeoJson, IsTheTextThatTheContractShows) {
             "{\"type\":\"FeatureCollection\",\"features\":[\n"
             "{\"type\":\"Feature\",\"geometry\":{\"type\":\"LineString\",\"coordinates\":"
             "[[-84.25,36.5,1076],[-84.123456789,36.49,1075.1235]]},\"properties\":{\"a\":[3,4],"
-            "\"b\":[4,5],\"witness\":{\"t\":0.5,\"direction\":[-7,2]},\"level_kept\":2}}\n]}\n");
+            "\"b\":[4,5],\"azimuths\":[[12.5,13],[170.25,190.125]],\"spans\":[[0,0.25],[0.5,1]],"
+            "\"angular_share\":0.125,\"line_measure_m\":3.5,\"prominence_m\":1.25,"
+            "\"witness\":{\"t\":0.5,\"direction\":[-7,2]},\"level_kept\":2}}\n]}\n");
 }
 
 TEST(HorizonGeoJson, ReadsBackWhatItWrote) {
@@ -69,6 +76,11 @@ TEST(HorizonGeoJson, ReadsBackWhatItWrote) {
     EXPECT_NEAR(f.from.lat_deg, features[i].from.lat_deg, 0.5e-9);
     EXPECT_NEAR(f.to.lon_deg, features[i].to.lon_deg, 0.5e-9);
     EXPECT_NEAR(f.to.height_m, features[i].to.height_m, 0.5e-4);
+    EXPECT_EQ(f.azimuths, features[i].azimuths);
+    EXPECT_EQ(f.spans, features[i].spans);
+    EXPECT_EQ(f.angular_share, features[i].angular_share);
+    EXPECT_EQ(f.line_measure_m, features[i].line_measure_m);
+    EXPECT_EQ(f.prominence_m, features[i].prominence_m);
     EXPECT_EQ(f.witness.t, features[i].witness.t);
     EXPECT_EQ(f.witness.dc, features[i].witness.dc);
     EXPECT_EQ(f.witness.dr, features[i].witness.dr);
@@ -112,6 +124,11 @@ TEST(HorizonVector, ReadsBackThroughOgrWithAllItsFields) {
       EXPECT_EQ(OGR_F_GetFieldAsInteger(f, OGR_F_GetFieldIndex(f, "a_row")), 4);
       EXPECT_EQ(OGR_F_GetFieldAsInteger(f, OGR_F_GetFieldIndex(f, "direction_columns")), -7);
       EXPECT_EQ(OGR_F_GetFieldAsDouble(f, OGR_F_GetFieldIndex(f, "witness_t")), 0.1 + 0.2);
+      EXPECT_STREQ(OGR_F_GetFieldAsString(f, OGR_F_GetFieldIndex(f, "azimuths")),
+                   "[[12.5,13],[170.25,190.125]]");
+      EXPECT_STREQ(OGR_F_GetFieldAsString(f, OGR_F_GetFieldIndex(f, "spans")),
+                   "[[0,0.25],[0.5,1]]");
+      EXPECT_EQ(OGR_F_GetFieldAsDouble(f, OGR_F_GetFieldIndex(f, "line_measure_m")), 3.5);
       with_level += OGR_F_IsFieldSetAndNotNull(f, OGR_F_GetFieldIndex(f, "level_kept"));
       const OGRGeometryH line = OGR_F_GetGeometryRef(f);
       EXPECT_EQ(OGR_G_GetX(line, 0), -84.25);

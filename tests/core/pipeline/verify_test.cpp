@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include "core/io/glb.h"
+#include "core/io/horizon_features.h"
 #include "tests/support/temp_dir.h"
 
 namespace farhorizon {
@@ -75,6 +77,43 @@ class Built : public ::testing::Test {
 using Verify = Built;
 
 TEST_F(Verify, EveryClaimOfABuildHolds) { EXPECT_TRUE(False().empty()) << False().front(); }
+
+TEST_F(Verify, AzimuthsThatAreNotTheEdgesAreFound) {
+  // Every edge's azimuths a quarter turn on.
+  Result<std::vector<HorizonFeature>> features =
+      ReadHorizonGeoJson(SlurpFile(folder_ / "out" / "horizon.geojson"));
+  for (HorizonFeature& f : *features) {
+    for (auto& [from, to] : f.azimuths) {
+      const double turn = from < 90 ? 90 : -90;
+      from += turn;
+      to += turn;
+    }
+    std::sort(f.azimuths.begin(), f.azimuths.end());
+  }
+  SpillFile(folder_ / "out" / "horizon.geojson", WriteHorizonGeoJson(*features));
+  const std::vector<std::string> lines = False();
+  EXPECT_TRUE(Names(lines, "other azimuths, spans or weights"));
+  EXPECT_TRUE(Names(lines, "random lines with their skyline outside an edge's azimuths"));
+  EXPECT_TRUE(Names(lines, "seen from between their azimuths"));
+  EXPECT_TRUE(Names(lines, "not seen from within an azimuth"));
+}
+
+TEST_F(Verify, SpansAndWeightsThatAreNotTheEdgesAreFound) {
+  const auto claim = [&](const std::function<void(HorizonFeature&)>& change) {
+    Result<std::vector<HorizonFeature>> features =
+        ReadHorizonGeoJson(SlurpFile(folder_ / "out" / "horizon.geojson"));
+    std::vector<HorizonFeature> changed = *features;
+    change(changed[changed.size() / 2]);
+    SpillFile(folder_ / "out" / "horizon.geojson", WriteHorizonGeoJson(changed));
+    const bool found = Names(False(), "other azimuths, spans or weights: claimed 0, found 1");
+    SpillFile(folder_ / "out" / "horizon.geojson", WriteHorizonGeoJson(*features));
+    return found;
+  };
+  EXPECT_TRUE(claim([](HorizonFeature& f) { f.spans[0][1] -= 1e-4; }));
+  EXPECT_TRUE(claim([](HorizonFeature& f) { f.line_measure_m *= 1.001; }));
+  EXPECT_TRUE(claim([](HorizonFeature& f) { f.angular_share += 1e-4; }));
+  EXPECT_TRUE(claim([](HorizonFeature& f) { f.prominence_m += 0.01; }));
+}
 
 TEST_F(Verify, ANodeThatPlacesTheMeshElsewhereIsFound) {
   Change("lod0.glb", R"("matrix":[0.)", R"("matrix":[1.)");

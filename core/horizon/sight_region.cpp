@@ -1,0 +1,158 @@
+// The lines of sight of one edge, exactly, as cells of a strip: t runs along the edge, directions turn
+// from the edge's own to its opposite. Two curves that bound what obstacles hide cross at roots of a
+// quadratic, their cross product: between neighbouring roots one order of the curves holds, which a point
+// between them tells. [Archambault05] calls the cells' sides bitangents.
+// Floating point only leaves out obstacles whose shade lies beside every cell by more than its error.
+#include "core/horizon/sight_region.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/horizon/sight_hidden.h"
+
+namespace farhorizon {
+
+SightRegion::SightRegion(const Sighted& edge) : edge_(edge), bounds_(edge) {
+  SightCell all;
+  all.first = SightCurve::Along();
+  all.last = SightCurve::Against();
+  Add(all);
+}
+
+template <std::size_t N>
+bool SightRegion::MayMeet(const std::array<SightBounds::Corner, N>& corners, double top) const {
+  const SightBounds::Shade shade = bounds_.ShadeOf(corners);
+  const double reach = bounds_.Reach(top);
+  for (std::size_t i = 0; i < cells_.size(); ++i) {
+    const SightBounds::Cell& cell = cell_bounds_[i];
+    if (cell.from_t < reach && shade.Meets(cell) &&
+        !bounds_.IsBeside(corners, cells_[i], cell.from_t, std::min(cell.to_t, reach))) {
+      return true;
+    }
+  }
+  return false;
+}
+
+std::optional<std::vector<SightCell>> SightRegion::Rest(const SightCell& cell,
+                                                        const SightCell& hidden) {
+  const PlacedRoot& from = Compare(cell.from, hidden.from) < 0 ? hidden.from : cell.from;
+  const PlacedRoot& to = Compare(cell.to, hidden.to) > 0 ? hidden.to : cell.to;
+  if (Compare(from, to) >= 0 || SurelyInOrder(cell.last, hidden.first, from.lo, to.hi) ||
+      SurelyInOrder(hidden.last, cell.first, from.lo, to.hi)) {
+    return std::nullopt;
+  }
+  std::vector<PlacedRoot> roots;
+  for (const SightCurve& side : {hidden.first, hidden.last}) {
+    AppendCrossings(side, cell.first, from.lo, to.hi, roots);
+    AppendCrossings(side, cell.last, from.lo, to.hi, roots);
+  }
+  const std::vector<PlacedRoot> cuts = Cuts(from, std::move(roots), to);
+  bool changed = false;
+  std::vector<SightCell> rest;
+  CellStrip strip(rest);
+  if (Compare(cell.from, from) < 0) strip.Add(cell.from, from, {{cell.first, cell.last}});
+  for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
+    const TestPoint point = PointBetween(cuts[i], cuts[i + 1]);
+    std::vector<std::pair<SightCurve, SightCurve>> gaps;
+    if (Order(hidden.first, cell.last, point) <= 0 || Order(cell.first, hidden.last, point) <= 0) {
+      gaps.emplace_back(cell.first, cell.last);
+    } else {
+      changed = true;
+      if (Order(cell.first, hidden.first, point) > 0) gaps.emplace_back(cell.first, hidden.first);
+      if (Order(hidden.last, cell.last, point) > 0) gaps.emplace_back(hidden.last, cell.last);
+    }
+    strip.Add(cuts[i], cuts[i + 1], gaps);
+  }
+  if (!changed) return std::nullopt;
+  if (Compare(to, cell.to) < 0) strip.Add(to, cell.to, {{cell.first, cell.last}});
+  return rest;
+}
+
+void SightRegion::Subtract(const SightCell& hidden) {
+  const SightBounds::Cell shade = bounds_.Of(hidden);
+  std::vector<SightCell> made;
+  for (std::size_t i = 0; i < cells_.size();) {
+    if (cell_bounds_[i].from_slope < shade.to_slope &&
+        cell_bounds_[i].to_slope > shade.from_slope) {
+      if (std::optional<std::vector<SightCell>> rest = Rest(cells_[i], hidden)) {
+        made.insert(made.end(), rest->begin(), rest->end());
+        Remove(i);
+        continue;
+      }
+    }
+    ++i;
+  }
+  for (const SightCell& cell : made) Add(cell);
+}
+
+void SightRegion::Remove(std::size_t i) {
+  cells_[i] = cells_.back();
+  cell_bounds_[i] = cell_bounds_.back();
+  cells_.pop_back();
+  cell_bounds_.pop_back();
+}
+
+// Joined with those that it goes on in.
+void SightRegion::Add(SightCell cell) {
+  for (std::size_t i = 0; i < cells_.size();) {
+    const SightCell& other = cells_[i];
+    const bool same = cell.first == other.first && cell.last == other.last;
+    if (same && Compare(other.to, cell.from) == 0) {
+      cell.from = other.from;
+    } else if (same && Compare(cell.to, other.from) == 0) {
+      cell.to = other.to;
+    } else {
+      ++i;
+      continue;
+    }
+    Remove(i);
+  }
+  cell_bounds_.push_back(bounds_.Of(cell));
+  cells_.push_back(std::move(cell));
+}
+
+void SightRegion::Subtract(const SegmentIndex::Item& item) {
+  if (item.high.z <= edge_.low.z) return;
+  const std::array<SightBounds::Corner, 2> ends = {bounds_.CornerAt(item.low.x, item.low.y),
+                                                   bounds_.CornerAt(item.high.x, item.high.y)};
+  if (!MayMeet(ends, item.high.z)) return;
+  for (const SightCell& hidden : CellsHiddenBy(item, edge_)) Subtract(hidden);
+}
+
+void SightRegion::Subtract(const SegmentIndex& index, std::int32_t except) {
+  struct Pending {
+    SegmentIndex::Place place;
+    double distance;
+  };
+  const double x = 0.5 * (edge_.low.x + static_cast<double>(edge_.high.x));
+  const double y = 0.5 * (edge_.low.y + static_cast<double>(edge_.high.y));
+  std::array<Pending, 128> stack;
+  std::size_t depth = 0;
+  stack[depth++] = {index.Root(), 0};
+  while (depth > 0) {
+    const SegmentIndex::Place place = stack[--depth].place;
+    const SegmentIndex::Node& node = index.At(place);
+    if (node.top <= edge_.low.z) continue;
+    const std::array<SightBounds::Corner, 4> box = {
+        bounds_.CornerAt(node.min_x, node.min_y), bounds_.CornerAt(node.max_x, node.min_y),
+        bounds_.CornerAt(node.max_x, node.max_y), bounds_.CornerAt(node.min_x, node.max_y)};
+    if (!MayMeet(box, node.top)) continue;
+    for (std::int32_t id = node.first; id >= 0; id = index.item(id).next) {
+      if (id != except && index.item(id).alive) Subtract(index.item(id));
+    }
+    if (place.level == 0) continue;
+    const std::size_t base = depth;
+    for (std::int32_t child = 0; child < 4; ++child) {
+      const SegmentIndex::Place below{place.level - 1, 2 * place.x + (child & 1),
+                                      2 * place.y + (child >> 1)};
+      if (!index.Exists(below) || index.At(below).top <= edge_.low.z) continue;
+      stack[depth++] = {below, index.At(below).SquaredDistance(x, y)};
+    }
+    // The nearest child last, so that it is the next.
+    std::sort(stack.begin() + static_cast<std::ptrdiff_t>(base),
+              stack.begin() + static_cast<std::ptrdiff_t>(depth),
+              [](const Pending& a, const Pending& b) { return a.distance > b.distance; });
+  }
+}
+
+}  // namespace farhorizon
