@@ -7,20 +7,15 @@
 #include <vector>
 
 namespace farhorizon {
-namespace {
-
-constexpr std::size_t kBatch = 256;  // between two looks at the stop token
-
-}  // namespace
-
-bool ForEachBatch(std::size_t count, int threads, const char* stage, const Watch& watch,
+bool ForEachBatch(std::size_t count, std::size_t size, int threads, const char* stage,
+                  const Watch& watch,
                   const std::function<void(std::size_t, std::size_t, std::size_t)>& work) {
   std::atomic<std::size_t> next{0};
   const auto run = [&](std::size_t thread) {
     while (!watch.StopRequested()) {
-      const std::size_t begin = next.fetch_add(kBatch);
+      const std::size_t begin = next.fetch_add(size);
       if (begin >= count) return;
-      const std::size_t end = std::min(begin + kBatch, count);
+      const std::size_t end = std::min(begin + size, count);
       work(begin, end, thread);
       if (thread == 0) watch.Report(stage, static_cast<double>(end) / static_cast<double>(count));
     }

@@ -23,6 +23,9 @@ class ConvexPolygon {
   static ConvexPolygon HullOf(std::vector<Point2i>& points);
 
   [[nodiscard]] const std::vector<Point2i>& corners() const { return corners_; }
+  /// The corners of its box.
+  [[nodiscard]] Point2i least() const { return least_; }
+  [[nodiscard]] Point2i most() const { return most_; }
   [[nodiscard]] bool Contains(Point2i p) const;
   /// Whether the two have a point in common. Cost: O(n m), after a look at the boxes.
   [[nodiscard]] bool Meets(const ConvexPolygon& other) const;

@@ -47,6 +47,7 @@ Quadratic Negated(const Quadratic& q) { return {-q.c0, -q.c1, -q.c2}; }
 // that the arc was made for.
 template <typename Int, typename Point>
 void KeepHeights(const Sighted& e, const BasicArc<Int>& arc, RangeNarrower<Point>& narrower) {
+  if (arc.obstacle == kFaces) return;
   const Int128 climb = Int128{e.high.z} - e.low.z;
   narrower.Keep({Int128{arc.high_z} - e.low.z, -climb, 0});
   if (arc.sliced) {
@@ -144,13 +145,13 @@ HiddenRange RangeOfCover(const Sighted& sighted, const BasicSightSample<Int>& sa
     const Arc& arc = sample.arcs().front();
     KeepHeights(sighted, arc, narrower);
     if (!arc.from.IsZero()) narrower.Keep(Negated(Dot(arc.from, arc.to)));
-    if (blockers != nullptr && arc.obstacle != kScreen) blockers->push_back(arc.obstacle);
+    if (blockers != nullptr && arc.obstacle >= 0) blockers->push_back(arc.obstacle);
     return narrower.range();
   }
   const std::vector<const Arc*> chain = Thin(sample.arcs(), counts);
   for (const Arc* arc : chain) {
     KeepHeights(sighted, *arc, narrower);
-    if (blockers != nullptr && arc->obstacle != kScreen) blockers->push_back(arc->obstacle);
+    if (blockers != nullptr && arc->obstacle >= 0) blockers->push_back(arc->obstacle);
   }
   KeepChain(chain, narrower);
   return narrower.range();

@@ -19,7 +19,7 @@ struct HiddenRange {
 /// The arcs that `sample` found complete at t are thinned to a chain around the half turn; the
 /// chain holds as long as each arc turns the right way, each begins before the one before it ends,
 /// and each obstacle goes on rising through or above the point: signs of quadratics in t. Exact.
-/// blockers: where not null, the obstacles of the chain, but for screens, are appended.
+/// blockers: where not null, the members among the chain's obstacles are appended.
 template <typename Int>
 HiddenRange RangeOfCover(const Sighted& sighted, const BasicSightSample<Int>& sample,
                          SightOutcome outcome, const BasicDyadic<Int>& at,

@@ -1,25 +1,9 @@
 #pragma once
 
-#include "core/exact/wide.h"
-#include "core/exact/wide_int.h"
-#include "core/horizon/skyline.h"
+#include "core/exact/predicate_counts.h"
+#include "core/horizon/vector.h"
 
 namespace farhorizon {
-
-/// An exact vector in the plan. Everything here is made for three sizes of numbers: 64 bits for most
-/// points, in which components are below 2^62; 128 bits; and wide ones for the few points of great
-/// cliffs that need them.
-template <typename Int>
-struct BasicVector {
-  Int x{};
-  Int y{};
-
-  [[nodiscard]] bool IsZero() const { return SignOf(x) == 0 && SignOf(y) == 0; }
-  BasicVector operator-() const { return {-x, -y}; }
-};
-using ShortVector = BasicVector<std::int64_t>;
-using Vector = BasicVector<Int128>;
-using WideVector = BasicVector<WideInt>;
 
 /// The sign of the cross product: 1 where b is counter-clockwise of a within half a turn.
 int CrossSign(const ShortVector& a, const ShortVector& b);

@@ -1,17 +1,13 @@
 #include "core/horizon/direction_cover.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace farhorizon {
 namespace {
 
-// Positions are good to 1e-10, so from a twentieth of a cell away keys are to 4e-9.
-constexpr double kPruneMargin = 1e-8;
-
-constexpr double kHalfTurn = 2;
-// Keys that only intervals reach which begin at the start, or end at the end, of the half turn.
-constexpr double kBeforeStart = -1;
-constexpr double kPastEnd = 3;
+// Far above what rounding does to products of unit vectors and coordinates, far below a post.
+constexpr double kPruneMargin = 1e-6;
 
 template <typename Int>
 bool IsFirst(const BasicDirection<Int>& d) {
@@ -35,6 +31,7 @@ void BasicDirectionCover<Int>::Add(const Direction& from, const Direction& to, b
     AddInterval(from, to, counts);
   }
   complete_ = intervals_.size() == 1 && IsFirst(intervals_[0].from) && IsLast(intervals_[0].to);
+  FindOpenings();
 }
 
 template <typename Int>
@@ -45,14 +42,12 @@ void BasicDirectionCover<Int>::AddInterval(const Direction& from, const Directio
   while (first < intervals_.size() && CompareAngle(intervals_[first].to, from, counts) < 0) ++first;
   std::size_t last = first;
   while (last < intervals_.size() && CompareAngle(intervals_[last].from, to, counts) <= 0) ++last;
-  Interval merged{from, to, 0, 0};
+  Interval merged{from, to};
   if (first < last) {
     if (CompareAngle(intervals_[first].from, from, counts) < 0)
       merged.from = intervals_[first].from;
     if (CompareAngle(intervals_[last - 1].to, to, counts) > 0) merged.to = intervals_[last - 1].to;
   }
-  merged.from_bound = IsFirst(merged.from) ? kBeforeStart : merged.from.key;
-  merged.to_bound = IsLast(merged.to) ? kPastEnd : merged.to.key;
   const auto at = intervals_.begin() + static_cast<std::ptrdiff_t>(first);
   if (first == last) {
     intervals_.insert(at, merged);
@@ -63,24 +58,55 @@ void BasicDirectionCover<Int>::AddInterval(const Direction& from, const Directio
 }
 
 template <typename Int>
-bool BasicDirectionCover<Int>::SurelyCoversPart(double from_key, double to_key) const {
-  return std::any_of(intervals_.begin(), intervals_.end(), [&](const Interval& interval) {
-    return interval.from_bound <= from_key && to_key <= interval.to_bound;
+typename BasicDirectionCover<Int>::Ray BasicDirectionCover<Int>::RayOf(const Direction& direction) {
+  // The key is 1 - x for the vector of its direction with |x| + |y| = 1, y >= 0.
+  const double x = 1 - direction.key;
+  return {x, 1 - std::abs(x)};
+}
+
+template <typename Int>
+void BasicDirectionCover<Int>::FindOpenings() {
+  openings_.clear();
+  for (std::size_t i = 0; i + 1 < intervals_.size(); ++i) {
+    openings_.push_back({RayOf(intervals_[i].to), RayOf(intervals_[i + 1].from)});
+  }
+  const Interval& last = intervals_.back();
+  if (!IsLast(last.to) || !IsFirst(intervals_.front().from)) {
+    const Ray across = RayOf(intervals_.front().from);
+    openings_.push_back({RayOf(last.to), {-across.x, -across.y}});
+  }
+}
+
+// What is on one side of both lines that bound an opening is seen beside it.
+
+template <typename Int>
+bool BasicDirectionCover<Int>::SurelyHides(const PlanBox& box) const {
+  if (intervals_.empty()) return false;
+  const auto beside = [&box](const Ray& ray) -> int {
+    const double center = ray.x * box.center_y - ray.y * box.center_x;
+    const double reach =
+        std::abs(ray.x) * box.half_height + std::abs(ray.y) * box.half_width + kPruneMargin;
+    return static_cast<int>(center > reach) - static_cast<int>(center < -reach);
+  };
+  return std::all_of(openings_.begin(), openings_.end(), [&beside](const Opening& opening) {
+    const int side = beside(opening.from);
+    return side != 0 && beside(opening.to) == side;
   });
 }
 
 template <typename Int>
-bool BasicDirectionCover<Int>::SurelyCovers(double from_key, double to_key) const {
-  if (complete_) return true;
-  // Widened by the margin, which may take the range across the start.
-  double from = from_key - kPruneMargin;
-  double to = to_key + kPruneMargin;
-  if (from_key <= to_key) {
-    if (from >= 0 && to <= kHalfTurn) return SurelyCoversPart(from, to);
-    if (from < 0) from += kHalfTurn;
-    if (to > kHalfTurn) to -= kHalfTurn;
-  }
-  return to < from && SurelyCoversPart(from, kPastEnd) && SurelyCoversPart(kBeforeStart, to);
+bool BasicDirectionCover<Int>::SurelyHides(const PlanStroke& stroke) const {
+  if (intervals_.empty()) return false;
+  const auto beside = [&stroke](const Ray& ray) -> int {
+    const double from = ray.x * stroke.from_y - ray.y * stroke.from_x;
+    const double to = ray.x * stroke.to_y - ray.y * stroke.to_x;
+    return static_cast<int>(std::min(from, to) > kPruneMargin) -
+           static_cast<int>(std::max(from, to) < -kPruneMargin);
+  };
+  return std::all_of(openings_.begin(), openings_.end(), [&beside](const Opening& opening) {
+    const int side = beside(opening.from);
+    return side != 0 && beside(opening.to) == side;
+  });
 }
 
 template <typename Int>

@@ -7,6 +7,20 @@
 
 namespace farhorizon {
 
+/// A box and a segment of the plan in plain numbers, as seen from the origin.
+struct PlanBox {
+  double center_x;
+  double center_y;
+  double half_width;
+  double half_height;
+};
+struct PlanStroke {
+  double from_x;
+  double from_y;
+  double to_x;
+  double to_y;
+};
+
 /// A growing set of directions of sight: closed arcs, kept apart and in order. Exact.
 template <typename Int>
 class BasicDirectionCover {
@@ -20,10 +34,10 @@ class BasicDirectionCover {
 
   [[nodiscard]] bool IsComplete() const { return complete_; }
 
-  /// True only if every direction whose key is within the range (which may cross the start: from >
-  /// to) is in the set. For pruning: keys that are off
-  /// by 1e-8 do no harm.
-  [[nodiscard]] bool SurelyCovers(double from_key, double to_key) const;
+  /// True only if the directions to all points of a box, or of a segment, are in the set. For pruning:
+  /// coordinates, counted from the eye, of up to 10^5 that are 10^-8 off do no harm.
+  [[nodiscard]] bool SurelyHides(const PlanBox& box) const;
+  [[nodiscard]] bool SurelyHides(const PlanStroke& stroke) const;
 
   /// The widest open range of directions that is not in the set, as vectors a positive turn of at
   /// most half a turn apart; nullopt where the set is complete.
@@ -37,13 +51,23 @@ class BasicDirectionCover {
   struct Interval {
     Direction from;
     Direction to;
-    double from_bound;  ///< keys for pruning; past the half turn where it reaches an end of that
-    double to_bound;
+  };
+  /// A vector of about unit size in plain numbers.
+  struct Ray {
+    double x;
+    double y;
+  };
+  /// An open range of directions that is not in the set.
+  struct Opening {
+    Ray from;
+    Ray to;
   };
   void AddInterval(const Direction& from, const Direction& to, PredicateCounts* counts);
-  [[nodiscard]] bool SurelyCoversPart(double from_key, double to_key) const;
+  void FindOpenings();
+  static Ray RayOf(const Direction& direction);
 
   std::vector<Interval> intervals_;
+  std::vector<Opening> openings_;  ///< once there are intervals
   bool complete_ = false;
 };
 using DirectionCover = BasicDirectionCover<Int128>;

@@ -6,10 +6,11 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
+#include <numeric>
 #include <utility>
 
 #include "core/horizon/convex_polygon.h"
-#include "core/horizon/screens.h"
 
 namespace farhorizon {
 namespace {
@@ -29,6 +30,7 @@ class Sweeper {
   }
 
   void Insert(VertexId v) {
+    v_ = v;
     level_ = Height(v);
     std::vector<std::int32_t>& met = met_;
     met.clear();
@@ -38,10 +40,10 @@ class Sweeper {
         minimum = false;
         continue;
       }
-      met.push_back(Find(result_.hulls.cluster[static_cast<std::size_t>(n)]));
+      ++result_.statistics.terrain_edges;
+      const std::int32_t cluster = Find(result_.hulls.cluster[static_cast<std::size_t>(n)]);
+      if (std::find(met.begin(), met.end(), cluster) == met.end()) met.push_back(cluster);
     }
-    std::sort(met.begin(), met.end());
-    met.erase(std::unique(met.begin(), met.end()), met.end());
     HorizonStatistics& statistics = result_.statistics;
     ++(met.empty()      ? statistics.peaks
        : met.size() > 1 ? statistics.saddles
@@ -61,21 +63,7 @@ class Sweeper {
     if (around < 0) Enlarge(cluster, PointOf(v));
   }
 
-  [[nodiscard]] bool IsLevel(VertexId v, VertexId n) const { return Height(v) == Height(n); }
-
-  // Adds, for the edge from v down to w, what the hulls look like from w: a screen for each, between the
-  // corners of its silhouette, as long as it shows beside those that look wider.
-  void AppendScreens(VertexId v, VertexId w) {
-    silhouettes_.clear();
-    const Point2i eye = PointOf(w);
-    for (const std::int32_t node : apart_) {
-      const ConvexPolygon& polygon = polygons_[static_cast<std::size_t>(node)];
-      if (polygon.corners().size() > 1 && !polygon.Contains(eye)) {
-        silhouettes_.push_back(polygon.SilhouetteFrom(eye));
-      }
-    }
-    SelectScreens(eye, Height(v), silhouettes_, result_.screens);
-  }
+  [[nodiscard]] const HullScene& scene() const { return scene_; }
 
  private:
   [[nodiscard]] std::int32_t Height(VertexId v) const {
@@ -95,17 +83,31 @@ class Sweeper {
     return node;
   }
 
+  [[nodiscard]] std::int32_t& PlaceOf(std::int32_t node) {
+    return places_[static_cast<std::size_t>(node)];
+  }
+  [[nodiscard]] const ConvexPolygon& HullOf(std::int32_t node) {
+    return scene_.hull(PlaceOf(node));
+  }
+
+  void Change(const HullChange& change) {
+    scene_.Apply(change);
+    result_.changes.push_back({change, v_});
+  }
+
   void Bear(VertexId v) {
-    const auto node = static_cast<std::int32_t>(polygons_.size());
-    polygons_.emplace_back(PointOf(v));
+    const auto node = static_cast<std::int32_t>(roots_.size());
+    const auto place = static_cast<std::int32_t>(nodes_.size());
     roots_.push_back(node);
+    places_.push_back(place);
+    nodes_.push_back(node);
     result_.hulls.parent.push_back(-1);
     result_.hulls.merge_level.push_back(kNoHeight);
-    apart_.push_back(node);
+    Change({HullChange::Kind::kBirth, place, 0, PointOf(v)});
     ++result_.statistics.births;
     result_.statistics.clusters_max =
-        std::max(result_.statistics.clusters_max, static_cast<std::int64_t>(apart_.size()));
-    Cover(polygons_.back(), node);
+        std::max(result_.statistics.clusters_max, static_cast<std::int64_t>(nodes_.size()));
+    Cover(HullOf(node), node);
   }
 
   // Joins two clusters under the one with more corners and returns it.
@@ -113,34 +115,27 @@ class Sweeper {
     a = Find(a);
     b = Find(b);
     if (a == b) return a;
-    ConvexPolygon* kept = &polygons_[static_cast<std::size_t>(a)];
-    ConvexPolygon* lost = &polygons_[static_cast<std::size_t>(b)];
-    if (kept->corners().size() < lost->corners().size()) {
-      std::swap(a, b);
-      std::swap(kept, lost);
-    }
-    std::vector<Point2i> corners = kept->corners();
-    corners.insert(corners.end(), lost->corners().begin(), lost->corners().end());
-    *kept = ConvexPolygon::HullOf(corners);
-    *lost = ConvexPolygon();
+    if (HullOf(a).corners().size() < HullOf(b).corners().size()) std::swap(a, b);
+    const std::int32_t lost = PlaceOf(b);
+    Change({HullChange::Kind::kMerge, PlaceOf(a), lost, {}});
+    nodes_[static_cast<std::size_t>(lost)] = nodes_.back();
+    PlaceOf(nodes_.back()) = lost;
+    nodes_.pop_back();
     roots_[static_cast<std::size_t>(b)] = a;
     result_.hulls.parent[static_cast<std::size_t>(b)] = a;
     result_.hulls.merge_level[static_cast<std::size_t>(b)] = level_;
-    apart_.erase(std::find(apart_.begin(), apart_.end(), b));
     ++result_.statistics.merges;
-    Cover(*kept, a);
-    return MergeWithWhatMeets(a, *kept);
+    const ConvexPolygon hull = HullOf(a);
+    Cover(hull, a);
+    return MergeWithWhatMeets(a, hull);
   }
 
   void Enlarge(std::int32_t cluster, Point2i p) {
-    ConvexPolygon& polygon = polygons_[static_cast<std::size_t>(cluster)];
-    if (polygon.Contains(p)) return;
+    if (HullOf(cluster).Contains(p)) return;
     ++result_.statistics.hull_changes;
-    std::vector<Point2i> corners = polygon.corners();
-    corners.push_back(p);
-    polygon = ConvexPolygon::HullOf(corners);
+    Change({HullChange::Kind::kGrowth, PlaceOf(cluster), 0, p});
     // What is new lies in the triangle of the new corner and its neighbours.
-    const std::vector<Point2i>& ring = polygon.corners();
+    const std::vector<Point2i>& ring = HullOf(cluster).corners();
     const auto at = static_cast<std::size_t>(std::find(ring.begin(), ring.end(), p) - ring.begin());
     std::vector<Point2i> added = {ring[(at + ring.size() - 1) % ring.size()], p,
                                   ring[(at + 1) % ring.size()]};
@@ -151,10 +146,10 @@ class Sweeper {
 
   // The cluster after it has taken in all others that meet `growth`, the part of it that is new.
   std::int32_t MergeWithWhatMeets(std::int32_t cluster, const ConvexPolygon& growth) {
-    const auto other = std::find_if(apart_.begin(), apart_.end(), [&](std::int32_t node) {
-      return node != cluster && polygons_[static_cast<std::size_t>(node)].Meets(growth);
+    const auto other = std::find_if(nodes_.begin(), nodes_.end(), [&](std::int32_t node) {
+      return node != cluster && HullOf(node).Meets(growth);
     });
-    return other == apart_.end() ? cluster : Merge(cluster, *other);
+    return other == nodes_.end() ? cluster : Merge(cluster, *other);
   }
 
   // Marks the posts in `polygon` that no cluster covers yet.
@@ -181,79 +176,65 @@ class Sweeper {
   const Terrain& terrain_;
   std::int32_t columns_;
   HullSweep& result_;
+  HullScene scene_;
   std::int32_t level_ = 0;
-  std::vector<ConvexPolygon> polygons_;       // by node; empty where merged away
+  VertexId v_ = 0;
   std::vector<std::int32_t> roots_;           // union-find over nodes
-  std::vector<std::int32_t> apart_;           // nodes that are roots
+  std::vector<std::int32_t> places_;          // of each root its place in the scene
+  std::vector<std::int32_t> nodes_;           // the other way round
   std::vector<std::int32_t> next_uncovered_;  // per row, columns + 1: union-find to the right
   std::vector<std::int32_t> met_;
-  std::vector<ConvexPolygon::Silhouette> silhouettes_;
 };
 
+// By falling height and rising number. Heights of few values, as they usually are, are counted: many
+// times faster than sorting.
 std::vector<VertexId> FromSummitDown(const Terrain& terrain) {
-  std::vector<VertexId> order;
-  for (VertexId v = 0; v < terrain.post_count(); ++v) {
-    if (terrain.IsVertex(v)) order.push_back(v);
-  }
   const std::vector<std::int32_t>& heights = terrain.dem().heights;
-  std::sort(order.begin(), order.end(), [&heights](VertexId a, VertexId b) {
-    const std::int32_t height_a = heights[static_cast<std::size_t>(a)];
-    const std::int32_t height_b = heights[static_cast<std::size_t>(b)];
-    return height_a != height_b ? height_a > height_b : a < b;
-  });
-  return order;
-}
-
-// Whether the edge is a ridge or a border of the terrain.
-bool IsRidge(const Terrain& terrain, Edge edge) {
-  const Terrain::Faces faces = terrain.FacesOf(edge);
-  return !faces.left || !faces.right ||
-         Convexity(terrain.Point(edge.a), terrain.Point(edge.b), terrain.Point(*faces.left),
-                   terrain.Point(*faces.right)) > 0;
-}
-
-// Whether the edge is inside the hull of the ground at or above it. Level edges ask for the hull of
-// strictly higher ground: ground of their own height does not hide them.
-bool InsideHull(const Terrain& terrain, const HullForest& hulls, Edge edge) {
-  const std::int32_t a = terrain.Point(edge.a).z;
-  const std::int32_t b = terrain.Point(edge.b).z;
-  return hulls.Hides(edge.a, edge.b, a == b ? a + 1 : std::max(a, b));
+  std::vector<VertexId> order;
+  std::int64_t least = std::numeric_limits<std::int64_t>::max();
+  std::int64_t most = std::numeric_limits<std::int64_t>::min();
+  for (VertexId v = 0; v < terrain.post_count(); ++v) {
+    if (!terrain.IsVertex(v)) continue;
+    order.push_back(v);
+    least = std::min<std::int64_t>(least, heights[static_cast<std::size_t>(v)]);
+    most = std::max<std::int64_t>(most, heights[static_cast<std::size_t>(v)]);
+  }
+  if (most - least > 4 * static_cast<std::int64_t>(order.size())) {
+    std::sort(order.begin(), order.end(), [&heights](VertexId a, VertexId b) {
+      const std::int32_t height_a = heights[static_cast<std::size_t>(a)];
+      const std::int32_t height_b = heights[static_cast<std::size_t>(b)];
+      return height_a != height_b ? height_a > height_b : a < b;
+    });
+    return order;
+  }
+  const auto below_top = [&](VertexId v) {
+    return static_cast<std::size_t>(most - heights[static_cast<std::size_t>(v)]);
+  };
+  std::vector<std::size_t> begins(static_cast<std::size_t>(most - least) + 2);
+  for (const VertexId v : order) ++begins[below_top(v) + 1];
+  std::partial_sum(begins.begin(), begins.end(), begins.begin());
+  std::vector<VertexId> sorted(order.size());
+  for (const VertexId v : order) sorted[begins[below_top(v)]++] = v;
+  return sorted;
 }
 
 }  // namespace
 
 Result<HullSweep> SweepHulls(const Terrain& terrain, const Watch& watch) {
+  // Few enough for their scenes to be small beside the terrain, many enough to keep all threads busy.
+  constexpr std::size_t kLandmarks = 64;
   HullSweep sweep;
   const std::vector<VertexId> order = FromSummitDown(terrain);
+  const std::size_t stride = (order.size() + kLandmarks - 1) / kLandmarks;
   Sweeper sweeper(terrain, sweep);
-  constexpr std::size_t kBatch = 1 << 14;
   for (std::size_t i = 0; i < order.size(); ++i) {
-    if (i % kBatch == 0) {
+    if (i % stride == 0) {
       if (watch.StopRequested()) return Error{ErrorCode::kCancelled, "stopped during the sweep"};
       watch.Report("sweep", static_cast<double>(i) / static_cast<double>(order.size()));
+      sweep.landmarks.push_back({order[i], sweep.changes.size(), sweeper.scene()});
     }
-    const VertexId v = order[i];
-    sweeper.Insert(v);
-    for (const VertexId n : terrain.NeighboursOf(v)) {
-      const bool from_here = terrain.dem().heights[static_cast<std::size_t>(n)] <
-                                 terrain.dem().heights[static_cast<std::size_t>(v)] ||
-                             (sweeper.IsLevel(v, n) && v < n);
-      if (!from_here) continue;
-      ++sweep.statistics.terrain_edges;
-      const Edge edge = MakeEdge(v, n);
-      if (InsideHull(terrain, sweep.hulls, edge) || !IsRidge(terrain, edge)) continue;
-      const std::size_t first = sweep.screens.size();
-      if (!sweeper.IsLevel(v, n)) sweeper.AppendScreens(v, n);
-      sweep.candidates.push_back({edge, first, sweep.screens.size() - first});
-    }
+    sweeper.Insert(order[i]);
   }
-  // By now the whole of each level is in: hulls of equal height may hide a few more.
-  std::erase_if(sweep.candidates, [&](const Candidate& candidate) {
-    return InsideHull(terrain, sweep.hulls, candidate.edge);
-  });
-  std::sort(sweep.candidates.begin(), sweep.candidates.end(),
-            [](const Candidate& a, const Candidate& b) { return a.edge < b.edge; });
-  sweep.statistics.candidates = static_cast<std::int64_t>(sweep.candidates.size());
   return sweep;
 }
 

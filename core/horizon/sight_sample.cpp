@@ -13,25 +13,6 @@
 #include "core/base/result.h"
 
 namespace farhorizon {
-namespace {
-
-// The key of direction.h in plain floating point, for pruning.
-double Key(double x, double y) {
-  if (y < 0 || (y == 0 && x < 0)) {
-    x = -x;
-    y = -y;
-  }
-  return 1 - x / (std::abs(x) + y);
-}
-
-// What is nearer than this is looked at exactly: the cover's margin counts on the distance.
-bool IsNear(double x, double y) {
-  constexpr double kNear = 0.05;
-  return std::max(std::abs(x), std::abs(y)) < kNear;
-}
-
-}  // namespace
-
 MovingVector ToPoint(const Sighted& e, const Point3i& v) {
   return {v.x - e.low.x, v.y - e.low.y, e.low.x - e.high.x, e.low.y - e.high.y};
 }
@@ -60,9 +41,9 @@ Quadratic Dot(const MovingVector& a, const MovingVector& b) {
 
 template <typename Int>
 BasicSightSample<Int>::BasicSightSample(const SegmentIndex& index, const Sighted& sighted,
-                                        std::optional<std::int32_t> except,
-                                        std::span<const Segment> screens, PredicateCounts* counts)
-    : index_(index), sighted_(sighted), except_(except), screens_(screens), counts_(counts) {}
+                                        std::optional<std::int32_t> except, const SightHints& hints,
+                                        PredicateCounts* counts)
+    : index_(index), sighted_(sighted), except_(except), hints_(hints), counts_(counts) {}
 
 template <typename Int>
 SightOutcome BasicSightSample<Int>::Look(const BasicDyadic<Int>& t,
@@ -81,6 +62,7 @@ SightOutcome BasicSightSample<Int>::Look(const BasicDyadic<Int>& t,
   arcs_.clear();
   outcome_ = SightOutcome::kHidden;
 
+  MeetFaces();
   if (!MeetScreens()) return outcome_;
   for (const std::int32_t id : likely) {
     if (!MeetIfSeen(id, index_.item(id))) return outcome_;
@@ -136,8 +118,19 @@ bool BasicSightSample<Int>::MeetIfSeen(std::int32_t id, const SegmentIndex::Item
 }
 
 template <typename Int>
+void BasicSightSample<Int>::MeetFaces() {
+  if (!hints_.wedge) return;
+  // From where the wedge ends round to where it begins again.
+  Arc arc;
+  arc.obstacle = kFaces;
+  arc.from = {hints_.wedge->last.x, hints_.wedge->last.y, 0, 0};
+  arc.to = {-hints_.wedge->first.x, -hints_.wedge->first.y, 0, 0};
+  AddArc(arc, arc.from.At(t_), arc.to.At(t_));
+}
+
+template <typename Int>
 bool BasicSightSample<Int>::MeetScreens() {
-  for (const Segment& screen : screens_) {
+  for (const Segment& screen : hints_.screens) {
     const SegmentIndex::Item item{screen.a, screen.b};
     if (item.high.z >= least_top_ && !SurelyHidden(item) && !Meet(kScreen, item)) return false;
   }
@@ -176,12 +169,17 @@ bool BasicSightSample<Int>::Meet(std::int32_t id, const SegmentIndex::Item& item
     std::swap(arc.from, arc.to);
     std::swap(from, to);
   }
+  AddArc(arc, from, to);
+  return !cover_.IsComplete();
+}
+
+template <typename Int>
+void BasicSightSample<Int>::AddArc(Arc arc, const Vector& from, const Vector& to) {
   arc.from_direction = MakeDirection(from);
   arc.to_direction = MakeDirection(to);
   arc.crosses_start = arc.from_direction.turned != arc.to_direction.turned;
   arcs_.push_back(arc);
   cover_.Add(arc.from_direction, arc.to_direction, arc.crosses_start, counts_);
-  return !cover_.IsComplete();
 }
 
 template <typename Int>
@@ -203,56 +201,22 @@ bool BasicSightSample<Int>::MeetCollinear(const Arc& arc, const Vector& from, co
 
 template <typename Int>
 bool BasicSightSample<Int>::SurelyHidden(const SegmentIndex::Node& node) const {
-  const double center_x = 0.5 * (node.min_x + static_cast<double>(node.max_x)) - x_;
-  const double center_y = 0.5 * (node.min_y + static_cast<double>(node.max_y)) - y_;
-  const std::array<std::array<double, 2>, 4> corners = {{{node.min_x - x_, node.min_y - y_},
-                                                         {node.max_x - x_, node.min_y - y_},
-                                                         {node.max_x - x_, node.max_y - y_},
-                                                         {node.min_x - x_, node.max_y - y_}}};
-  double least = 0;
-  double most = 0;
-  std::size_t first = 0;
-  std::size_t last = 0;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const double cross = center_x * corners[i][1] - center_y * corners[i][0];
-    const double dot = center_x * corners[i][0] + center_y * corners[i][1];
-    const double tangent = cross / dot;
-    // Boxes around the point, or close beside it, look too wide to be judged by their corners.
-    if (!(dot > 0) || std::abs(tangent) > 1e3 || IsNear(corners[i][0], corners[i][1])) return false;
-    if (i == 0 || tangent < least) {
-      least = tangent;
-      first = i;
-    }
-    if (i == 0 || tangent > most) {
-      most = tangent;
-      last = i;
-    }
-  }
-  return cover_.SurelyCovers(Key(corners[first][0], corners[first][1]),
-                             Key(corners[last][0], corners[last][1]));
+  return cover_.SurelyHides(PlanBox{0.5 * (node.min_x + static_cast<double>(node.max_x)) - x_,
+                                    0.5 * (node.min_y + static_cast<double>(node.max_y)) - y_,
+                                    0.5 * (static_cast<double>(node.max_x) - node.min_x),
+                                    0.5 * (static_cast<double>(node.max_y) - node.min_y)});
 }
 
 template <typename Int>
 bool BasicSightSample<Int>::SurelyHidden(const SegmentIndex::Item& item) const {
-  double low_x = item.low.x - x_;
-  double low_y = item.low.y - y_;
-  double high_x = item.high.x - x_;
-  double high_y = item.high.y - y_;
+  PlanStroke part{item.low.x - x_, item.low.y - y_, item.high.x - x_, item.high.y - y_};
   const double above_low = static_cast<double>(whole_z_ - item.low.z) + part_z_;
   if (above_low > 0) {
     const double share = above_low / (static_cast<double>(item.high.z) - item.low.z);
-    low_x += share * (high_x - low_x);
-    low_y += share * (high_y - low_y);
+    part.from_x += share * (part.to_x - part.from_x);
+    part.from_y += share * (part.to_y - part.from_y);
   }
-  // Positions that are 1e-11 off, of vectors of up to 10^5 cells.
-  constexpr double kInLine = 1e-5;
-  const double cross = low_x * high_y - low_y * high_x;
-  if (IsNear(low_x, low_y) || IsNear(high_x, high_y) || std::abs(cross) < kInLine) return false;
-  if (cross < 0) {
-    std::swap(low_x, high_x);
-    std::swap(low_y, high_y);
-  }
-  return cover_.SurelyCovers(Key(low_x, low_y), Key(high_x, high_y));
+  return cover_.SurelyHides(part);
 }
 
 template class BasicSightSample<std::int64_t>;

@@ -49,7 +49,9 @@ MovingVector ToSlice(const Sighted& e, const Point3i& low, const Point3i& high);
 Quadratic Cross(const MovingVector& a, const MovingVector& b);
 Quadratic Dot(const MovingVector& a, const MovingVector& b);
 
+/// What hides instead of a member: a screen, the faces beside the segment itself.
 inline constexpr std::int32_t kScreen = -1;
+inline constexpr std::int32_t kFaces = -2;
 
 /// A MovingVector's numbers are below 2^50 (17 bits of plan, 31 of height, a sum of two), so at a
 /// point of so many bits it stays below 2^62.
@@ -64,7 +66,7 @@ struct BasicArc {
   BasicDirection<Int> to_direction;
   bool crosses_start = false;
   bool sliced = false;        ///< one of the two is where the obstacle rises through the height
-  std::int32_t obstacle = 0;  ///< its id; kScreen for a screen
+  std::int32_t obstacle = 0;  ///< its id; kScreen; kFaces
   std::int32_t low_z = 0;     ///< the obstacle's heights
   std::int32_t high_z = 0;
 };
@@ -85,8 +87,9 @@ class BasicSightSample {
   using Arc = BasicArc<Int>;
   using Vector = BasicVector<Int>;
 
+  /// hints: must outlive the sample; its `likely` are not looked at.
   BasicSightSample(const SegmentIndex& index, const Sighted& sighted,
-                   std::optional<std::int32_t> except, std::span<const Segment> screens,
+                   std::optional<std::int32_t> except, const SightHints& hints,
                    PredicateCounts* counts);
 
   /// likely: obstacles that are tried before all others.
@@ -100,7 +103,9 @@ class BasicSightSample {
   bool Visit(const SegmentIndex::Node& node);
   bool MeetIfSeen(std::int32_t id, const SegmentIndex::Item& item);
   bool Meet(std::int32_t id, const SegmentIndex::Item& item);
+  void MeetFaces();
   bool MeetScreens();
+  void AddArc(Arc arc, const Vector& from, const Vector& to);
   bool MeetCollinear(const Arc& arc, const Vector& from, const Vector& to);
   [[nodiscard]] bool SurelyHidden(const SegmentIndex::Node& node) const;
   [[nodiscard]] bool SurelyHidden(const SegmentIndex::Item& item) const;
@@ -108,7 +113,7 @@ class BasicSightSample {
   const SegmentIndex& index_;
   const Sighted& sighted_;
   std::optional<std::int32_t> except_;
-  std::span<const Segment> screens_;
+  const SightHints& hints_;
   PredicateCounts* counts_;
 
   BasicDyadic<Int> t_;

@@ -64,7 +64,7 @@ Result<std::vector<Sights>> FindSights(const Terrain& terrain, const Horizon& ho
   const auto look_at_all = [&](std::size_t begin, std::size_t end, std::size_t /*thread*/) {
     for (std::size_t i = begin; i < end; ++i) look(i);
   };
-  if (!ForEachBatch(sights.size(), threads, "sights", watch, look_at_all)) {
+  if (!ForEachBatch(sights.size(), kBatch, threads, "sights", watch, look_at_all)) {
     return Error{ErrorCode::kCancelled, "stopped while finding lines of sight"};
   }
   return sights;

@@ -83,18 +83,17 @@ struct Finding {
 class SightSearch {
  public:
   SightSearch(const SegmentIndex& index, const Segment& segment, Ties ties,
-              std::optional<std::int32_t> except, std::span<const Segment> screens,
-              std::span<const std::int32_t> likely, std::vector<std::int32_t>* blockers,
-              PredicateCounts* counts)
+              std::optional<std::int32_t> except, const SightHints& hints,
+              std::vector<std::int32_t>* blockers, PredicateCounts* counts)
       : index_(index),
         segment_(segment),
         sighted_{segment.a, segment.b, ties},
         except_(except),
-        screens_(screens),
-        likely_(likely.begin(), likely.end()),
+        hints_(hints),
+        likely_(hints.likely.begin(), hints.likely.end()),
         blockers_(blockers),
         counts_(counts),
-        short_sample_(index, sighted_, except, screens, counts) {
+        short_sample_(index, sighted_, except, hints, counts) {
     if (segment.a.z > segment.b.z) std::swap(sighted_.low, sighted_.high);
   }
 
@@ -103,10 +102,10 @@ class SightSearch {
       return LookWith(short_sample_, ShortDyadic{static_cast<std::int64_t>(t.n), t.k});
     }
     if (t.k <= kMaxDyadicBits) {
-      SightSample sample(index_, sighted_, except_, screens_, counts_);
+      SightSample sample(index_, sighted_, except_, hints_, counts_);
       return LookWith(sample, Narrowed(t));
     }
-    WideSightSample sample(index_, sighted_, except_, screens_, counts_);
+    WideSightSample sample(index_, sighted_, except_, hints_, counts_);
     return LookWith(sample, t);
   }
 
@@ -127,7 +126,7 @@ class SightSearch {
   const Segment& segment_;
   Sighted sighted_;
   std::optional<std::int32_t> except_;
-  std::span<const Segment> screens_;
+  const SightHints& hints_;
   std::vector<std::int32_t> likely_;
   std::vector<std::int32_t> chain_;
   std::vector<std::int32_t>* blockers_;
@@ -159,10 +158,10 @@ void Skyline::Erase(Id id) { index_->segments.Erase(id); }
 std::int64_t Skyline::size() const { return index_->segments.alive(); }
 
 std::optional<Witness> Skyline::FindSight(const Segment& segment, Ties ties,
-                                          std::optional<Id> except, std::vector<Id>* blockers,
-                                          PredicateCounts* counts, std::span<const Segment> screens,
-                                          std::span<const Id> likely, SightLimit* limit) const {
-  SightSearch search(index_->segments, segment, ties, except, screens, likely, blockers, counts);
+                                          std::optional<Id> except, const SightHints& hints,
+                                          std::vector<Id>* blockers, PredicateCounts* counts,
+                                          SightLimit* limit) const {
+  SightSearch search(index_->segments, segment, ties, except, hints, blockers, counts);
   std::deque<HiddenRange> open = {
       {QuadraticRoot::At(Dyadic{0, 0}), QuadraticRoot::At(Dyadic{1, 0})}};
   std::optional<Witness> best;

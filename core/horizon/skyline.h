@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "core/exact/predicate_counts.h"
+#include "core/horizon/face_wedge.h"
 #include "core/terrain/terrain.h"
 
 namespace farhorizon {
@@ -38,13 +40,15 @@ enum class Ties {
   kBlock,  ///< ground of equal height hides (whether a segment would raise the skyline)
 };
 
-/// Counts of exact decisions, by the rung that made them.
-struct PredicateCounts {
-  std::int64_t filtered = 0;
-  std::int64_t exact = 0;
-  std::int64_t tied = 0;
-
-  [[nodiscard]] std::int64_t Sum() const { return filtered + exact + tied; }
+/// What is known beforehand of a segment that is to be sighted. It saves time, and never changes whether
+/// there is a line of sight, though another one may be found.
+struct SightHints {
+  /// Segments known not to rise above the set's H.
+  std::span<const Segment> screens;
+  /// Members to try first, say what hid a neighbour.
+  std::span<const std::int32_t> likely;
+  /// Directions that the ground beside the segment leaves free; it must not rise above the set's H.
+  std::optional<FaceWedge> wedge;
 };
 
 /// How much a question may cost, in decisions as PredicateCounts counts them. It is looked at between
@@ -78,17 +82,14 @@ class Skyline {
   /// there is no such set. (The line itself may touch ground of equal height.)
   ///
   /// except: one member to look through, usually the segment itself. blockers: where not null and the
-  /// answer is nullopt, receives ids that hide all of it, unsorted. screens: further segments that are
-  /// known not to rise above the set's H; they only save time. likely: members to try first, say
-  /// the blockers of a segment nearby; they only save time too, though another sight may be found.
+  /// answer is nullopt, receives ids that hide all of it, unsorted, but for what hints hide.
   /// limit: where not null, when to give up; needs counts.
   /// Cost: about the segments in sight.
   [[nodiscard]] std::optional<Witness> FindSight(const Segment& segment, Ties ties,
                                                  std::optional<Id> except = std::nullopt,
+                                                 const SightHints& hints = {},
                                                  std::vector<Id>* blockers = nullptr,
                                                  PredicateCounts* counts = nullptr,
-                                                 std::span<const Segment> screens = {},
-                                                 std::span<const Id> likely = {},
                                                  SightLimit* limit = nullptr) const;
 
  private:

@@ -182,7 +182,7 @@ Result<std::vector<EdgeView>> FindViews(const Terrain& terrain, const Horizon& h
       views[i].prominence_m = prominences.Of(edge, (*sights)[i]) * terrain.dem().quantum_m;
     }
   };
-  if (!ForEachBatch(views.size(), threads, "views", watch, look)) {
+  if (!ForEachBatch(views.size(), kBatch, threads, "views", watch, look)) {
     return Error{ErrorCode::kCancelled, "stopped while weighing horizon edges"};
   }
   return views;

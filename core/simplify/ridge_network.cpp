@@ -139,7 +139,7 @@ bool RidgeNetwork::ProveNearby(std::int32_t e, const Segment& lowered,
     if (screen.a.z > screen.b.z) std::swap(screen.a, screen.b);
     screens_.push_back(screen);
   }
-  if (nothing_.FindSight(lowered, Ties::kBlock, std::nullopt, nullptr, nullptr, screens_)) {
+  if (nothing_.FindSight(lowered, Ties::kBlock, std::nullopt, {screens_, {}, std::nullopt})) {
     return false;
   }
   std::sort(nearby.begin(), nearby.end());

@@ -39,6 +39,16 @@ bool Terrain::Has(std::int32_t column, std::int32_t row) const {
          dem_->HasData(row * dem_->columns + column);
 }
 
+bool Terrain::IsSurrounded(std::int32_t column, std::int32_t row) const {
+  if (column < 1 || column + 1 >= dem_->columns || row < 1 || row + 1 >= dem_->rows) return false;
+  const std::int32_t* middle =
+      dem_->heights.data() + static_cast<std::ptrdiff_t>(row) * dem_->columns + column;
+  for (const std::int32_t* of_row : {middle - dem_->columns, middle, middle + dem_->columns}) {
+    if (of_row[-1] == kNoHeight || of_row[0] == kNoHeight || of_row[1] == kNoHeight) return false;
+  }
+  return true;
+}
+
 Terrain::CellTriangles Terrain::Cell(std::int32_t column, std::int32_t row) const {
   const VertexId nw = row * dem_->columns + column;
   const VertexId ne = nw + 1;
@@ -66,6 +76,14 @@ Terrain::Faces Terrain::FacesOf(Edge edge) const {
   Faces faces;
   const std::int32_t column = dem_->Column(edge.a);
   const std::int32_t row = dem_->Row(edge.a);
+  if (IsSurrounded(column, row)) {
+    const VertexId a = edge.a;
+    const std::int32_t columns = dem_->columns;
+    const std::int32_t step = edge.b - a;
+    if (step == 1) return {a - columns, a + columns + 1};
+    if (step == columns) return {a + columns + 1, a - 1};
+    if (step == columns + 1) return {a + 1, a + columns};
+  }
   // An edge lies in the one or two cells that have both its posts as corners.
   for (std::int32_t r = std::max(row - 1, 0); r <= std::min(row, dem_->rows - 2); ++r) {
     for (std::int32_t c = std::max(column - 1, 0); c <= std::min(column, dem_->columns - 2); ++c) {
@@ -90,6 +108,10 @@ Terrain::Neighbours Terrain::NeighboursOf(VertexId v) const {
   if (!dem_->HasData(v)) return neighbours;
   const std::int32_t column = dem_->Column(v);
   const std::int32_t row = dem_->Row(v);
+  if (IsSurrounded(column, row)) {
+    const std::int32_t columns = dem_->columns;
+    return {{v + 1, v + columns + 1, v + columns, v - 1, v - columns - 1, v - columns}, 6};
+  }
   std::array<bool, 8> present{};
   for (std::size_t i = 0; i < 8; ++i) {
     present[i] = Has(column + kAround[i].column, row + kAround[i].row);

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/horizon/candidates.h"
 #include "core/horizon/horizon_kinetic.h"
 #include "core/horizon/hull_sweep.h"
 #include "core/horizon/kinetic/level_sight.h"
@@ -272,14 +273,16 @@ Result<SweepTrace> TraceSweep(const Terrain& terrain, std::int32_t level, const 
   if (!sweep.Fits()) return TooLarge();
   const std::int64_t s = std::int64_t{sweep.summit()} - level;
   if (!sweep.Run(s)) return Stopped(sweep, budget);
-  Result<HullSweep> culled = SweepHulls(terrain, watch);
+  Result<HullSweep> hulls = SweepHulls(terrain, watch);
+  if (!hulls) return std::move(hulls.error());
+  Result<Candidates> culled = FindCandidates(terrain, *hulls, 1, watch);
   if (!culled) return std::move(culled.error());
   SweepTrace trace;
   trace.level = level;
   trace.columns = terrain.dem().columns;
   trace.rows = terrain.dem().rows;
   trace.contours = ContoursAt(terrain, level);
-  for (const Candidate& candidate : culled->candidates) {
+  for (const Candidate& candidate : culled->edges) {
     const Point3i a = terrain.Point(candidate.edge.a);
     const Point3i b = terrain.Point(candidate.edge.b);
     if (std::max(a.z, b.z) < level || std::min(a.z, b.z) > level) continue;

@@ -1,5 +1,6 @@
 #include "core/horizon/direction_cover.h"
 
+#include <cmath>
 #include <random>
 #include <vector>
 
@@ -8,29 +9,30 @@
 namespace farhorizon {
 namespace {
 
-constexpr double kOff = 0.9e-8;  // what keys may be off by
-
 void Add(DirectionCover& cover, const Vector& from, const Vector& to) {
   const Direction first = MakeDirection(from);
   const Direction last = MakeDirection(to);
   cover.Add(first, last, first.turned != last.turned, nullptr);
 }
 
-// A range from the start on, by keys that are off, may begin before the end of the half turn.
-TEST(DirectionCover, IsNotSureOfARangeAtTheStartUnlessTheEndIsCoveredToo) {
+TEST(DirectionCover, HidesWhatIsInItsDirectionsWhole) {
   DirectionCover cover;
+  EXPECT_FALSE(cover.SurelyHides(PlanStroke{5, 1, 5, 2}));
   Add(cover, {1, 0}, {1, 1});
-  EXPECT_FALSE(cover.SurelyCovers(0, 0.2));
-  EXPECT_TRUE(cover.SurelyCovers(0.1, 0.2));
-  EXPECT_FALSE(cover.SurelyCovers(0.1, 0.5));
+  EXPECT_TRUE(cover.SurelyHides(PlanStroke{5, 1, 5, 2}));
+  EXPECT_TRUE(cover.SurelyHides(PlanStroke{-5, -1, -5, -2}));
+  EXPECT_FALSE(cover.SurelyHides(PlanStroke{5, 0, 5, 2}));  // by less than rounding can do
+  EXPECT_FALSE(cover.SurelyHides(PlanStroke{5, -1, 5, 2}));
+  EXPECT_FALSE(cover.SurelyHides(PlanStroke{5, 1, -5, -2}));  // around the eye
+  EXPECT_TRUE(cover.SurelyHides(PlanBox{10, 4, 2, 2}));
+  EXPECT_FALSE(cover.SurelyHides(PlanBox{10, 4, 2, 5}));
+  EXPECT_FALSE(cover.SurelyHides(PlanBox{0, 0, 1, 1}));
   Add(cover, {-1, 1}, {-1, 0});
-  EXPECT_TRUE(cover.SurelyCovers(0, 0.2));
-  EXPECT_TRUE(cover.SurelyCovers(1.9, 0.2));
-  EXPECT_TRUE(cover.SurelyCovers(1.9, 2));
-  EXPECT_FALSE(cover.SurelyCovers(1.9, 1.1));
+  EXPECT_TRUE(cover.SurelyHides(PlanStroke{5, 0, 5, 2}));
+  EXPECT_TRUE(cover.SurelyHides(PlanStroke{5, -1, 5, 2}));
 }
 
-// Whatever it is sure of by keys that are off, it has: adding it changes nothing.
+// Whatever it is sure of by coordinates that are off, it has: adding it changes nothing.
 TEST(DirectionCover, CoversWhatItIsSureOf) {
   std::mt19937 random(1);
   const auto any = [&random] {
@@ -38,12 +40,12 @@ TEST(DirectionCover, CoversWhatItIsSureOf) {
     const int y = static_cast<int>(random() % 41) - 20;
     return x == 0 && y == 0 ? Vector{1, 0} : Vector{x, y};
   };
-  const auto off = [&random](double key) {
-    const double moved = key + kOff * (static_cast<double>(random() % 201) / 100 - 1);
-    return moved < 0 ? moved + 2 : (moved > 2 ? moved - 2 : moved);
+  const auto off = [&random](Int128 coordinate) {
+    return static_cast<double>(coordinate) + 1e-8 * (static_cast<double>(random() % 201) / 100 - 1);
   };
   int sure = 0;
-  for (int round = 0; round < 20000; ++round) {
+  int sure_of_boxes = 0;
+  for (int round = 0; round < 40000; ++round) {
     DirectionCover cover;
     for (std::uint32_t arcs = 1 + random() % 4; arcs > 0; --arcs) {
       const Vector from = any();
@@ -53,8 +55,15 @@ TEST(DirectionCover, CoversWhatItIsSureOf) {
     const Vector from = any();
     const Vector to = any();
     if (CrossSign(from, to) <= 0 || cover.IsComplete()) continue;
-    if (!cover.SurelyCovers(off(MakeDirection(from).key), off(MakeDirection(to).key))) continue;
+    const PlanStroke stroke{off(from.x), off(from.y), off(to.x), off(to.y)};
+    const PlanBox box{off(from.x + to.x) / 2, off(from.y + to.y) / 2,
+                      std::abs(off(to.x - from.x)) / 2, std::abs(off(to.y - from.y)) / 2};
+    const bool hides = cover.SurelyHides(stroke);
+    const bool hides_box = cover.SurelyHides(box);
+    ASSERT_TRUE(hides || !hides_box) << "the box contains the stroke";
+    if (!hides) continue;
     ++sure;
+    sure_of_boxes += static_cast<int>(hides_box);
     const auto before = cover.WidestGap();
     Add(cover, from, to);
     const auto after = cover.WidestGap();
@@ -63,6 +72,7 @@ TEST(DirectionCover, CoversWhatItIsSureOf) {
     ASSERT_EQ(CrossSign(before->to, after->to), 0);
   }
   EXPECT_GT(sure, 500);
+  EXPECT_GT(sure_of_boxes, 100);
 }
 
 }  // namespace

@@ -9,8 +9,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/horizon/candidates.h"
 #include "core/horizon/horizon.h"
-#include "core/horizon/hull_sweep.h"
 #include "tests/oracles/horizon_brute_force.h"
 #include "tests/support/ascii_dem.h"
 #include "tests/support/effort.h"
@@ -38,18 +38,20 @@ struct Sighting {
 
 /// What FindHorizon decides, whether or not all witnesses are exact.
 std::vector<Sighting> Sightings(const Terrain& terrain) {
-  const HullSweep sweep = *SweepHulls(terrain, {});
+  const Candidates sweep = *FindCandidates(terrain, *SweepHulls(terrain, {}), 1, {});
   Skyline skyline(terrain.dem().columns, terrain.dem().rows);
   std::vector<Edge> edges;
-  for (const Candidate& c : sweep.candidates) edges.push_back(c.edge);
+  for (const Candidate& c : sweep.edges) edges.push_back(c.edge);
   const std::vector<Segment> segments = SegmentsOf(terrain, edges);
   for (const Segment& s : segments) skyline.Insert(s);
   std::vector<Sighting> sightings;
   for (std::size_t i = 0; i < edges.size(); ++i) {
-    const Candidate& c = sweep.candidates[i];
+    const Candidate& c = sweep.edges[i];
     const std::optional<Witness> sight = skyline.FindSight(
-        segments[i], Ties::kPass, static_cast<Skyline::Id>(i), nullptr, nullptr,
-        std::span<const Segment>(sweep.screens).subspan(c.first_screen, c.screen_count));
+        segments[i], Ties::kPass, static_cast<Skyline::Id>(i),
+        {std::span<const Segment>(sweep.screens).subspan(c.first_screen, c.screen_count),
+         {},
+         WedgeOf(terrain, edges[i])});
     if (sight) sightings.push_back({edges[i], *sight});
   }
   return sightings;

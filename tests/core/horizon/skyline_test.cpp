@@ -263,7 +263,7 @@ TEST(FindSight, NamesBlockersThatHideTheSegmentByThemselves) {
     const Segment segment = source.Chord();
     for (const Ties ties : kBothTies) {
       std::vector<Skyline::Id> blockers;
-      if (skyline.FindSight(segment, ties, std::nullopt, &blockers)) continue;
+      if (skyline.FindSight(segment, ties, std::nullopt, {}, &blockers)) continue;
       ++hidden;
       std::vector<Segment> few;
       for (const Skyline::Id id : blockers) {
@@ -318,7 +318,7 @@ TEST(FindSight, CountsItsDecisions) {
   for (const Segment& s : source.Set(30)) skyline.Insert(s);
   for (int i = 0; i < 20; ++i) {
     static_cast<void>(
-        skyline.FindSight(source.Chord(), Ties::kPass, std::nullopt, nullptr, &counts));
+        skyline.FindSight(source.Chord(), Ties::kPass, std::nullopt, {}, nullptr, &counts));
   }
   EXPECT_GT(counts.filtered + counts.exact, 0);
 }
@@ -337,13 +337,13 @@ TEST(Skyline, WhatIsTriedFirstChangesNoAnswer) {
     }
     const Segment segment = source.Chord();
     for (const Ties ties : kBothTies) {
+      const SightHints hints{{}, likely, std::nullopt};
       const auto plain = skyline.FindSight(segment, ties);
-      const auto hinted = skyline.FindSight(segment, ties, 3, nullptr, nullptr, {}, likely);
+      const auto hinted = skyline.FindSight(segment, ties, 3, hints);
       const auto same = skyline.FindSight(segment, ties, 3);
       EXPECT_EQ(hinted.has_value(), same.has_value()) << "round " << round;
-      EXPECT_EQ(
-          skyline.FindSight(segment, ties, std::nullopt, nullptr, nullptr, {}, likely).has_value(),
-          plain.has_value())
+      EXPECT_EQ(skyline.FindSight(segment, ties, std::nullopt, hints).has_value(),
+                plain.has_value())
           << "round " << round;
     }
   }

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/horizon/convex_polygon.h"
+
+namespace farhorizon {
+
+/// One step of the descending plane: a hull is born from a post, grows by a post, or joins another.
+struct HullChange {
+  enum class Kind { kBirth, kGrowth, kMerge };
+  Kind kind = Kind::kBirth;
+  std::int32_t hull = 0;   ///< its place; the new last one for a birth
+  std::int32_t other = 0;  ///< kMerge: the one that is lost; the last one takes its place
+  Point2i post;            ///< kBirth, kGrowth
+};
+
+/// The merged hulls of the ground at or above a level, none of which meet: a state of the sweep, which the
+/// changes that led to it lead to again.
+class HullScene {
+ public:
+  [[nodiscard]] const std::vector<ConvexPolygon>& hulls() const { return hulls_; }
+  [[nodiscard]] const ConvexPolygon& hull(std::int32_t place) const {
+    return hulls_[static_cast<std::size_t>(place)];
+  }
+
+  /// Cost: O(c log c) for hulls of c corners.
+  void Apply(const HullChange& change);
+
+ private:
+  std::vector<ConvexPolygon> hulls_;
+};
+
+}  // namespace farhorizon
