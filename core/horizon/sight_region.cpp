@@ -6,16 +6,34 @@
 #include "core/horizon/sight_region.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <numeric>
 #include <utility>
 
+#include "core/horizon/direction.h"
 #include "core/horizon/sight_hidden.h"
 
 namespace farhorizon {
 
-SightRegion::SightRegion(const Sighted& edge) : edge_(edge), bounds_(edge) {
+namespace {
+
+// A side of the wedge as a curve: in lowest terms, as those of neighbours that share a face are.
+SightCurve SideOf(const ShortVector& v) {
+  const std::int64_t divisor = std::gcd(v.x, v.y);
+  return {SightCurve::Kind::kMoving, {v.x / divisor, v.y / divisor, 0, 0}};
+}
+
+}  // namespace
+
+SightRegion::SightRegion(const Sighted& edge, const std::optional<FaceWedge>& wedge)
+    : edge_(edge), bounds_(edge) {
+  const ShortVector along{std::int64_t{edge.high.x} - edge.low.x,
+                          std::int64_t{edge.high.y} - edge.low.y};
   SightCell all;
   all.first = SightCurve::Along();
   all.last = SightCurve::Against();
+  if (wedge && CrossSign(along, wedge->first) != 0) all.first = SideOf(wedge->first);
+  if (wedge && CrossSign(along, wedge->last) != 0) all.last = SideOf(wedge->last);
   Add(all);
 }
 

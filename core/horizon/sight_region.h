@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/horizon/face_wedge.h"
 #include "core/horizon/segment_index.h"
 #include "core/horizon/sight_bounds.h"
 #include "core/horizon/sight_cell.h"
@@ -13,13 +14,14 @@ namespace farhorizon {
 /// The lines of sight of one edge over a set of segments: exactly those pairs of t and direction in
 /// whose line nothing of the set is higher than the edge, up to a set without interior points.
 ///
-/// The region is all pairs at first; each segment takes away what it hides. It stays a list of cells
+/// The region is all pairs of the wedge at first; each segment takes away what it hides. It stays a list of cells
 /// that do not overlap, bounded by the curves of what hides beyond.
 /// Requires: no segment of the set lies over the edge in plan, but at its ends.
 /// Limits: as Skyline. Cost: some microseconds for each segment that shows beside nearer ones.
 class SightRegion {
  public:
-  explicit SightRegion(const Sighted& edge);
+  /// wedge: what the ground beside the edge leaves free, if it is part of what hides (face_wedge.h).
+  explicit SightRegion(const Sighted& edge, const std::optional<FaceWedge>& wedge = std::nullopt);
 
   /// Takes away what all members of `index` but one hide.
   void Subtract(const SegmentIndex& index, std::int32_t except);

@@ -53,7 +53,7 @@ Result<std::vector<Sights>> FindSights(const Terrain& terrain, const Horizon& ho
     if (horizon.edges[i].undecided) return;
     const SegmentIndex::Item& item = index.item(static_cast<std::int32_t>(i));
     const Sighted edge{item.low, item.high, Ties::kPass};
-    SightRegion region(edge);
+    SightRegion region(edge, WedgeOf(terrain, horizon.edges[i].edge));
     for (std::size_t j = i == 0 ? 0 : horizon.screen_ends[i - 1]; j < horizon.screen_ends[i]; ++j) {
       region.Subtract({horizon.screens[j].a, horizon.screens[j].b});
     }
