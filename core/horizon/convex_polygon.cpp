@@ -56,6 +56,40 @@ ConvexPolygon ConvexPolygon::HullOf(std::vector<Point2i>& points) {
   return hull;
 }
 
+void ConvexPolygon::Extend(Point2i p) {
+  const std::size_t count = corners_.size();
+  if (count < 3) {
+    std::vector<Point2i> points = corners_;
+    points.push_back(p);
+    *this = HullOf(points);
+    return;
+  }
+  // The sides that p sees from outside, or along, are next to each other; p takes their place.
+  const auto sees = [&](std::size_t i) {
+    return Cross(corners_[i % count], corners_[(i + 1) % count], p) <= 0;
+  };
+  std::size_t first = 0;
+  if (sees(0)) {
+    for (first = count; sees(first - 1);) --first;
+  } else {
+    while (!sees(first)) ++first;
+  }
+  std::size_t last = first;
+  while (sees(last + 1)) ++last;
+  std::rotate(corners_.begin(), corners_.begin() + static_cast<std::ptrdiff_t>(first % count),
+              corners_.end());
+  // Now the sides from corner 0 to corner last - first + 1 are seen.
+  const std::ptrdiff_t past = static_cast<std::ptrdiff_t>(last - first) + 1;
+  if (past == 1) {
+    corners_.insert(corners_.begin() + 1, p);
+  } else {
+    corners_[1] = p;
+    corners_.erase(corners_.begin() + 2, corners_.begin() + past);
+  }
+  least_ = {std::min(least_.x, p.x), std::min(least_.y, p.y)};
+  most_ = {std::max(most_.x, p.x), std::max(most_.y, p.y)};
+}
+
 void ConvexPolygon::FindBox() {
   least_ = most_ = corners_.front();
   for (const Point2i p : corners_) {

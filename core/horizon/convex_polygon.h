@@ -22,6 +22,9 @@ class ConvexPolygon {
   /// The convex hull of `points` (reordered). Cost: O(n log n).
   static ConvexPolygon HullOf(std::vector<Point2i>& points);
 
+  /// Makes it the convex hull of itself and p. Requires: a corner, p outside. Cost: O(n).
+  void Extend(Point2i p);
+
   [[nodiscard]] const std::vector<Point2i>& corners() const { return corners_; }
   /// The corners of its box.
   [[nodiscard]] Point2i least() const { return least_; }

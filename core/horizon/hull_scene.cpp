@@ -10,12 +10,11 @@ void HullScene::Apply(const HullChange& change) {
     return;
   }
   ConvexPolygon& hull = hulls_[static_cast<std::size_t>(change.hull)];
-  std::vector<Point2i> corners = hull.corners();
   if (change.kind == HullChange::Kind::kGrowth) {
-    corners.push_back(change.post);
-    hull = ConvexPolygon::HullOf(corners);
+    hull.Extend(change.post);
     return;
   }
+  std::vector<Point2i> corners = hull.corners();
   ConvexPolygon& lost = hulls_[static_cast<std::size_t>(change.other)];
   corners.insert(corners.end(), lost.corners().begin(), lost.corners().end());
   hull = ConvexPolygon::HullOf(corners);

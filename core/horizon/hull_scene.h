@@ -26,7 +26,7 @@ class HullScene {
     return hulls_[static_cast<std::size_t>(place)];
   }
 
-  /// Cost: O(c log c) for hulls of c corners.
+  /// Cost: O(c) for growth, O(c log c) for a merge, for hulls of c corners.
   void Apply(const HullChange& change);
 
  private:

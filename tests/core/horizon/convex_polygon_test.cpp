@@ -40,6 +40,31 @@ bool InHull(const std::vector<Point2i>& points, Point2i p) {
   return false;
 }
 
+// Corners from the least on.
+std::vector<Point2i> RingOf(const ConvexPolygon& polygon) {
+  std::vector<Point2i> ring = polygon.corners();
+  std::rotate(ring.begin(), std::min_element(ring.begin(), ring.end()), ring.end());
+  return ring;
+}
+
+TEST(ConvexPolygon, ExtendsToTheHullOfAllPointsItWasGiven) {
+  std::mt19937 random(7);
+  for (int round = 0; round < 3000; ++round) {
+    const int size = 3 + static_cast<int>(random() % 30);
+    std::vector<Point2i> points = RandomPoints(random, 30, size);
+    ConvexPolygon grown(points.front());
+    std::vector<Point2i> so_far;
+    for (const Point2i p : points) {
+      so_far.push_back(p);
+      if (!grown.Contains(p)) grown.Extend(p);
+      const ConvexPolygon hull = ConvexPolygon::HullOf(so_far);
+      ASSERT_EQ(RingOf(grown), RingOf(hull));
+      ASSERT_EQ(grown.least(), hull.least());
+      ASSERT_EQ(grown.most(), hull.most());
+    }
+  }
+}
+
 TEST(ConvexPolygon, ContainsAndCoversWhatTheDefinitionSays) {
   std::mt19937 random(6);
   for (int round = 0; round < 400; ++round) {
