@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/horizon/screens.h"
+
 namespace farhorizon {
 namespace {
 
@@ -144,10 +146,7 @@ bool EdgeShade::IsComplete() {
 }
 
 void EdgeShade::AppendScreens(std::int32_t level, std::vector<Segment>& screens) const {
-  for (const ConvexPolygon::Silhouette& s : silhouettes_) {
-    if (s.right == s.left) continue;
-    screens.push_back({{s.right.x, s.right.y, level}, {s.left.x, s.left.y, level}});
-  }
+  SelectScreens(low_, level, silhouettes_, screens);
 }
 
 }  // namespace farhorizon

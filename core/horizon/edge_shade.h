@@ -30,7 +30,7 @@ class EdgeShade {
   /// Whether all directions are hidden from every point. Requires: no more hulls to come.
   [[nodiscard]] bool IsComplete();
 
-  /// Appends the screens at `level` of the hulls that show in the rest.
+  /// Appends the screens at `level` of the hulls that showed in the rest, beside wider ones (screens.h).
   void AppendScreens(std::int32_t level, std::vector<Segment>& screens) const;
 
  private:
