@@ -83,7 +83,7 @@ struct HorizonOptions {
   bool approximate = false;
 };
 
-/// 2000 decisions an edge of the terrain, and no less than 10^9 in all: some twelve times what the hardest
+/// 2000 decisions an edge of the terrain, and no less than 10^9 in all: some eighty times what the hardest
 /// real DEM known needs. White noise takes n^1.8 in all, n its edges, and outgrows it: the set is 3SUM-hard.
 std::int64_t DefaultWorkBudget(std::int64_t terrain_edges);
 
