@@ -16,10 +16,6 @@ void Raise(std::optional<ExactHeight>& highest, const std::optional<ExactHeight>
 
 }  // namespace
 
-int Compare(const ExactHeight& a, const ExactHeight& b) {
-  return CompareProducts(a.numerator, b.denominator, b.numerator, a.denominator);
-}
-
 std::optional<ExactHeight> HeightOver(const Segment& segment, const PlanLine& line) {
   const std::int64_t a = Side(segment.a, line);
   const std::int64_t b = Side(segment.b, line);

@@ -4,7 +4,7 @@
 #include <optional>
 #include <span>
 
-#include "core/exact/wide.h"
+#include "core/exact/fraction.h"
 #include "core/horizon/skyline.h"
 #include "core/terrain/terrain.h"
 
@@ -19,14 +19,8 @@ struct PlanLine {
   std::int32_t dr = 0;
 };
 
-/// A height in quanta as a fraction, denominator > 0.
-struct ExactHeight {
-  Int128 numerator = 0;
-  Int128 denominator = 1;
-};
-
-/// -1, 0, 1 as a < b, a = b, a > b.
-int Compare(const ExactHeight& a, const ExactHeight& b);
+/// A height in quanta.
+using ExactHeight = Fraction;
 
 /// The height at which a segment stands over the line; the greater of its ends where it lies along it;
 /// nullopt where they do not meet. Exact.

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace farhorizon {
+
+/// Closed intervals of numbers, arranged once to be asked which of them hold a number.
+///
+/// A binary tree after Edelsbrunner: a node keeps the intervals that hold its middle, by rising starts and by
+/// falling ends. Cost: O(n log n) to build, O(n) memory, O(log n + found) a question.
+class IntervalTree {
+ public:
+  struct Interval {
+    double from = 0;
+    double to = 0;
+    std::int32_t id = 0;
+  };
+
+  /// Requires: from <= to, no NaN.
+  explicit IntervalTree(std::vector<Interval> intervals);
+
+  /// The ids of the intervals that hold x, in no particular order.
+  [[nodiscard]] std::vector<std::int32_t> Holding(double x) const;
+
+ private:
+  static constexpr std::int32_t kNone = -1;
+  struct Node {
+    double middle = 0;
+    std::size_t begin = 0;  // its intervals: from here on in by_start_ and by_end_
+    std::size_t end = 0;
+    std::int32_t lower = kNone;
+    std::int32_t upper = kNone;
+  };
+  std::int32_t Build(std::vector<Interval> intervals);
+
+  std::vector<Node> nodes_;
+  std::vector<Interval> by_start_;
+  std::vector<Interval> by_end_;
+  std::int32_t root_;
+};
+
+}  // namespace farhorizon

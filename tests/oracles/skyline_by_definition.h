@@ -1,0 +1,25 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <boost/multiprecision/cpp_int.hpp>
+
+#include "core/horizon/upper_envelope.h"
+
+namespace farhorizon {
+
+/// A part of the upper envelope, places in exact numbers.
+struct SeenStretch {
+  std::size_t segment = 0;
+  boost::multiprecision::cpp_rational from;
+  boost::multiprecision::cpp_rational to;
+  friend bool operator==(const SeenStretch&, const SeenStretch&) = default;
+};
+
+/// What UpperEnvelope says, plainly by its definition: between any two neighbouring places at which a
+/// segment ends or two cross, in height or in depth, the best segment at the middle. Exact. Cost: O(n^3).
+std::vector<SeenStretch> SkylineByDefinition(std::span<const Segment> segments,
+                                             const ViewDirection& view);
+
+}  // namespace farhorizon
