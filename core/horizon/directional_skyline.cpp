@@ -132,7 +132,8 @@ double ShareOf(const Segment& edge, const ViewDirection& view, const Fraction& p
   const std::int64_t a = Across(edge.a, view);
   const std::int64_t run = Across(edge.b, view) - a;
   const Int128 numerator = place.numerator - a * place.denominator;
-  return static_cast<double>(numerator) / static_cast<double>(run * place.denominator);
+  // + 0.0: never -0.
+  return static_cast<double>(numerator) / static_cast<double>(run * place.denominator) + 0.0;
 }
 
 }  // namespace
@@ -150,8 +151,8 @@ std::vector<SkylinePart> DirectionalSkylines::Along(const ViewDirection& view) c
   std::vector<SkylinePart> parts;
   for (const EnvelopePart& part : UpperEnvelope(segments, view)) {
     const Segment& edge = segments[part.segment];
-    parts.push_back({static_cast<std::size_t>(seen[part.segment]),
-                     ShareOf(edge, view, part.from), ShareOf(edge, view, part.to)});
+    parts.push_back({static_cast<std::size_t>(seen[part.segment]), ShareOf(edge, view, part.from),
+                     ShareOf(edge, view, part.to)});
   }
   return parts;
 }

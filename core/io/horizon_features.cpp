@@ -1,61 +1,17 @@
 #include "core/io/horizon_features.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
-#include <cmath>
-#include <initializer_list>
-#include <string_view>
 #include <utility>
 
 #include <nlohmann/json.hpp>
 
+#include "core/io/geojson_text.h"
+
 namespace farhorizon {
 namespace {
 
-// A tenth of a millimetre on the ground, and in height.
-constexpr int kDegreeDecimals = 9;
-constexpr int kMetreDecimals = 4;
 // Shares of a half turn, and measures of the lines that see an edge.
 constexpr int kMeasureDecimals = 9;
-
-// The shortest text of `value` rounded to `decimals`.
-std::string Rounded(double value, int decimals) {
-  std::array<char, 64> text{};
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value,
-                                 std::chars_format::fixed, decimals);
-  Check(end.ec == std::errc(), "a coordinate too long to print");
-  std::string_view shown(text.data(), static_cast<std::size_t>(end.ptr - text.data()));
-  while (shown.ends_with('0')) shown.remove_suffix(1);
-  if (shown.ends_with('.')) shown.remove_suffix(1);
-  return shown == "-0" ? "0" : std::string(shown);
-}
-
-// The shortest text that reads back to the same number.
-std::string Exact(double value) {
-  std::array<char, 64> text{};
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value);
-  return {text.data(), end.ptr};
-}
-
-// Joined by appending: GCC 12 sees an overlap in "[" + std::string (its bug 105651).
-std::string Bracketed(std::initializer_list<std::string> parts) {
-  std::string text(1, '[');
-  for (const std::string& part : parts) {
-    if (text.size() > 1) text += ',';
-    text += part;
-  }
-  return text += ']';
-}
-
-std::string Coordinates(const Geodetic& g) {
-  return Bracketed({Rounded(g.lon_deg, kDegreeDecimals), Rounded(g.lat_deg, kDegreeDecimals),
-                    Rounded(g.height_m, kMetreDecimals)});
-}
-
-std::string Pair(std::int64_t first, std::int64_t second) {
-  return Bracketed({std::to_string(first), std::to_string(second)});
-}
 
 std::string FeatureText(const HorizonFeature& feature) {
   std::string text = R"({"type":"Feature","geometry":{"type":"LineString","coordinates":)";

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
+
+#include "core/io/svg_text.h"
 
 namespace farhorizon {
 namespace {
@@ -12,29 +12,6 @@ constexpr double kPicture = 1000;  // pixels, the longer side
 constexpr double kMargin = 12;
 constexpr double kLegend = 290;
 constexpr double kLegendLine = 24;
-
-// A tenth of a pixel, in the shortest text.
-std::string Number(double value) {
-  std::array<char, 32> text{};
-  double rounded = std::round(value * 10) / 10;
-  if (rounded == 0) rounded = 0;  // no "-0"
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), rounded);
-  return {text.data(), end.ptr};
-}
-
-std::string Escaped(const std::string& text) {
-  std::string escaped;
-  for (const char c : text) {
-    if (c == '&') {
-      escaped += "&amp;";
-    } else if (c == '<') {
-      escaped += "&lt;";
-    } else {
-      escaped += c;
-    }
-  }
-  return escaped;
-}
 
 class Drawing {
  public:
@@ -50,7 +27,7 @@ class Drawing {
   [[nodiscard]] double legend_x() const { return (columns_ - 1) * scale_ + 3 * kMargin; }
 
   [[nodiscard]] std::string At(PlanPoint p) const {
-    return Number(kMargin + p.x * scale_) + "," + Number(kMargin + p.y * scale_);
+    return SvgNumber(kMargin + p.x * scale_) + "," + SvgNumber(kMargin + p.y * scale_);
   }
   template <typename Points>
   [[nodiscard]] std::string Path(const Points& points, bool closed) const {
@@ -59,13 +36,13 @@ class Drawing {
     return path + (closed ? "Z" : "");
   }
   [[nodiscard]] std::string Terrain() const {
-    return "<rect class=\"terrain\" x=\"" + Number(kMargin) + "\" y=\"" + Number(kMargin) +
-           "\" width=\"" + Number((columns_ - 1) * scale_) + "\" height=\"" +
-           Number((rows_ - 1) * scale_) + "\"/>\n";
+    return "<rect class=\"terrain\" x=\"" + SvgNumber(kMargin) + "\" y=\"" + SvgNumber(kMargin) +
+           "\" width=\"" + SvgNumber((columns_ - 1) * scale_) + "\" height=\"" +
+           SvgNumber((rows_ - 1) * scale_) + "\"/>\n";
   }
   [[nodiscard]] std::string Dot(PlanPoint p) const {
-    return "<circle cx=\"" + Number(kMargin + p.x * scale_) + "\" cy=\"" +
-           Number(kMargin + p.y * scale_) + "\" r=\"2.5\"/>\n";
+    return "<circle cx=\"" + SvgNumber(kMargin + p.x * scale_) + "\" cy=\"" +
+           SvgNumber(kMargin + p.y * scale_) + "\" r=\"2.5\"/>\n";
   }
 
  private:
@@ -107,12 +84,13 @@ std::string Legend(const Drawing& drawing, const std::string& title,
   const double x = drawing.legend_x();
   double y = kMargin + kLegendLine;
   const auto write = [&](double at, const std::string& text) {
-    return "<text x=\"" + Number(at) + "\" y=\"" + Number(y) + "\">" + Escaped(text) + "</text>\n";
+    return "<text x=\"" + SvgNumber(at) + "\" y=\"" + SvgNumber(y) + "\">" + SvgText(text) +
+           "</text>\n";
   };
   std::string legend = write(x, title);
   for (const LegendLine& line : lines) {
     y += kLegendLine;
-    const std::string sample = "M" + Number(x) + "," + Number(y - 10) + "h26v10h-26z";
+    const std::string sample = "M" + SvgNumber(x) + "," + SvgNumber(y - 10) + "h26v10h-26z";
     legend += Group(line.name, "<path d=\"" + sample + "\"/>\n") + write(x + 36, line.text);
   }
   return Group("legend", legend);
@@ -142,8 +120,8 @@ std::string DrawSweep(const SweepTrace& trace, const std::string& title) {
   const auto count = [](const char* what, std::size_t n) {
     return what + (": " + std::to_string(n));
   };
-  return "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + Number(drawing.width()) +
-         "\" height=\"" + Number(drawing.height()) + "\">\n<title>" + Escaped(title) +
+  return "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + SvgNumber(drawing.width()) +
+         "\" height=\"" + SvgNumber(drawing.height()) + "\">\n<title>" + SvgText(title) +
          "</title>\n" + kStyle + "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n" +
          drawing.Terrain() + Group("contours", Paths(contours)) + Group("hulls", Paths(hulls)) +
          Group("inactive", Paths({bitangents[0]})) + Group("active", Paths({bitangents[1]})) +

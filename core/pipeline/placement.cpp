@@ -57,6 +57,15 @@ Result<std::vector<Geodetic>> Placement::ToGeodetic(const std::vector<VertexId>&
   return transform_.ToGeodetic(points);
 }
 
+Result<std::vector<Geodetic>> Placement::ToGeodetic(const std::vector<GridPoint>& points) const {
+  std::vector<MapPoint> map;
+  map.reserve(points.size());
+  for (const GridPoint& p : points) {
+    map.push_back(MapPointAt(*dem_, p.column, p.row, p.height_m));
+  }
+  return transform_.ToGeodetic(map);
+}
+
 Result<std::vector<Enu>> Placement::ToEnu(const std::vector<Geodetic>& points) const {
   Result<std::vector<Ecef>> ecef = transform_.ToEcef(points);
   if (!ecef) return std::move(ecef.error());

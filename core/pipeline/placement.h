@@ -37,6 +37,9 @@ class Placement {
   [[nodiscard]] bool KeepsOrientation() const;
 
   [[nodiscard]] Result<std::vector<Geodetic>> ToGeodetic(const std::vector<VertexId>& posts) const;
+  /// Of points that may lie between posts.
+  [[nodiscard]] Result<std::vector<Geodetic>> ToGeodetic(
+      const std::vector<GridPoint>& points) const;
   [[nodiscard]] Result<std::vector<Enu>> ToEnu(const std::vector<Geodetic>& points) const;
   [[nodiscard]] Result<std::vector<Enu>> ToEnu(const std::vector<VertexId>& posts) const;
   [[nodiscard]] Result<std::vector<GridPoint>> ToGrid(const std::vector<Enu>& points) const;

@@ -20,6 +20,7 @@ using Chosen = std::function<int()>;
 
 void AddBuild(CLI::App& app, Chosen& chosen);
 void AddHorizon(CLI::App& app, Chosen& chosen);
+void AddSkyline(CLI::App& app, Chosen& chosen);
 void AddVerify(CLI::App& app, Chosen& chosen);
 void AddServe(CLI::App& app, Chosen& chosen);
 void AddSubmit(CLI::App& app, Chosen& chosen);

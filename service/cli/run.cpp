@@ -38,6 +38,7 @@ int RunProgram(int argc, char** argv) {
   Chosen chosen;
   AddBuild(app, chosen);
   AddHorizon(app, chosen);
+  AddSkyline(app, chosen);
   AddVerify(app, chosen);
   AddServe(app, chosen);
   AddSubmit(app, chosen);

@@ -35,13 +35,9 @@ std::optional<InView> Project(std::size_t i, const Segment& s, const ViewDirecti
   const Number depth_b = Number(view.dc) * s.b.x + Number(view.dr) * s.b.y;
   const Number height_slope = (Number(s.b.z) - s.a.z) / (b - a);
   const Number depth_slope = (depth_b - depth_a) / (b - a);
-  return InView{i,
-                std::min(a, b),
-                std::max(a, b),
-                height_slope,
-                s.a.z - height_slope * a,
-                depth_slope,
-                depth_a - depth_slope * a};
+  return InView{
+      i,           std::min(a, b),           std::max(a, b), height_slope, s.a.z - height_slope * a,
+      depth_slope, depth_a - depth_slope * a};
 }
 
 void AddCrossing(const InView& p, const InView& q, std::vector<Number>& places) {
@@ -76,9 +72,8 @@ std::vector<SeenStretch> SkylineByDefinition(std::span<const Segment> segments,
     for (const InView& s : seen) {
       if (middle < s.from || s.to < middle) continue;
       const bool better =
-          best == nullptr ||
-          std::tuple(s.Height(middle), -s.Depth(middle)) >
-              std::tuple(best->Height(middle), -best->Depth(middle));
+          best == nullptr || std::tuple(s.Height(middle), -s.Depth(middle)) >
+                                 std::tuple(best->Height(middle), -best->Depth(middle));
       if (better) best = &s;
     }
     if (best == nullptr) continue;

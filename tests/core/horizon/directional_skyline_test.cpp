@@ -43,8 +43,7 @@ std::vector<std::string> TerrainSkyline(const Terrain& terrain, const ViewDirect
     const Segment& s = segments[stretch.segment];
     const std::int64_t a = Across(s.a, view);
     const std::int64_t run = Across(s.b, view) - a;
-    told.push_back(Told(edges[stretch.segment],
-                        static_cast<double>((stretch.from - a) / run),
+    told.push_back(Told(edges[stretch.segment], static_cast<double>((stretch.from - a) / run),
                         static_cast<double>((stretch.to - a) / run)));
   }
   return told;
@@ -89,10 +88,8 @@ TEST(DirectionalSkylines, OfASupersetAreTheSame) {
   const Dem dem = FractalDem(33, 300, 100, 3);
   const Terrain terrain = *Terrain::Build(dem);
   const Horizon exact = *FindHorizon(terrain, 1, {});
-  const Horizon more =
-      *FindHorizon(terrain, {.work_budget = exact.statistics.predicates.Sum() / 3,
-                             .approximate = true},
-                   {});
+  const Horizon more = *FindHorizon(
+      terrain, {.work_budget = exact.statistics.predicates.Sum() / 3, .approximate = true}, {});
   ASSERT_GT(more.statistics.undecided, 0);
   const DirectionalSkylines of_exact(terrain, exact, *FindSights(terrain, exact, 1, {}));
   const DirectionalSkylines of_more(terrain, more, *FindSights(terrain, more, 1, {}));
@@ -116,8 +113,8 @@ void ExpectTheSkyline(const Terrain& terrain, const Horizon& horizon,
   };
   const Dem& dem = terrain.dem();
   std::vector<std::int64_t> corners;
-  for (const VertexId v : {0, dem.columns - 1, (dem.rows - 1) * dem.columns,
-                           dem.rows * dem.columns - 1}) {
+  for (const VertexId v :
+       {0, dem.columns - 1, (dem.rows - 1) * dem.columns, dem.rows * dem.columns - 1}) {
     corners.push_back(Across(terrain.Point(v), view));
   }
   const auto [least, most] = std::minmax_element(corners.begin(), corners.end());
