@@ -10,8 +10,8 @@ namespace {
 
 // Points in the numbers that roots are compared with.
 Dyadic ForRoots(const ShortDyadic& t) { return {t.n, t.k}; }
-const Dyadic& ForRoots(const Dyadic& t) { return t; }
-const WideDyadic& ForRoots(const WideDyadic& t) { return t; }
+Dyadic ForRoots(const Dyadic& t) { return t; }
+WideDyadic ForRoots(const WideDyadic& t) { return t; }
 
 // Narrows a range around t to where polynomials that are not negative at t stay so.
 template <typename Point>

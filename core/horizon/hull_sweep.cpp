@@ -165,7 +165,8 @@ class Sweeper {
         return column;
       };
       for (std::int32_t column = find(first); column <= last; column = find(column)) {
-        const auto post = static_cast<std::size_t>(row * columns_ + column);
+        const VertexId id = row * columns_ + column;
+        const auto post = static_cast<std::size_t>(id);
         result_.hulls.covered_level[post] = level_;
         result_.hulls.cluster[post] = node;
         next[column] = column + 1;

@@ -66,7 +66,7 @@ void AppendCrossings(const SightCurve& a, const SightCurve& b, double from, doub
   const Sweep sweep_a = SweepOf(a.v, from, to);
   const Sweep sweep_b = SweepOf(b.v, from, to);
   if (SurelyTurns(sweep_a, sweep_b) || SurelyTurns(sweep_b, sweep_a)) return;
-  for (PlacedRoot& root : SignChanges(Cross(a.v, b.v))) roots.push_back(std::move(root));
+  for (const PlacedRoot& root : SignChanges(Cross(a.v, b.v))) roots.push_back(root);
 }
 
 std::vector<PlacedRoot> Cuts(const PlacedRoot& from, std::vector<PlacedRoot> roots,

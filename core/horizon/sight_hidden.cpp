@@ -10,8 +10,8 @@ namespace {
 
 using Kind = SightCurve::Kind;
 
-void Append(std::vector<PlacedRoot>& roots, std::vector<PlacedRoot> more) {
-  for (PlacedRoot& root : more) roots.push_back(std::move(root));
+void Append(std::vector<PlacedRoot>& roots, const std::vector<PlacedRoot>& more) {
+  roots.insert(roots.end(), more.begin(), more.end());
 }
 
 // One end of what is hidden of an obstacle at one point: its vector and its side of the edge's line.

@@ -126,7 +126,7 @@ void SightRegion::Add(SightCell cell) {
     Remove(i);
   }
   cell_bounds_.push_back(bounds_.Of(cell));
-  cells_.push_back(std::move(cell));
+  cells_.push_back(cell);
 }
 
 void SightRegion::Subtract(const SegmentIndex::Item& item) {

@@ -109,6 +109,7 @@ Status WriteTilesetFor(const Source& source, const std::vector<LevelReport>& lev
   region->west -= across;
   region->east += across;
   std::vector<TilesetLevel> tiles;
+  tiles.reserve(levels.size());
   for (const LevelReport& level : levels) {
     tiles.push_back({"lod" + std::to_string(level.level) + ".glb", level.geometric_error_m});
   }

@@ -131,6 +131,7 @@ PublishedEdges VerifyFeatures(const Source& source, const std::vector<HorizonFea
 
 void VerifySet(const std::vector<Edge>& claimed, const Horizon& horizon, Claims& claims) {
   std::vector<Edge> found;
+  found.reserve(horizon.edges.size());
   for (const HorizonEdge& e : horizon.edges) found.push_back(e.edge);
   std::vector<Edge> sorted = claimed;
   std::sort(sorted.begin(), sorted.end());

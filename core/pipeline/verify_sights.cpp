@@ -208,6 +208,7 @@ Status VerifySights(const Source& source, const Horizon& horizon,
       FindViews(terrain, horizon, source.placement(), threads, watch);
   if (!views) return std::move(views.error());
   std::vector<Interval> middles;
+  middles.reserve(features.size());
   for (const HorizonFeature& f : features) {
     middles.push_back({(f.a[0] + f.b[0]) / 2.0, (f.a[1] + f.b[1]) / 2.0});
   }

@@ -73,7 +73,6 @@ Terrain::CellTriangles Terrain::Cell(std::int32_t column, std::int32_t row) cons
 }
 
 Terrain::Faces Terrain::FacesOf(Edge edge) const {
-  Faces faces;
   const std::int32_t column = dem_->Column(edge.a);
   const std::int32_t row = dem_->Row(edge.a);
   if (IsSurrounded(column, row)) {
@@ -84,6 +83,13 @@ Terrain::Faces Terrain::FacesOf(Edge edge) const {
     if (step == columns) return {a + columns + 1, a - 1};
     if (step == columns + 1) return {a + 1, a + columns};
   }
+  return FacesInCells(edge);
+}
+
+Terrain::Faces Terrain::FacesInCells(Edge edge) const {
+  Faces faces;
+  const std::int32_t column = dem_->Column(edge.a);
+  const std::int32_t row = dem_->Row(edge.a);
   // An edge lies in the one or two cells that have both its posts as corners.
   for (std::int32_t r = std::max(row - 1, 0); r <= std::min(row, dem_->rows - 2); ++r) {
     for (std::int32_t c = std::max(column - 1, 0); c <= std::min(column, dem_->columns - 2); ++c) {

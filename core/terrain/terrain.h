@@ -73,6 +73,8 @@ class Terrain {
  private:
   explicit Terrain(const Dem& dem) : dem_(&dem) {}
   [[nodiscard]] bool Has(std::int32_t column, std::int32_t row) const;
+  /// FacesOf, by the triangles of the cells around.
+  [[nodiscard]] Faces FacesInCells(Edge edge) const;
   /// Whether the post and all eight around it have data: the usual case, in which all is known at once.
   [[nodiscard]] bool IsSurrounded(std::int32_t column, std::int32_t row) const;
 

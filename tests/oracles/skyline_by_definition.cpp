@@ -7,8 +7,6 @@
 namespace farhorizon {
 namespace {
 
-using Number = boost::multiprecision::cpp_rational;
-
 // A segment in the view: its ends across, and the lines of its height and depth over the place.
 struct InView {
   std::size_t segment;

@@ -9,11 +9,15 @@
 
 namespace farhorizon {
 
+/// Exact numbers, of any size.
+using Number = boost::multiprecision::number<boost::multiprecision::cpp_rational_backend,
+                                             boost::multiprecision::et_off>;
+
 /// A part of the upper envelope, places in exact numbers.
 struct SeenStretch {
   std::size_t segment = 0;
-  boost::multiprecision::cpp_rational from;
-  boost::multiprecision::cpp_rational to;
+  Number from;
+  Number to;
   friend bool operator==(const SeenStretch&, const SeenStretch&) = default;
 };
 

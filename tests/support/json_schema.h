@@ -8,55 +8,80 @@
 
 namespace farhorizon {
 
-/// Where `value` breaks `schema`, as "path: why"; empty where it does not. Knows what proto/schemas
-/// use: type, required, properties, additionalProperties, items, enum, const, bounds, $ref left out.
-/// A property that the schema does not name is an offence too: what is answered has to be written.
-inline std::vector<std::string> SchemaOffences(const nlohmann::json& value,
-                                               const nlohmann::json& schema,
-                                               const std::string& path = "$") {
-  std::vector<std::string> offences;
-  const auto add = [&](const std::vector<std::string>& more) {
-    offences.insert(offences.end(), more.begin(), more.end());
-  };
-  const std::string type = schema.value("type", "");
-  const bool right =
-      type.empty() || (type == "object" && value.is_object()) ||
-      (type == "array" && value.is_array()) || (type == "string" && value.is_string()) ||
-      (type == "boolean" && value.is_boolean()) ||
-      (type == "integer" && value.is_number_integer()) || (type == "number" && value.is_number());
-  if (!right) return {path + ": is no " + type};
-  if (schema.contains("const") && schema["const"] != value) offences.push_back(path + ": const");
-  if (schema.contains("enum") &&
-      std::find(schema["enum"].begin(), schema["enum"].end(), value) == schema["enum"].end()) {
-    offences.push_back(path + ": enum");
+/// Where a value breaks a schema. Knows what proto/schemas use: type, required, properties,
+/// additionalProperties, items, enum, const, bounds; $ref and oneOf are left out.
+class SchemaCheck {
+ public:
+  void Look(const nlohmann::json& value, const nlohmann::json& schema, const std::string& path) {
+    const std::string type = schema.value("type", "");
+    if (!IsA(value, type)) {
+      Offend(path, "is no " + type);
+      return;
+    }
+    if (schema.contains("const") && schema["const"] != value) Offend(path, "const");
+    if (schema.contains("enum") &&
+        std::find(schema["enum"].begin(), schema["enum"].end(), value) == schema["enum"].end()) {
+      Offend(path, "enum");
+    }
+    if (value.is_number() && ((schema.contains("minimum") && value < schema["minimum"]) ||
+                              (schema.contains("maximum") && value > schema["maximum"]))) {
+      Offend(path, "out of bounds");
+    }
+    if (value.is_object()) LookIntoObject(value, schema, path);
+    if (value.is_array()) LookIntoArray(value, schema, path);
   }
-  if (value.is_number() && ((schema.contains("minimum") && value < schema["minimum"]) ||
-                            (schema.contains("maximum") && value > schema["maximum"]))) {
-    offences.push_back(path + ": out of bounds");
+  [[nodiscard]] const std::vector<std::string>& offences() const { return offences_; }
+
+ private:
+  static bool IsA(const nlohmann::json& value, const std::string& type) {
+    return type.empty() || (type == "object" && value.is_object()) ||
+           (type == "array" && value.is_array()) || (type == "string" && value.is_string()) ||
+           (type == "boolean" && value.is_boolean()) ||
+           (type == "integer" && value.is_number_integer()) ||
+           (type == "number" && value.is_number());
   }
-  if (value.is_object()) {
+
+  void LookIntoObject(const nlohmann::json& value, const nlohmann::json& schema,
+                      const std::string& path) {
     for (const auto& name : schema.value("required", nlohmann::json::array())) {
-      if (!value.contains(name)) offences.push_back(path + ": lacks " + name.get<std::string>());
+      if (!value.contains(name)) Offend(path, "lacks " + name.get<std::string>());
     }
     const auto properties = schema.value("properties", nlohmann::json::object());
     for (const auto& [name, member] : value.items()) {
+      std::string deeper = path;
+      deeper.append(".").append(name);
       if (properties.contains(name)) {
-        add(SchemaOffences(member, properties[name], path + "." + name));
+        Look(member, properties[name], deeper);
       } else if (schema.contains("additionalProperties")) {
-        add(SchemaOffences(member, schema["additionalProperties"], path + "." + name));
+        Look(member, schema["additionalProperties"], deeper);
       } else if (!properties.empty()) {
-        offences.push_back(path + ": has " + name + ", which the schema does not know");
+        Offend(deeper, "the schema does not know it");
       }
     }
   }
-  if (value.is_array()) {
-    if (value.size() < schema.value("minItems", std::size_t{0})) {
-      offences.push_back(path + ": too few");
-    }
+
+  void LookIntoArray(const nlohmann::json& value, const nlohmann::json& schema,
+                     const std::string& path) {
+    if (value.size() < schema.value("minItems", std::size_t{0})) Offend(path, "too few");
     const auto items = schema.value("items", nlohmann::json::object());
-    for (const auto& item : value) add(SchemaOffences(item, items, path + "[]"));
+    for (const auto& item : value) Look(item, items, path + "[]");
   }
-  return offences;
+
+  void Offend(const std::string& path, const std::string& why) {
+    std::string& offence = offences_.emplace_back(path);
+    offence.append(": ").append(why);
+  }
+
+  std::vector<std::string> offences_;
+};
+
+/// Where `value` breaks `schema`, as "path: why"; empty where it does not. A property that the schema does not
+/// name is an offence too: what is answered has to be written.
+inline std::vector<std::string> SchemaOffences(const nlohmann::json& value,
+                                               const nlohmann::json& schema) {
+  SchemaCheck check;
+  check.Look(value, schema, "$");
+  return check.offences();
 }
 
 }  // namespace farhorizon

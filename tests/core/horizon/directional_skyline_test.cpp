@@ -139,7 +139,7 @@ TEST(DirectionalSkylines, LeaveNoGapAndMeetNothingHigherOnARealDem) {
   std::mt19937 random(5);
   for (int i = 0; i < Rounds(40); ++i) {
     const auto step = [&] {
-      return static_cast<std::int32_t>(random() % (2 * kMaxViewStep)) - kMaxViewStep;
+      return static_cast<std::int32_t>(random() % (2UL * kMaxViewStep)) - kMaxViewStep;
     };
     ExpectTheSkyline(terrain, horizon, skylines,
                      i % 4 == 0 ? AnyView(random) : ViewDirection{step(), step()});

@@ -12,11 +12,8 @@ namespace farhorizon {
 namespace {
 
 using boost::multiprecision::cpp_int;
-using boost::multiprecision::cpp_rational;
 
-cpp_rational Exact(const Fraction& f) {
-  return cpp_rational(cpp_int(f.numerator), cpp_int(f.denominator));
-}
+Number Exact(const Fraction& f) { return Number(cpp_int(f.numerator), cpp_int(f.denominator)); }
 
 std::vector<SeenStretch> Exact(const std::vector<EnvelopePart>& parts) {
   std::vector<SeenStretch> stretches;
@@ -62,7 +59,7 @@ TEST(UpperEnvelope, IsExactAtTheLimits) {
     segments[1] = segments[0];
     segments[1].a.z -= static_cast<std::int32_t>(random() % 2);
     const auto step = [&] {
-      return static_cast<std::int32_t>(random() % (2 * kMaxViewStep)) - kMaxViewStep;
+      return static_cast<std::int32_t>(random() % (2UL * kMaxViewStep)) - kMaxViewStep;
     };
     const ViewDirection view{random() % 2 == 0 ? kMaxViewStep : step(), step()};
     ASSERT_EQ(Exact(UpperEnvelope(segments, view)), SkylineByDefinition(segments, view)) << round;
