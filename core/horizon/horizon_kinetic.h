@@ -50,6 +50,11 @@ struct KineticHorizon {
 Result<KineticHorizon> FindHorizonKinetic(const Terrain& terrain, const Watch& watch,
                                           std::optional<std::int64_t> work_budget = std::nullopt);
 
+/// The same under the default budget, with all invariants of the scene (kinetic/scene.h) looked at after
+/// every step: for tests. Throws InternalError where one does not hold. Cost: some ten times as much, and more
+/// where many hulls are apart.
+Result<KineticHorizon> FindHorizonKineticChecked(const Terrain& terrain);
+
 /// 200 an edge of the terrain, and no less than 5 * 10^7 in all: some forty times what the hardest real DEM
 /// known needs.
 std::int64_t DefaultKineticWorkBudget(std::int64_t terrain_edges);

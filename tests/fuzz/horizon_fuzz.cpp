@@ -1,4 +1,5 @@
-// libFuzzer's target: the engines against each other and, on tiny grids, against the definition.
+// libFuzzer's target: the engines against each other, the kinetic one's invariants and, on tiny grids, the
+// definition.
 // An offence is shrunk, drawn and ends the run; libFuzzer keeps the bytes.
 #include <cstddef>
 #include <cstdint>
@@ -8,8 +9,20 @@
 #include "tests/fuzz/dem_from_bytes.h"
 #include "tests/support/engine_agreement.h"
 
+namespace {
+
+constexpr std::int64_t kMostPostsChecked = 36;  // larger ones would take most of the time
+
+farhorizon::Result<farhorizon::KineticHorizon> Kinetic(const farhorizon::Terrain& terrain) {
+  return terrain.post_count() <= kMostPostsChecked
+             ? farhorizon::FindHorizonKineticChecked(terrain)
+             : farhorizon::FindHorizonKinetic(terrain, {});
+}
+
+}  // namespace
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const farhorizon::Engines engines{.posts_by_definition = 16};
+  static const farhorizon::Engines engines{.kinetic = Kinetic, .posts_by_definition = 16};
   const farhorizon::Dem dem = farhorizon::DemFromBytes({data, size});
   if (farhorizon::EngineOffence(dem, engines).empty()) return 0;
   std::cerr << farhorizon::SmallestOffence(dem, engines) << std::endl;

@@ -41,8 +41,9 @@ bool IsConvex(const Terrain& terrain, Edge edge) {
 
 class Sweep {
  public:
-  Sweep(const Terrain& terrain, const Watch& watch, std::int64_t work_budget)
-      : terrain_(terrain), watch_(watch), work_budget_(work_budget) {
+  /// checks: whether to look at all of the scene's invariants after every step.
+  Sweep(const Terrain& terrain, const Watch& watch, std::int64_t work_budget, bool checks)
+      : terrain_(terrain), watch_(watch), work_budget_(work_budget), checks_(checks) {
     const auto posts = static_cast<std::size_t>(terrain.post_count());
     cluster_.assign(posts, -1);
     arriving_.resize(posts);
@@ -76,7 +77,7 @@ class Sweep {
       LookAtLevelEdges(next, end, s);
       scene_.Advance(Moment::At(s));
       PassPosts(next, end, s);
-      scene_.Settle();
+      Settle();
       events_.queue_max = std::max(
           events_.queue_max, scene_.queue_size() + static_cast<std::int64_t>(order_.size() - end));
       next = end;
@@ -84,7 +85,7 @@ class Sweep {
     if (last == kinetic::kNever) return true;
     if (!SinkTo(last)) return false;
     scene_.Advance(Moment::At(last));
-    scene_.Settle();
+    Settle();
     return true;
   }
 
@@ -126,9 +127,14 @@ class Sweep {
     for (; at && Compare(*at, Moment::At(s)) < 0; at = scene_.NextFailure()) {
       if (!MayGoOn()) return false;
       scene_.Advance(*at);
-      scene_.Settle();
+      Settle();
     }
     return true;
+  }
+
+  void Settle() {
+    scene_.Settle();
+    if (checks_) scene_.CheckAll();
   }
 
   // Counts a stop of the plane: all hulls are looked at there.
@@ -212,6 +218,7 @@ class Sweep {
   const Terrain& terrain_;
   const Watch& watch_;
   std::int64_t work_budget_;
+  bool checks_;
   Scene scene_;
   std::int32_t summit_ = 0;
   std::vector<VertexId> order_;                 // from the summit down
@@ -251,21 +258,29 @@ Error Stopped(const Sweep& sweep, std::int64_t budget) {
           "work-budget"};
 }
 
-}  // namespace
-
-Result<KineticHorizon> FindHorizonKinetic(const Terrain& terrain, const Watch& watch,
-                                          std::optional<std::int64_t> work_budget) {
-  const std::int64_t budget =
-      work_budget ? *work_budget : DefaultKineticWorkBudget(terrain.CountEdges());
-  Sweep sweep(terrain, watch, budget);
+Result<KineticHorizon> Find(const Terrain& terrain, const Watch& watch, std::int64_t budget,
+                            bool checks) {
+  Sweep sweep(terrain, watch, budget, checks);
   if (!sweep.Fits()) return TooLarge();
   if (!sweep.Run()) return Stopped(sweep, budget);
   return sweep.Take();
 }
 
+}  // namespace
+
+Result<KineticHorizon> FindHorizonKinetic(const Terrain& terrain, const Watch& watch,
+                                          std::optional<std::int64_t> work_budget) {
+  return Find(terrain, watch, work_budget.value_or(DefaultKineticWorkBudget(terrain.CountEdges())),
+              false);
+}
+
+Result<KineticHorizon> FindHorizonKineticChecked(const Terrain& terrain) {
+  return Find(terrain, {}, DefaultKineticWorkBudget(terrain.CountEdges()), true);
+}
+
 Result<SweepTrace> TraceSweep(const Terrain& terrain, std::int32_t level, const Watch& watch) {
   const std::int64_t budget = DefaultKineticWorkBudget(terrain.CountEdges());
-  Sweep sweep(terrain, watch, budget);
+  Sweep sweep(terrain, watch, budget, false);
   if (level > sweep.summit() || level < sweep.lowest()) {
     return Error{ErrorCode::kInvalidArgument, "the terrain has no slice at this level",
                  "no-such-level"};

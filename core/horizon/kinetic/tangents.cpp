@@ -140,8 +140,12 @@ void Scene::HideArc(const Arc& arc) {
   const PointId last = Own(arc.end);
   PointId p = Own(arc.start);
   if (cluster(Find(point(p).cluster)).recount) {
-    Touch(p);
+    // A corner on the way may be as deep as before and hidden for all that: by this hull throughout, where
+    // one that is part of it now ended.
     Touch(last);
+    for (Touch(p); p != last; p = point(p).next) {
+      if (!point(p).lit.empty()) Touch(p);
+    }
     return;
   }
   for (bool begins = true;; begins = false, p = point(p).next) {

@@ -120,6 +120,40 @@ TEST(FindHorizonKinetic, DoesNotSeeLevelEdgesThroughAContactOfTwoHulls) {
                                 Find));
 }
 
+// Throws where an invariant of the scene does not hold.
+void CheckOnRandomTerrains(std::int32_t min_side, std::int32_t max_side, int rounds,
+                           std::uint32_t seed) {
+  std::mt19937 random(seed);
+  for (int round = 0; round < rounds; ++round) {
+    const Dem dem = AnyRandomDem(min_side, max_side, random);
+    Result<Terrain> terrain = Terrain::Build(dem);
+    if (!terrain) continue;
+    SCOPED_TRACE(DrawAscii(dem));
+    ASSERT_NO_THROW({ EXPECT_EQ(FindHorizonKineticChecked(*terrain)->edges, Find(*terrain)); });
+  }
+}
+
+TEST(FindHorizonKinetic, KeepsItsInvariantsOnRandomTerrains) {
+  CheckOnRandomTerrains(3, 9, Rounds(1000), 28);
+  CheckOnRandomTerrains(11, 15, Rounds(20), 29);
+}
+
+TEST(FindHorizonKineticLong, KeepsItsInvariantsOnRandomTerrains) {
+  CheckOnRandomTerrains(3, 9, Rounds(20'000), 30);
+  CheckOnRandomTerrains(15, 25, Rounds(50), 31);
+}
+
+// A hull that ended at a corner joins one that hides the corner throughout: as many hide its first edge as
+// before, and what was seen beyond the end is not seen any more.
+TEST(FindHorizonKinetic, KeepsItsInvariantsWhereAJoinedHullHidesNoMoreOfAnEdgeButMoreOfACorner) {
+  const Dem dem = AsciiDem(R"(
+      . 1 . 2 0 2
+      . 0 1 1 . 0
+      . 0 . 0 1 .
+      2 2 1 . 0 1)");
+  EXPECT_NO_THROW({ EXPECT_TRUE(FindHorizonKineticChecked(*Terrain::Build(dem))); });
+}
+
 TEST(FindHorizonKinetic, AgreesWithTheAdaptiveEngineOnLargerRandomTerrains) {
   std::mt19937 random(3);
   for (int round = 0; round < Rounds(20); ++round) {
