@@ -14,9 +14,8 @@ namespace {
 constexpr std::int64_t kMostPostsChecked = 36;  // larger ones would take most of the time
 
 farhorizon::Result<farhorizon::KineticHorizon> Kinetic(const farhorizon::Terrain& terrain) {
-  return terrain.post_count() <= kMostPostsChecked
-             ? farhorizon::FindHorizonKineticChecked(terrain)
-             : farhorizon::FindHorizonKinetic(terrain, {});
+  return terrain.post_count() <= kMostPostsChecked ? farhorizon::FindHorizonKineticChecked(terrain)
+                                                   : farhorizon::FindHorizonKinetic(terrain, {});
 }
 
 }  // namespace
