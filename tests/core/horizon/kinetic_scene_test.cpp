@@ -103,6 +103,69 @@ TEST_P(WorstCase, TakesTheBridgeOfOneHullThroughEveryPair) {
   }
 }
 
+// Lemma 4.4 as a bound on the directions of an edge: b_1 to b_(n-2) are each touched along n + 1 disjoint
+// intervals of them. One interval is what the hull leaves free at a corner as long as it is one, its slopes
+// taken at every event and at 64 moments between two whole depths.
+TEST(WorstCaseDirections, FallIntoDisjointIntervalsAtTheInnerPointsOfAChain) {
+  constexpr std::int64_t kSlow = 64;
+  for (const std::int64_t n : {3, 4, 5, 6}) {
+    const Chains chains(n);
+    Scene scene;
+    const ClusterId c = scene.NewCluster();
+    const auto slow = [](MovingPoint p) {
+      return MovingPoint{p.x * kSlow, p.vx, p.y * kSlow, p.vy, p.d * kSlow};
+    };
+    for (std::int64_t i = 0; i < n; ++i) {
+      scene.Add(c, slow(chains.A(i)), n * kSlow, kFoot);
+      scene.Add(c, slow(chains.B(i)), n * kSlow, static_cast<std::int32_t>(i));
+    }
+    scene.Add(c, MovingPoint::Standing(-chains.d(), -9999), kNever, kFoot);
+    scene.Add(c, MovingPoint::Standing(chains.d(), -9999), kNever, kFoot);
+
+    struct Interval {
+      double least = 1e9;
+      double most = -1e9;
+    };
+    std::vector<std::vector<Interval>> intervals(static_cast<std::size_t>(n));
+    std::vector<bool> was(static_cast<std::size_t>(n), false);
+    const auto look = [&](const Moment& now) {
+      scene.Advance(now);
+      scene.Settle();
+      const auto slope = [&](PointId from, PointId to) {
+        const Aim aim = AimAt(scene.point(from).path, scene.point(to).path, now);
+        return aim.y / aim.x;
+      };
+      for (PointId p = 0; p < scene.point_count(); ++p) {
+        const Scene::Point& point = scene.point(p);
+        if (point.tag == kFoot) continue;
+        const auto k = static_cast<std::size_t>(point.tag);
+        if (point.corner && !was[k]) intervals[k].emplace_back();
+        was[k] = point.corner;
+        if (!point.corner) continue;
+        Interval& interval = intervals[k].back();
+        interval.least = std::min(interval.least, slope(p, point.prev));
+        interval.most = std::max(interval.most, slope(p, point.next));
+      }
+    };
+    for (std::int64_t s = 0; s <= n * kSlow; ++s) {
+      for (std::optional<Moment> at = scene.NextFailure(); at && Compare(*at, Moment::At(s)) < 0;
+           at = scene.NextFailure()) {
+        look(*at);
+      }
+      if (s < n * kSlow) look(Moment::At(s));
+    }
+
+    for (std::size_t k = 1; k + 1 < static_cast<std::size_t>(n); ++k) {
+      std::ranges::sort(intervals[k], {}, &Interval::least);
+      ASSERT_EQ(static_cast<std::int64_t>(intervals[k].size()), n + 1) << "b" << k;
+      for (std::size_t i = 1; i < intervals[k].size(); ++i) {
+        EXPECT_LT(intervals[k][i - 1].most, intervals[k][i].least)
+            << "n " << n << ", b" << k << ", interval " << i;
+      }
+    }
+  }
+}
+
 // Lemma 4.8: the same chains as two contours, the bridge a scene bitangent, always active.
 TEST_P(WorstCase, TakesABitangentOfTwoHullsThroughEveryPair) {
   const std::int64_t n = GetParam();
