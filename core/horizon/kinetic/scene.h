@@ -252,6 +252,7 @@ class Scene {
   void Recount(ClusterId c);
   void WalkShaken();
   void LookAtTouched(PointId p);
+  void LookAtAllTouched();
   void UpdateTangents();
 
   // gaps.cpp

@@ -296,6 +296,20 @@ void Scene::LookAtTouched(PointId p) {
   }
 }
 
+// Until no look touches another.
+void Scene::LookAtAllTouched() {
+  std::size_t looked_at = 0;
+  for (bool done = false; !done; done = looked_at == touched_.size()) {
+    for (; looked_at < touched_.size(); ++looked_at) LookAtTouched(touched_[looked_at]);
+    WalkShaken();
+    for (std::size_t i = 0; i < touched_.size(); ++i) {
+      if (!point(touched_[i]).corner) continue;
+      const ClusterId c = Find(point(touched_[i]).cluster);
+      if (std::exchange(clusters_[Index(c)].recount, false)) Recount(c);
+    }
+  }
+}
+
 namespace {
 
 bool SameThree(std::array<PointId, 3> a, std::array<PointId, 3> b) {
@@ -328,17 +342,7 @@ void Scene::UpdateTangents() {
     }
   }
   ReleaseArcs();
-  std::size_t looked_at = 0;
-  for (bool done = false; !done;) {
-    for (; looked_at < touched_.size(); ++looked_at) LookAtTouched(touched_[looked_at]);
-    WalkShaken();
-    for (std::size_t i = 0; i < touched_.size(); ++i) {
-      if (!point(touched_[i]).corner) continue;
-      const ClusterId c = Find(point(touched_[i]).cluster);
-      if (std::exchange(clusters_[Index(c)].recount, false)) Recount(c);
-    }
-    done = looked_at == touched_.size();
-  }
+  LookAtAllTouched();
   for (const PointId p : touched_) {
     points_[Index(p)].touched = false;
     if (point(p).corner) Rebuild(p);

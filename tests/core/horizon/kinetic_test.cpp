@@ -68,7 +68,7 @@ Dem Middle(const Dem& dem, std::int32_t side) {
   return MakeDem(columns, rows, [&](std::int32_t c, std::int32_t r) {
     const std::int32_t column = c + (dem.columns - columns) / 2;
     const std::int32_t row = r + (dem.rows - rows) / 2;
-    return dem.heights[static_cast<std::size_t>(row * dem.columns + column)];
+    return dem.heights[static_cast<std::size_t>(std::int64_t{row} * dem.columns + column)];
   });
 }
 
