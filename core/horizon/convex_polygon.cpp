@@ -23,6 +23,18 @@ bool ProperlyCross(Point2i a, Point2i b, Point2i c, Point2i d) {
          Sign(Cross(c, d, a)) * Sign(Cross(c, d, b)) < 0;
 }
 
+// Whether a side of `a`, three corners or more, has all of `b` strictly beyond it.
+bool ASideParts(const std::vector<Point2i>& a, const std::vector<Point2i>& b) {
+  Point2i from = a.back();
+  for (const Point2i to : a) {
+    if (std::all_of(b.begin(), b.end(), [&](Point2i p) { return Cross(from, to, p) < 0; })) {
+      return true;
+    }
+    from = to;
+  }
+  return false;
+}
+
 std::int64_t FloorDivide(std::int64_t a, std::int64_t b) {
   return a / b - static_cast<std::int64_t>(a % b != 0 && (a < 0) != (b < 0));
 }
@@ -117,6 +129,12 @@ bool ConvexPolygon::Meets(const ConvexPolygon& other) const {
   if (other.most_.x < least_.x || other.least_.x > most_.x || other.most_.y < least_.y ||
       other.least_.y > most_.y) {
     return false;
+  }
+  // Of two that are apart a side of one parts them: their difference's sides are parallel to theirs.
+  if (corners_.size() >= 3 && other.corners_.size() >= 3) {
+    const bool fewer = corners_.size() < other.corners_.size();
+    return !ASideParts(fewer ? corners_ : other.corners_, fewer ? other.corners_ : corners_) &&
+           !ASideParts(fewer ? other.corners_ : corners_, fewer ? corners_ : other.corners_);
   }
   const auto contains_one_of = [](const ConvexPolygon& a, const ConvexPolygon& b) {
     return std::any_of(b.corners_.begin(), b.corners_.end(),

@@ -76,7 +76,7 @@ std::int64_t DefaultWorkBudget(std::int64_t terrain_edges) {
 
 Result<Horizon> FindHorizon(const Terrain& terrain, const HorizonOptions& options,
                             const Watch& watch) {
-  Result<HullSweep> sweep = SweepHulls(terrain, watch);
+  Result<HullSweep> sweep = SweepHulls(terrain, options.threads, watch);
   if (!sweep) return std::move(sweep.error());
   Result<Candidates> candidates = FindCandidates(terrain, *sweep, options.threads, watch);
   if (!candidates) return std::move(candidates.error());

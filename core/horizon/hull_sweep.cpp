@@ -5,20 +5,21 @@
 #include "core/horizon/hull_sweep.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstdint>
-#include <limits>
-#include <numeric>
+#include <optional>
 #include <utility>
 
 #include "core/horizon/convex_polygon.h"
+#include "core/horizon/sweep_order.h"
 
 namespace farhorizon {
 namespace {
 
 class Sweeper {
  public:
-  Sweeper(const Terrain& terrain, HullSweep& result)
-      : terrain_(terrain), columns_(terrain.dem().columns), result_(result) {
+  Sweeper(const Terrain& terrain, const SweepOrder& order, HullSweep& result)
+      : terrain_(terrain), order_(order), columns_(terrain.dem().columns), result_(result) {
     const auto posts = static_cast<std::size_t>(terrain.post_count());
     result.hulls.covered_level.assign(posts, kNoHeight);
     result.hulls.cluster.assign(posts, -1);
@@ -29,26 +30,34 @@ class Sweeper {
     }
   }
 
+  // Fetches what Insert will read: vertices of one height are anywhere.
+  [[gnu::always_inline]] void Expect(VertexId v) const {
+    const auto post = static_cast<std::ptrdiff_t>(v);
+    const std::int32_t* cluster = result_.hulls.cluster.data() + post;
+    __builtin_prefetch(order_.around.data() + post);
+    __builtin_prefetch(terrain_.dem().heights.data() + post);
+    __builtin_prefetch(cluster);
+    if (v >= columns_) __builtin_prefetch(cluster - columns_);
+    if (v + columns_ < terrain_.post_count()) __builtin_prefetch(cluster + columns_);
+  }
+
   void Insert(VertexId v) {
     v_ = v;
     level_ = Height(v);
     std::vector<std::int32_t>& met = met_;
     met.clear();
-    bool minimum = true;
-    for (const VertexId n : terrain_.NeighboursOf(v)) {
-      if (!InsertedBefore(n, v)) {
-        minimum = false;
-        continue;
-      }
-      ++result_.statistics.terrain_edges;
+    const SweepOrder::Around& beside = order_.around[static_cast<std::size_t>(v)];
+    for (unsigned before = beside.before; before != 0; before &= before - 1) {
+      const VertexId n = v + order_.offsets[static_cast<std::size_t>(std::countr_zero(before))];
       const std::int32_t cluster = Find(result_.hulls.cluster[static_cast<std::size_t>(n)]);
       if (std::find(met.begin(), met.end(), cluster) == met.end()) met.push_back(cluster);
     }
     HorizonStatistics& statistics = result_.statistics;
-    ++(met.empty()      ? statistics.peaks
-       : met.size() > 1 ? statistics.saddles
-       : minimum        ? statistics.minima
-                        : statistics.regular);
+    statistics.terrain_edges += std::popcount(beside.before);
+    ++(met.empty()          ? statistics.peaks
+       : met.size() > 1     ? statistics.saddles
+       : !beside.some_after ? statistics.minima
+                            : statistics.regular);
     const std::int32_t around = result_.hulls.cluster[static_cast<std::size_t>(v)];
     if (around >= 0 && std::find(met.begin(), met.end(), Find(around)) == met.end()) {
       met.push_back(Find(around));
@@ -70,9 +79,6 @@ class Sweeper {
     return terrain_.dem().heights[static_cast<std::size_t>(v)];
   }
   [[nodiscard]] Point2i PointOf(VertexId v) const { return {v % columns_, v / columns_}; }
-  [[nodiscard]] bool InsertedBefore(VertexId n, VertexId v) const {
-    return Height(n) != Height(v) ? Height(n) > Height(v) : n < v;
-  }
 
   std::int32_t Find(std::int32_t node) {
     while (roots_[static_cast<std::size_t>(node)] != node) {
@@ -175,6 +181,7 @@ class Sweeper {
   }
 
   const Terrain& terrain_;
+  const SweepOrder& order_;
   std::int32_t columns_;
   HullSweep& result_;
   HullScene scene_;
@@ -187,54 +194,27 @@ class Sweeper {
   std::vector<std::int32_t> met_;
 };
 
-// By falling height and rising number. Heights of few values, as they usually are, are counted: many
-// times faster than sorting.
-std::vector<VertexId> FromSummitDown(const Terrain& terrain) {
-  const std::vector<std::int32_t>& heights = terrain.dem().heights;
-  std::vector<VertexId> order;
-  std::int64_t least = std::numeric_limits<std::int64_t>::max();
-  std::int64_t most = std::numeric_limits<std::int64_t>::min();
-  for (VertexId v = 0; v < terrain.post_count(); ++v) {
-    if (!terrain.IsVertex(v)) continue;
-    order.push_back(v);
-    least = std::min<std::int64_t>(least, heights[static_cast<std::size_t>(v)]);
-    most = std::max<std::int64_t>(most, heights[static_cast<std::size_t>(v)]);
-  }
-  if (most - least > 4 * static_cast<std::int64_t>(order.size())) {
-    std::sort(order.begin(), order.end(), [&heights](VertexId a, VertexId b) {
-      const std::int32_t height_a = heights[static_cast<std::size_t>(a)];
-      const std::int32_t height_b = heights[static_cast<std::size_t>(b)];
-      return height_a != height_b ? height_a > height_b : a < b;
-    });
-    return order;
-  }
-  const auto below_top = [&](VertexId v) {
-    return static_cast<std::size_t>(most - heights[static_cast<std::size_t>(v)]);
-  };
-  std::vector<std::size_t> begins(static_cast<std::size_t>(most - least) + 2);
-  for (const VertexId v : order) ++begins[below_top(v) + 1];
-  std::partial_sum(begins.begin(), begins.end(), begins.begin());
-  std::vector<VertexId> sorted(order.size());
-  for (const VertexId v : order) sorted[begins[below_top(v)]++] = v;
-  return sorted;
-}
-
 }  // namespace
 
-Result<HullSweep> SweepHulls(const Terrain& terrain, const Watch& watch) {
+Result<HullSweep> SweepHulls(const Terrain& terrain, int threads, const Watch& watch) {
   // Few enough for their scenes to be small beside the terrain, many enough to keep all threads busy.
   constexpr std::size_t kLandmarks = 64;
+  constexpr std::size_t kAhead = 16;
+  const Error stopped{ErrorCode::kCancelled, "stopped during the sweep"};
+  const std::optional<SweepOrder> order = OrderOfSweep(terrain, threads, watch);
+  if (!order) return stopped;
+  const std::vector<VertexId>& vertices = order->vertices;
+  const std::size_t stride = (vertices.size() + kLandmarks - 1) / kLandmarks;
   HullSweep sweep;
-  const std::vector<VertexId> order = FromSummitDown(terrain);
-  const std::size_t stride = (order.size() + kLandmarks - 1) / kLandmarks;
-  Sweeper sweeper(terrain, sweep);
-  for (std::size_t i = 0; i < order.size(); ++i) {
+  Sweeper sweeper(terrain, *order, sweep);
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
     if (i % stride == 0) {
-      if (watch.StopRequested()) return Error{ErrorCode::kCancelled, "stopped during the sweep"};
-      watch.Report("sweep", static_cast<double>(i) / static_cast<double>(order.size()));
-      sweep.landmarks.push_back({order[i], sweep.changes.size(), sweeper.scene()});
+      if (watch.StopRequested()) return stopped;
+      watch.Report("sweep", static_cast<double>(i) / static_cast<double>(vertices.size()));
+      sweep.landmarks.push_back({vertices[i], sweep.changes.size(), sweeper.scene()});
     }
-    sweeper.Insert(order[i]);
+    if (i + kAhead < vertices.size()) sweeper.Expect(vertices[i + kAhead]);
+    sweeper.Insert(vertices[i]);
   }
   return sweep;
 }

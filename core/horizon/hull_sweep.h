@@ -35,8 +35,9 @@ struct HullSweep {
 
 /// Sweeps the terrain from its summit down.
 ///
+/// The same for any `threads`, which share what can be known of a vertex by itself.
 /// Cost: O(n log n) plus, for each vertex that enlarges a hull, the size of the hull and the hulls
 /// apart. Errors: kCancelled.
-Result<HullSweep> SweepHulls(const Terrain& terrain, const Watch& watch);
+Result<HullSweep> SweepHulls(const Terrain& terrain, int threads, const Watch& watch);
 
 }  // namespace farhorizon

@@ -106,8 +106,8 @@ Row Report(const Dem& dem, int repetitions) {
   const Terrain terrain = std::move(*Terrain::Build(dem));
   const double posts = static_cast<double>(dem.columns) * dem.rows;
   const Cost floor = Measure(repetitions, [&] { SortAndRead(terrain); });
-  const Cost sweep = Measure(repetitions, [&] { static_cast<void>(SweepHulls(terrain, {})); });
-  const HullSweep swept = std::move(*SweepHulls(terrain, {}));
+  const Cost sweep = Measure(repetitions, [&] { static_cast<void>(SweepHulls(terrain, 1, {})); });
+  const HullSweep swept = std::move(*SweepHulls(terrain, 1, {}));
   const Cost candidates =
       Measure(repetitions, [&] { static_cast<void>(FindCandidates(terrain, swept, 1, {})); });
   const auto find = [&](int threads) {

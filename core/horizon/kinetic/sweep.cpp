@@ -288,7 +288,7 @@ Result<SweepTrace> TraceSweep(const Terrain& terrain, std::int32_t level, const 
   if (!sweep.Fits()) return TooLarge();
   const std::int64_t s = std::int64_t{sweep.summit()} - level;
   if (!sweep.Run(s)) return Stopped(sweep, budget);
-  Result<HullSweep> hulls = SweepHulls(terrain, watch);
+  Result<HullSweep> hulls = SweepHulls(terrain, 1, watch);
   if (!hulls) return std::move(hulls.error());
   Result<Candidates> culled = FindCandidates(terrain, *hulls, 1, watch);
   if (!culled) return std::move(culled.error());

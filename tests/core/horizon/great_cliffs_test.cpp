@@ -38,7 +38,7 @@ struct Sighting {
 
 /// What FindHorizon decides, whether or not all witnesses are exact.
 std::vector<Sighting> Sightings(const Terrain& terrain) {
-  const Candidates sweep = *FindCandidates(terrain, *SweepHulls(terrain, {}), 1, {});
+  const Candidates sweep = *FindCandidates(terrain, *SweepHulls(terrain, 1, {}), 1, {});
   Skyline skyline(terrain.dem().columns, terrain.dem().rows);
   std::vector<Edge> edges;
   for (const Candidate& c : sweep.edges) edges.push_back(c.edge);
