@@ -166,6 +166,14 @@ Result<Candidates> FindCandidates(const Terrain& terrain, const HullSweep& sweep
     return Error{ErrorCode::kCancelled, "stopped while looking for candidates"};
   }
   Candidates all;
+  std::size_t edges = 0;
+  std::size_t screens = 0;
+  for (const Candidates& part : parts) {
+    edges += part.edges.size();
+    screens += part.screens.size();
+  }
+  all.edges.reserve(edges);
+  all.screens.reserve(screens);
   for (const Candidates& part : parts) {
     for (const Candidate& c : part.edges) {
       all.edges.push_back({c.edge, c.first_screen + all.screens.size(), c.screen_count});

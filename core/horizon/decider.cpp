@@ -47,10 +47,20 @@ bool CandidateDecider::DecideSome(int threads, std::int64_t budget, PredicateCou
 }
 
 void CandidateDecider::AppendEdges(Horizon& horizon) const {
+  std::size_t edges = horizon.edges.size();
+  std::size_t screens = horizon.screens.size();
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
+    if (!IsKept(i)) continue;
+    ++edges;
+    screens += candidates_[i].screen_count;
+  }
+  horizon.edges.reserve(edges);
+  horizon.screens.reserve(screens);
+  horizon.screen_ends.reserve(edges);
+  for (std::size_t i = 0; i < candidates_.size(); ++i) {
+    if (!IsKept(i)) continue;
     const std::optional<Witness>& witness = witnesses_[i];
     const bool undecided = decided_[i] == 0;
-    if (!undecided && !witness) continue;
     const Candidate& c = candidates_[i];
     horizon.edges.push_back({c.edge, undecided ? Witness{} : witness.value(), undecided});
     for (const Segment& screen : screens_.subspan(c.first_screen, c.screen_count)) {

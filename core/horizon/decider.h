@@ -49,6 +49,8 @@ class CandidateDecider {
   };
   void Round(int threads, Limits limits, PredicateCounts& counts);
   void DecideBatch(std::size_t begin, std::size_t end, std::int64_t most, PredicateCounts& counts);
+  /// It has a line of sight, or is undecided.
+  [[nodiscard]] bool IsKept(std::size_t i) const { return decided_[i] == 0 || witnesses_[i]; }
   void Decide(std::size_t i, std::int64_t most, Blockers& blockers, PredicateCounts& counts);
 
   const Terrain& terrain_;
