@@ -117,21 +117,35 @@ class CandidateSearch {
     const Point3i high = terrain_.Point(survivor.high);
     const Point3i low = terrain_.Point(survivor.low);
     EdgeShade shade({low.x, low.y}, {high.x, high.y}, WedgeOf(terrain_, edge));
-    // First the hull that hides most: the edge's own.
-    const auto own = std::find_if(scene.hulls().begin(), scene.hulls().end(),
-                                  [&high](const ConvexPolygon& hull) {
-                                    return hull.Contains({high.x, high.y});
-                                  });
-    if (own != scene.hulls().end()) shade.Add(*own);
-    for (auto hull = scene.hulls().begin(); hull != scene.hulls().end(); ++hull) {
-      if (hull != own) shade.Add(*hull);
-    }
+    AddHulls(scene, high, shade);
     if (shade.IsComplete()) return;
     const std::size_t first = found.screens.size();
     // The hulls that a level edge looks at are at least a quantum higher.
     shade.AppendScreens(high.z == low.z ? high.z + 1 : high.z, found.screens);
     found.edges.push_back({edge, first, found.screens.size() - first});
   }
+
+  // What hides most first, until all is hidden: the hull that the edge stands on, those near, the rest.
+  static void AddHulls(const HullScene& scene, Point3i high, EdgeShade& shade) {
+    const HullIndex& index = scene.index();
+    const Point2i post{high.x, high.y};
+    const std::int32_t own = index.Find(
+        post, post, [&](std::int32_t place) { return scene.hull(place).Contains(post); });
+    if (own >= 0) shade.Add(scene.hull(own));
+    const Point2i least{high.x - kNear, high.y - kNear};
+    const Point2i most{high.x + kNear, high.y + kNear};
+    const auto add = [&](std::int32_t place) {
+      if (place != own) shade.Add(scene.hull(place));
+      return shade.IsFull();
+    };
+    if (index.Find(least, most, add) >= 0) return;
+    const auto hulls = static_cast<std::int32_t>(scene.hulls().size());
+    for (std::int32_t place = 0; place < hulls && !shade.IsFull(); ++place) {
+      if (!index.Meets(place, least, most)) shade.Add(scene.hull(place));
+    }
+  }
+
+  static constexpr std::int32_t kNear = 24;  // posts
 
   const Terrain& terrain_;
   const HullSweep& sweep_;

@@ -108,7 +108,7 @@ bool EdgeShade::ShowsInRest(const ConvexPolygon& hull) const {
 }
 
 void EdgeShade::Add(const ConvexPolygon& hull) {
-  if (hull.corners().size() < 2 || !Less(rest_.from, rest_.to) || !ShowsInRest(hull)) return;
+  if (hull.corners().size() < 2 || IsFull() || !ShowsInRest(hull)) return;
   const bool has_low = hull.Contains(low_);
   const bool has_high = hull.Contains(high_);
   if (has_low && has_high) return;  // hides all of it, which is for others to find
@@ -142,7 +142,7 @@ bool EdgeShade::IsComplete() {
   const std::vector<Range> ranges = std::move(inside_);
   inside_.clear();
   for (const Range& range : ranges) Hide(range);
-  return !Less(rest_.from, rest_.to);
+  return IsFull();
 }
 
 void EdgeShade::AppendScreens(std::int32_t level, std::vector<Segment>& screens) const {

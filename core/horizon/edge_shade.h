@@ -27,6 +27,9 @@ class EdgeShade {
   /// Cost: the hull's corners, if it shows in what is left.
   void Add(const ConvexPolygon& hull);
 
+  /// Whether nothing is left to hide, as far as that is known by now.
+  [[nodiscard]] bool IsFull() const { return !Less(rest_.from, rest_.to); }
+
   /// Whether all directions are hidden from every point. Requires: no more hulls to come.
   [[nodiscard]] bool IsComplete();
 

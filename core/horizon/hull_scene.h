@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/horizon/convex_polygon.h"
+#include "core/horizon/hull_index.h"
 
 namespace farhorizon {
 
@@ -21,16 +22,22 @@ struct HullChange {
 /// changes that led to it lead to again.
 class HullScene {
  public:
+  /// None yet, of a DEM of so many posts.
+  HullScene(std::int32_t columns, std::int32_t rows) : index_(columns, rows) {}
+
   [[nodiscard]] const std::vector<ConvexPolygon>& hulls() const { return hulls_; }
   [[nodiscard]] const ConvexPolygon& hull(std::int32_t place) const {
     return hulls_[static_cast<std::size_t>(place)];
   }
+
+  [[nodiscard]] const HullIndex& index() const { return index_; }
 
   /// Cost: O(c) for growth, O(c log c) for a merge, for hulls of c corners.
   void Apply(const HullChange& change);
 
  private:
   std::vector<ConvexPolygon> hulls_;
+  HullIndex index_;
 };
 
 }  // namespace farhorizon

@@ -19,7 +19,11 @@ namespace {
 class Sweeper {
  public:
   Sweeper(const Terrain& terrain, const SweepOrder& order, HullSweep& result)
-      : terrain_(terrain), order_(order), columns_(terrain.dem().columns), result_(result) {
+      : terrain_(terrain),
+        order_(order),
+        columns_(terrain.dem().columns),
+        result_(result),
+        scene_(terrain.dem().columns, terrain.dem().rows) {
     const auto posts = static_cast<std::size_t>(terrain.post_count());
     result.hulls.covered_level.assign(posts, kNoHeight);
     result.hulls.cluster.assign(posts, -1);
@@ -30,7 +34,8 @@ class Sweeper {
     }
   }
 
-  // Fetches what Insert will read: vertices of one height are anywhere.
+  // Fetches what Insert will read: vertices of one height are anywhere. (g++ takes calls of functions that
+  // only prefetch for calls of nothing.)
   [[gnu::always_inline]] void Expect(VertexId v) const {
     const auto post = static_cast<std::ptrdiff_t>(v);
     const std::int32_t* cluster = result_.hulls.cluster.data() + post;
@@ -152,10 +157,11 @@ class Sweeper {
 
   // The cluster after it has taken in all others that meet `growth`, the part of it that is new.
   std::int32_t MergeWithWhatMeets(std::int32_t cluster, const ConvexPolygon& growth) {
-    const auto other = std::find_if(nodes_.begin(), nodes_.end(), [&](std::int32_t node) {
-      return node != cluster && HullOf(node).Meets(growth);
-    });
-    return other == nodes_.end() ? cluster : Merge(cluster, *other);
+    const std::int32_t own = PlaceOf(cluster);
+    const std::int32_t other = scene_.index().Find(
+        growth.least(), growth.most(),
+        [&](std::int32_t place) { return place != own && scene_.hull(place).Meets(growth); });
+    return other < 0 ? cluster : Merge(cluster, nodes_[static_cast<std::size_t>(other)]);
   }
 
   // Marks the posts in `polygon` that no cluster covers yet.
