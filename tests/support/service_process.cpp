@@ -7,6 +7,7 @@
 #include <iterator>
 #include <netinet/in.h>
 #include <signal.h>
+#include <string_view>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <system_error>
@@ -30,7 +31,11 @@ Process::Process(const std::vector<std::string>& words, const std::vector<std::s
                  const std::filesystem::path& log) {
   std::vector<std::string> arguments = words;
   std::vector<std::string> variables = environment;
-  for (char** entry = environ; *entry != nullptr; ++entry) variables.emplace_back(*entry);
+  for (char** entry = environ; *entry != nullptr; ++entry) {
+    const std::string_view variable = *entry;
+    // What configures a service of the user's, or these tests (FARHORIZON_DEM_DIR), is not for this one.
+    if (!variable.starts_with("FARHORIZON_")) variables.emplace_back(variable);
+  }
   const std::vector<char*> argument_list = Pointers(arguments);
   const std::vector<char*> variable_list = Pointers(variables);
   pid_ = ::fork();
