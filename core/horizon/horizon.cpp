@@ -39,6 +39,12 @@ Error OverBudget(std::int64_t budget, std::size_t candidates) {
           "work-budget"};
 }
 
+std::string Doubt(const Horizon& horizon) {
+  return "approximate: the work budget of " + std::to_string(horizon.statistics.work_budget) +
+         " decisions leaves " + std::to_string(horizon.statistics.undecided) + " of " +
+         std::to_string(horizon.edges.size()) + " edges undecided; they are kept, and marked";
+}
+
 // Leaves of the candidates the edges that the kinetic engine finds: they make the same skyline as the
 // terrain, so they do for obstacles, too.
 Result<EventCounts> KeepKineticEdges(const Terrain& terrain, Candidates& candidates,
@@ -104,6 +110,7 @@ Result<Horizon> FindHorizon(const Terrain& terrain, const HorizonOptions& option
   if (!goes_on) return Error{ErrorCode::kCancelled, "stopped while deciding horizon edges"};
   horizon.statistics.undecided = decider.undecided();
   decider.AppendEdges(horizon);
+  if (decider.undecided() > 0) watch.Tell(Doubt(horizon));
   Check(!kinetic || horizon.edges.size() == candidates->edges.size(),
         "every edge of the kinetic engine has a line of sight");
   for (const HorizonEdge& e : horizon.edges) {

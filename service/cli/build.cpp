@@ -37,8 +37,9 @@ int Run(const Call& call) {
   const StopOnSignal signals;
   Reporter reporter(call.reporter);
   StageTimer timer;
-  Status built = BuildArtifacts(call.dem, call.directory, *options,
-                                Watch{timer.Listen(reporter.progress()), signals.token()});
+  Status built =
+      BuildArtifacts(call.dem, call.directory, *options,
+                     Watch{timer.Listen(reporter.progress()), signals.token(), reporter.notice()});
   if (built && !call.timings.empty()) built = WriteTimings(call.timings, timer);
   reporter.Clear();
   return built ? kExitDone : Complain(built.error());

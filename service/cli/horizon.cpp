@@ -32,7 +32,7 @@ int Run(const Call& call) {
   if (!options) return Complain(options.error());
   const StopOnSignal signals;
   Reporter reporter(call.reporter);
-  const Watch watch{reporter.progress(), signals.token()};
+  const Watch watch{reporter.progress(), signals.token(), reporter.notice()};
   Status written =
       call.trace_level_m
           ? WriteSweepPicture(call.dem, call.file, *call.trace_level_m, *options, watch)

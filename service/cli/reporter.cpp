@@ -33,6 +33,15 @@ Progress Reporter::progress() {
   return [this](const char* stage, double done) { Show(stage, done, OverallPercent(stage, done)); };
 }
 
+Notice Reporter::notice() {
+  return [this](const std::string& text) {
+    Clear();
+    const std::string line =
+        json_ ? nlohmann::json{{"notice", text}}.dump() : "farhorizon: " + text;
+    std::fprintf(stderr, "%s\n", line.c_str());
+  };
+}
+
 void Reporter::Show(const std::string& stage, double done, int percent) {
   std::string line;
   if (json_) {

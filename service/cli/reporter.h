@@ -26,6 +26,8 @@ class Reporter {
 
   /// Requires: this outlives it.
   Progress progress();
+  /// A line of its own, in every form. Requires: as above.
+  Notice notice();
   /// The same with the overall percentage known already.
   void Show(const std::string& stage, double done, int percent);
   /// Takes the bar away, so that a message can stand in its place.

@@ -106,6 +106,7 @@ TEST_F(HorizonE2e, EndsPastTheWorkBudgetAndNamesTheRemedy) {
 
 TEST_F(HorizonE2e, WritesAMarkedSupersetWhereItMayBeApproximate) {
   ASSERT_EQ(Run("exact.geojson", {"--approximate"}), 0) << Said();
+  EXPECT_EQ(Said(), "");
   ASSERT_EQ(Run("some.geojson", {"--work-budget", "3000", "--approximate"}), 0) << Said();
   const json exact = json::parse(SlurpFile(folder_ / "exact.geojson"));
   EXPECT_FALSE(exact.contains("approximate")) << "a budget that suffices leaves no doubt";
@@ -117,6 +118,8 @@ TEST_F(HorizonE2e, WritesAMarkedSupersetWhereItMayBeApproximate) {
   }
   EXPECT_GT(undecided, 0);
   EXPECT_EQ(some["undecided"], undecided);
+  EXPECT_THAT(Said(), HasSubstr("leaves " + std::to_string(undecided) + " of " +
+                                std::to_string(some["features"].size()) + " edges undecided"));
   const auto kept = EdgesIn("some.geojson");
   for (const auto& edge : EdgesIn("exact.geojson")) EXPECT_EQ(kept.count(edge), 1U);
   const json shape = json::parse(
