@@ -41,7 +41,7 @@ Process::Process(const std::vector<std::string>& words, const std::vector<std::s
   pid_ = ::fork();
   if (pid_ != 0) return;
   const int file = ::open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0600);
-  ::dup2(file, 2);
+  if (file < 0 || ::dup2(file, 2) < 0) ::_exit(127);
   ::execve(argument_list[0], argument_list.data(), variable_list.data());
   ::_exit(127);
 }
@@ -67,6 +67,7 @@ int Process::Wait(std::chrono::seconds most) {
 
 int Connect(std::uint16_t port) {
   const int fd = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  if (fd < 0) return -1;
   struct sockaddr_in address {};
   address.sin_family = AF_INET;
   address.sin_port = htons(port);
