@@ -8,7 +8,7 @@
 namespace farhorizon {
 namespace {
 
-constexpr std::size_t kMaxBytes = 64 * 1024;
+constexpr std::size_t kMaxBytes = std::size_t{64} * 1024;
 constexpr std::size_t kMaxShownBytes = 60;
 
 // What makes PROJ open something by name, in lower case.

@@ -136,7 +136,7 @@ class SightSearch {
 
 // Whether the decisions are past those that the limit allows; it is told so.
 bool IsReached(SightLimit* limit, const PredicateCounts* counts, std::int64_t most) {
-  if (limit == nullptr || counts->Sum() < most) return false;
+  if (limit == nullptr || counts == nullptr || counts->Sum() < most) return false;
   limit->reached = true;
   return true;
 }
@@ -167,7 +167,8 @@ std::optional<Witness> Skyline::FindSight(const Segment& segment, Ties ties,
   std::optional<Witness> best;
   int sights = 0;
   Check(limit == nullptr || counts != nullptr, "what is limited is counted");
-  const std::int64_t most = limit != nullptr ? counts->Sum() + limit->decisions : 0;
+  const std::int64_t most =
+      limit != nullptr && counts != nullptr ? counts->Sum() + limit->decisions : 0;
   while (!open.empty() && sights < kMostSights && !IsReached(limit, counts, most)) {
     // One sight is looked for in depth, a simpler one everywhere.
     const HiddenRange gap = best ? open.front() : open.back();

@@ -187,8 +187,7 @@ bool Scene::MeetAt(ClusterId a, ClusterId b, std::int64_t s) const {
   });
 }
 
-// Joins clusters that touch just after now; true if there were any.
-bool Scene::MergeWhatMeets() {
+bool Scene::JoinFresh() {
   for (std::size_t i = 0; i < listed_.size(); ++i) {
     const ClusterId c = listed_[i];
     if (Find(c) != c || !cluster(c).fresh) continue;
@@ -198,27 +197,39 @@ bool Scene::MergeWhatMeets() {
       return true;
     }
   }
-  const auto joins = [this](SideId side) {
-    if (Outer(side) || Stands(side / 2)) return false;
-    const ClusterId a = Find(point(Own(side)).cluster);
-    const ClusterId b = Find(point(Other(side)).cluster);
-    if (!Meet(a, b)) return false;
-    Join(a, b);
-    return true;
-  };
-  for (const auto& [side, p] : crossed_) {
-    if (Own(side) >= 0 && joins(side)) return true;
-  }
-  // What goes past an active tangent may go over the hull's edge with it, and all beside it, too.
+  return false;
+}
+
+// The two of an inner tangent that stands no more.
+bool Scene::JoinAcross(SideId side) {
+  if (Outer(side) || Stands(side / 2)) return false;
+  const ClusterId a = Find(point(Own(side)).cluster);
+  const ClusterId b = Find(point(Other(side)).cluster);
+  if (!Meet(a, b)) return false;
+  Join(a, b);
+  return true;
+}
+
+// What goes past an active tangent may go over the hull's edge with it, and all beside it, too.
+void Scene::ShakePassed() {
   for (const Passed& passed : passed_) {
     for (const std::int32_t t : {passed.side / 2, passed.with / 2}) {
       if (tangent(t).touch[0] < 0 || Stands(t)) continue;
       for (const PointId p : tangent(t).touch) Shake(p);
     }
   }
+}
+
+// Joins clusters that touch just after now; true if there were any.
+bool Scene::MergeWhatMeets() {
+  if (JoinFresh()) return true;
+  for (const auto& [side, p] : crossed_) {
+    if (Own(side) >= 0 && JoinAcross(side)) return true;
+  }
+  ShakePassed();
   for (std::size_t i = 0; i < shaken_.size(); ++i) {
     for (const SideId side : point(shaken_[i]).sides) {
-      if (joins(side)) return true;
+      if (JoinAcross(side)) return true;
     }
   }
   return false;

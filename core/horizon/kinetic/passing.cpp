@@ -8,33 +8,38 @@
 
 namespace farhorizon::kinetic {
 
-// The index in lit where the pair's exchange takes place; nullopt where the corner is not as expected.
-std::optional<std::size_t> Scene::PlaceOf(const Pair& pair) const {
+// Two inactive tangents: the gap that they stand in and open.
+std::optional<std::size_t> Scene::PlaceOfGap(const Pair& pair) const {
   const auto& [p, a, b] = pair;
+  const SideId end = Starts(a) ? b : a;
+  const SideId start = Starts(a) ? a : b;
+  const std::size_t gap = LitIndex(p, end);
+  if (Starts(end) || !Starts(start) || !Before(end, start) || LitIndex(p, start) != gap ||
+      FreeAt(p, gap)) {
+    return std::nullopt;
+  }
+  return gap;
+}
+
+// Two active ones, next to each other: the former's.
+std::optional<std::size_t> Scene::PlaceOfCollapse(PointId p, SideId active, SideId other) const {
   const std::vector<SideId>& lit = point(p).lit;
-  if (!point(p).corner || point(p).touched) return std::nullopt;
-  if (!Active(a) && !Active(b)) {
-    const SideId end = Starts(a) ? b : a;
-    const SideId start = Starts(a) ? a : b;
-    const std::size_t gap = LitIndex(p, end);
-    if (Starts(end) || !Starts(start) || !Before(end, start) || LitIndex(p, start) != gap ||
-        FreeAt(p, gap)) {
-      return std::nullopt;
-    }
-    return gap;
+  const auto index =
+      static_cast<std::size_t>(std::find(lit.begin(), lit.end(), active) - lit.begin());
+  const std::size_t end = Starts(active) ? index - 1 : index;
+  const SideId start = LitOr(p, end + 1);
+  if (Starts(lit[end < lit.size() ? end : index]) || start < 0) return std::nullopt;
+  if ((Starts(active) ? lit[end] : start) != other || !Before(start, lit[end])) {
+    return std::nullopt;
   }
-  const SideId active = Active(a) ? a : b;
-  const SideId other = Active(a) ? b : a;
-  const auto at = std::find(lit.begin(), lit.end(), active);
-  const auto index = static_cast<std::size_t>(at - lit.begin());
-  if (Active(other)) {
-    const std::size_t end = Starts(active) ? index - 1 : index;
-    const SideId start = LitOr(p, end + 1);
-    if (Starts(lit[end < lit.size() ? end : index]) || start < 0) return std::nullopt;
-    if ((Starts(active) ? lit[end] : start) != other || !Before(start, lit[end]))
-      return std::nullopt;
-    return end;
-  }
+  return end;
+}
+
+// An active one, that an inactive one has gone past.
+std::optional<std::size_t> Scene::PlaceOfExchange(PointId p, SideId active, SideId other) const {
+  const std::vector<SideId>& lit = point(p).lit;
+  const auto index =
+      static_cast<std::size_t>(std::find(lit.begin(), lit.end(), active) - lit.begin());
   const bool starts = Starts(active);
   const SideId beyond = LitOr(p, starts ? index - 1 : index + 1);
   if (Starts(other) != starts ||
@@ -44,6 +49,16 @@ std::optional<std::size_t> Scene::PlaceOf(const Pair& pair) const {
   const auto ordered = [&](SideId x, SideId y) { return starts ? Before(x, y) : Before(y, x); };
   if (!ordered(other, active) || (beyond >= 0 && !ordered(beyond, other))) return std::nullopt;
   return index;
+}
+
+// The index in lit where the pair's exchange takes place; nullopt where the corner is not as expected.
+std::optional<std::size_t> Scene::PlaceOf(const Pair& pair) const {
+  const auto& [p, a, b] = pair;
+  if (!point(p).corner || point(p).touched) return std::nullopt;
+  if (!Active(a) && !Active(b)) return PlaceOfGap(pair);
+  const SideId active = Active(a) ? a : b;
+  const SideId other = Active(a) ? b : a;
+  return Active(other) ? PlaceOfCollapse(p, active, other) : PlaceOfExchange(p, active, other);
 }
 
 // Two active tangents have closed the visual lines between them.

@@ -230,6 +230,9 @@ class Scene {
   template <typename Turn>
   [[nodiscard]] bool Meet(ClusterId a, ClusterId b, double s, double off, const Turn& turn) const;
   [[nodiscard]] bool Meet(ClusterId a, ClusterId b) const;
+  [[nodiscard]] bool JoinFresh();
+  [[nodiscard]] bool JoinAcross(SideId side);
+  void ShakePassed();
   [[nodiscard]] bool MergeWhatMeets();
 
   // tangents.cpp
@@ -283,6 +286,11 @@ class Scene {
     SideId first;
     SideId second;
   };
+  [[nodiscard]] std::optional<std::size_t> PlaceOfGap(const Pair& pair) const;
+  [[nodiscard]] std::optional<std::size_t> PlaceOfCollapse(PointId p, SideId active,
+                                                           SideId other) const;
+  [[nodiscard]] std::optional<std::size_t> PlaceOfExchange(PointId p, SideId active,
+                                                           SideId other) const;
   [[nodiscard]] std::optional<std::size_t> PlaceOf(const Pair& pair) const;
   void Collapse(const Pair& pair, std::size_t index);
   void Exchange(const Pair& pair, std::size_t index);
