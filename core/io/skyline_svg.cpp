@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <vector>
 
 #include "core/io/geojson_text.h"
 #include "core/io/skyline_features.h"
@@ -38,6 +40,17 @@ double TickStep(double size) {
     if (rough <= factor * power) return factor * power;
   }
   return 10 * power;
+}
+
+std::vector<double> TicksIn(const Range& range) {
+  const double step = TickStep(range.Size());
+  std::vector<double> ticks;
+  if (range.least > range.most) return ticks;  // of nothing
+  const auto last = static_cast<std::int64_t>(std::floor(range.most / step));
+  for (auto i = static_cast<std::int64_t>(std::ceil(range.least / step)); i <= last; ++i) {
+    ticks.push_back(static_cast<double>(i) * step);
+  }
+  return ticks;
 }
 
 class Plot {
@@ -93,16 +106,13 @@ class Plot {
 
   [[nodiscard]] std::string Axes() const {
     std::string text;
-    const double across = TickStep(offsets_.Size());
-    for (double at = std::ceil(offsets_.least / across) * across; at <= offsets_.most;
-         at += across) {
+    for (const double at : TicksIn(offsets_)) {
       const std::string x = SvgNumber(X(at));
       text += "<path class=\"tick\" d=\"M" + x + "," + SvgNumber(kTop + kHeight) + "v6\"/>";
       text += "<text text-anchor=\"middle\" x=\"" + x + "\" y=\"" + SvgNumber(kTop + kHeight + 22) +
               "\">" + Rounded(at, 3) + "</text>\n";
     }
-    const double up = TickStep(heights_.Size());
-    for (double at = std::ceil(heights_.least / up) * up; at <= heights_.most; at += up) {
+    for (const double at : TicksIn(heights_)) {
       const std::string y = SvgNumber(Y(at));
       text += "<path class=\"tick\" d=\"M" + SvgNumber(kLeft - 6) + "," + y + "h6\"/>";
       text += "<text text-anchor=\"end\" x=\"" + SvgNumber(kLeft - 10) + "\" y=\"" +
