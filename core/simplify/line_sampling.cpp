@@ -52,9 +52,9 @@ void GreatestHeights(const std::vector<GridSegment>& segments, const Pencil& pen
     const double first = std::max(std::ceil(from), 0.0);
     const double last = std::min(std::floor(to), static_cast<double>(pencil.count) - 1);
     const double slope = to > from ? (at_to - at_from) / (to - from) : 0;
-    for (double i = first; i <= last; i += 1) {
-      double& height = heights[static_cast<std::size_t>(i)];
-      height = std::max(height, at_from + slope * (i - from));
+    if (last < first) continue;
+    for (auto i = static_cast<std::size_t>(first); i <= static_cast<std::size_t>(last); ++i) {
+      heights[i] = std::max(heights[i], at_from + slope * (static_cast<double>(i) - from));
     }
   }
 }
