@@ -40,7 +40,6 @@ int StatusOf(const Error& error) {
     case ErrorCode::kUnsupportedData:
       return error.kind == "worker-crashed" ? 500 : 422;
     case ErrorCode::kResourceExhausted:
-      return 503;
     case ErrorCode::kCancelled:
       return 503;
     case ErrorCode::kIo:

@@ -71,7 +71,8 @@ class Exchange {
                        " HTTP/1.1\r\nHost: " + (literal ? "[" + url_.host + "]" : url_.host) + ":" +
                        std::to_string(url_.port) +
                        "\r\nUser-Agent: farhorizon\r\nAccept: */*\r\nConnection: close\r\n";
-    for (const auto& [name, value] : request_.headers) head += name + ": " + value + "\r\n";
+    for (const auto& [name, value] : request_.headers)
+      head.append(name).append(": ").append(value).append("\r\n");
     if (request_.upload) {
       error_code none;
       std::error_code failure;
@@ -183,7 +184,7 @@ Result<ServiceUrl> ReadServiceUrl(const std::string& text) {
 }
 
 Result<ClientResponse> SendRequest(const ServiceUrl& url, const ClientRequest& request,
-                                   std::stop_token stop) {
+                                   const std::stop_token& stop) {
   return Exchange(url, request).Run(stop);
 }
 

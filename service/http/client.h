@@ -42,6 +42,6 @@ struct ClientResponse {
 /// Errors: kIo "connection" where there is no service or it breaks off (trying again may help);
 ///   kCancelled.
 Result<ClientResponse> SendRequest(const ServiceUrl& url, const ClientRequest& request,
-                                   std::stop_token stop = {});
+                                   const std::stop_token& stop = {});
 
 }  // namespace farhorizon

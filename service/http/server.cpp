@@ -27,7 +27,7 @@ class AsioServer : public Server {
       : options_(options),
         acceptor_(asio::make_strand(context_)),
         handlers_(static_cast<std::size_t>(options.handler_threads)) {}
-  ~AsioServer() override { Stop(std::chrono::milliseconds(0)); }
+  ~AsioServer() override { AsioServer::Stop(std::chrono::milliseconds(0)); }
 
   Status Open();
   [[nodiscard]] std::uint16_t port() const override { return acceptor_.local_endpoint().port(); }

@@ -108,7 +108,7 @@ void JobEngine::RunSlot() {
   }
 }
 
-void JobEngine::RunJob(const Job& job, std::stop_token stop) {
+void JobEngine::RunJob(const Job& job, const std::stop_token& stop) {
   Log(LogLevel::kInfo, "job starts", {{"job_id", job.id}, {"attempt", job.attempt}});
   const fs::path directory = work_directory_ / (job.id + "-" + std::to_string(job.attempt));
   try {

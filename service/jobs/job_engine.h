@@ -51,7 +51,7 @@ class JobEngine {
 
  private:
   void RunSlot();
-  void RunJob(const Job& job, std::stop_token stop);
+  void RunJob(const Job& job, const std::stop_token& stop);
   Status Prepare(const Job& job, const std::filesystem::path& directory);
   void Settle(const Job& job, WorkerOutcome outcome, const std::filesystem::path& directory);
   void SettleCrash(const Job& job, const Error& error);

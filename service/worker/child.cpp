@@ -62,7 +62,7 @@ bool Confine(const Launch& launch) {
   for (int signal = 1; signal < NSIG; ++signal) ::sigaction(signal, &usual, nullptr);
   sigset_t none;
   ::sigemptyset(&none);
-  ::sigprocmask(SIG_SETMASK, &none, nullptr);
+  ::pthread_sigmask(SIG_SETMASK, &none, nullptr);
   ::umask(077);
   if (::chdir(launch.directory) != 0) ::_exit(kCannotStart);
   const int null = ::open("/dev/null", O_RDWR);
@@ -86,6 +86,7 @@ std::vector<std::string> Environment(const std::filesystem::path& directory) {
   for (const char* name :
        {"PROJ_DATA", "PROJ_LIB", "GDAL_DATA", "ASAN_OPTIONS", "UBSAN_OPTIONS", "LSAN_OPTIONS"}) {
     const char* value = ::secure_getenv(name);  // NOLINT(concurrency-mt-unsafe): nobody sets any
+    // NOLINTNEXTLINE(performance-inefficient-vector-operation): a few
     if (value != nullptr) variables.push_back(std::string(name) + "=" + value);
   }
   return variables;

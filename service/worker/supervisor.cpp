@@ -139,7 +139,8 @@ WorkerOutcome Judge(int status, const std::optional<WorkerMessage>& last_word) {
 
 }  // namespace
 
-WorkerOutcome RunWorker(const WorkerCall& call, const Progress& progress, std::stop_token stop) {
+WorkerOutcome RunWorker(const WorkerCall& call, const Progress& progress,
+                        const std::stop_token& stop) {
   const UniqueFd stop_event(::eventfd(0, EFD_CLOEXEC));
   const std::stop_callback wake(stop, [&stop_event] { ::eventfd_write(stop_event.get(), 1); });
   std::vector<std::string> arguments = {"worker"};

@@ -36,6 +36,7 @@ struct WorkerCall {
 
 /// Runs a worker process to its end and says how that was. Whatever the worker does, this returns
 /// within the wall-clock limit and a moment.
-WorkerOutcome RunWorker(const WorkerCall& call, const Progress& progress, std::stop_token stop);
+WorkerOutcome RunWorker(const WorkerCall& call, const Progress& progress,
+                        const std::stop_token& stop);
 
 }  // namespace farhorizon
