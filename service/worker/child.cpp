@@ -86,7 +86,6 @@ std::vector<std::string> Environment(const std::filesystem::path& directory) {
   for (const char* name :
        {"PROJ_DATA", "PROJ_LIB", "GDAL_DATA", "ASAN_OPTIONS", "UBSAN_OPTIONS", "LSAN_OPTIONS"}) {
     const char* value = ::secure_getenv(name);  // NOLINT(concurrency-mt-unsafe): nobody sets any
-    // NOLINTNEXTLINE(performance-inefficient-vector-operation): a few
     if (value != nullptr) variables.push_back(std::string(name) + "=" + value);
   }
   return variables;
@@ -94,6 +93,7 @@ std::vector<std::string> Environment(const std::filesystem::path& directory) {
 
 std::vector<char*> Pointers(std::vector<std::string>& texts) {
   std::vector<char*> pointers;
+  pointers.reserve(texts.size() + 1);
   for (std::string& text : texts) pointers.push_back(text.data());
   pointers.push_back(nullptr);
   return pointers;
