@@ -1,172 +1,153 @@
+// The edge is lowered, further and further, as long as it can be sighted over all others: each point of it
+// that is in sight says by how much it may sink; each one that is not is hidden with a whole range around
+// it, and stays so however low the edge gets. So every range is settled once.
+//
+// Of the other edges only those on the horizon are there from the start, those of the faces beside the edge,
+// and what is known to hide it (Horizon::screens, which stand for ground as high as the edge's upper end, and
+// so for ground that is not the edge's own). What comes to light where the edge sinks is found by walking
+// along its lines of sight.
 #include "core/horizon/prominence.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <deque>
 #include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "core/horizon/sight_search.h"
 
 namespace farhorizon {
 namespace {
 
-// How many patches are asked; an edge has four or five.
-constexpr std::size_t kMostPatches = 3;
+// A lowered segment stays above minus the range of heights: both are within Skyline's limits.
+constexpr int kHeightBits = 29;
 
-struct PlanVector {
-  double x;
-  double y;
-};
-
-PlanVector At(const PlanMotion& motion, double t) {
-  return {motion.ax + t * motion.bx, motion.ay + t * motion.by};
+std::pair<std::int32_t, std::int32_t> RangeOf(const Dem& dem) {
+  std::int32_t lowest = std::numeric_limits<std::int32_t>::max();
+  std::int32_t highest = std::numeric_limits<std::int32_t>::min();
+  for (const std::int32_t height : dem.heights) {
+    if (height == kNoHeight) continue;
+    lowest = std::min(lowest, height);
+    highest = std::max(highest, height);
+  }
+  return {lowest, highest};
 }
-
-PlanVector Normalized(PlanVector v) {
-  const double length = std::hypot(v.x, v.y);
-  return {v.x / length, v.y / length};
-}
-
-// The direction half way between those of a patch at t.
-PlanVector MiddleDirection(const SightPatch& patch, double t) {
-  const PlanVector first = Normalized(At(patch.first, t));
-  const PlanVector last = Normalized(At(patch.last, t));
-  const PlanVector sum{first.x + last.x, first.y + last.y};
-  // Opposite to each other: all directions, of which the middle is a quarter turn on.
-  if (std::hypot(sum.x, sum.y) < 1e-9) return {-first.y, first.x};
-  return Normalized(sum);
-}
-
-// About the measure of its lines.
-double Width(const SightPatch& patch) {
-  const double t = (patch.from + patch.to) / 2;
-  const PlanVector first = Normalized(At(patch.first, t));
-  const PlanVector last = Normalized(At(patch.last, t));
-  return (patch.to - patch.from) * std::hypot(last.x - first.x, last.y - first.y);
-}
-
-// A family of parallel grid lines: posts are i steps across and j along.
-struct Family {
-  std::int32_t along_column;
-  std::int32_t along_row;
-  std::int32_t across_column;
-  std::int32_t across_row;
-};
-
-// The heights of the terrain's edges along a plan line.
-class LineWalk {
- public:
-  LineWalk(const Terrain& terrain, Edge except, double x, double y, PlanVector direction)
-      : terrain_(terrain),
-        columns_(terrain.dem().columns),
-        rows_(terrain.dem().rows),
-        heights_(terrain.dem().heights.data()),
-        except_(except),
-        x_(x),
-        y_(y),
-        direction_(direction) {
-    Clip(x, direction.x, columns_ - 1);
-    Clip(y, direction.y, rows_ - 1);
-  }
-
-  double Highest(bool has_holes) {
-    Walk({1, 0, 0, 1}, 0, rows_ - 1);
-    Walk({0, 1, 1, 0}, 0, columns_ - 1);
-    Walk({1, 1, 1, 0}, -(rows_ - 1), columns_ - 1);
-    // The other diagonal is an edge beside holes only.
-    if (has_holes) Walk({-1, 1, 1, 0}, 0, columns_ + rows_ - 2);
-    return highest_;
-  }
-
- private:
-  // Narrows [from_, to_], where the line is above the grid, as distances from (x, y).
-  void Clip(double start, double step, double end) {
-    if (step == 0) return;
-    const double at_0 = -start / step;
-    const double at_end = (end - start) / step;
-    from_ = std::max(from_, std::min(at_0, at_end));
-    to_ = std::min(to_, std::max(at_0, at_end));
-  }
-
-  void Walk(const Family& f, std::int32_t first, std::int32_t last) {
-    // (column, row) = i across + j along; the basis has determinant 1 or -1.
-    const double det = f.across_column * f.along_row - f.across_row * f.along_column;
-    const double i0 = (x_ * f.along_row - y_ * f.along_column) * det;
-    const double j0 = (y_ * f.across_column - x_ * f.across_row) * det;
-    const double di = (direction_.x * f.along_row - direction_.y * f.along_column) * det;
-    const double dj = (direction_.y * f.across_column - direction_.x * f.across_row) * det;
-    if (std::abs(di) < 1e-12) return;  // along the family: met by the others
-    const double start = std::min(i0 + from_ * di, i0 + to_ * di);
-    const double end = std::max(i0 + from_ * di, i0 + to_ * di);
-    // One more on either side, for what rounding does.
-    const double begin = std::max<double>(first, std::ceil(start) - 1);
-    const double past = std::min<double>(last, std::floor(end) + 1);
-    const double slope = dj / di;
-    for (auto i = static_cast<std::int32_t>(begin); i <= past; ++i) {
-      const double j = j0 + (i - i0) * slope;
-      if (j > -1 && j < columns_ + rows_) Meet(f, i, j);
-    }
-  }
-
-  void Meet(const Family& f, std::int32_t i, double j) {
-    const auto whole = static_cast<std::int32_t>(std::floor(j));
-    const std::int32_t column = i * f.across_column + whole * f.along_column;
-    const std::int32_t row = i * f.across_row + whole * f.along_row;
-    const std::int32_t next_column = column + f.along_column;
-    const std::int32_t next_row = row + f.along_row;
-    if (std::min(column, next_column) < 0 || std::max(column, next_column) >= columns_ ||
-        std::min(row, next_row) < 0 || std::max(row, next_row) >= rows_) {
-      return;
-    }
-    const VertexId p = row * columns_ + column;
-    const VertexId q = next_row * columns_ + next_column;
-    const double low = heights_[p];
-    const double high = heights_[q];
-    const double height = low + (j - whole) * (high - low);
-    if (height <= highest_ || low == kNoHeight || high == kNoHeight || MakeEdge(p, q) == except_) {
-      return;
-    }
-    const Terrain::Faces faces = terrain_.FacesOf(MakeEdge(p, q));
-    if (faces.left || faces.right) highest_ = height;
-  }
-
-  const Terrain& terrain_;
-  std::int32_t columns_;
-  std::int32_t rows_;
-  const std::int32_t* heights_;
-  Edge except_;
-  double x_;
-  double y_;
-  PlanVector direction_;
-  double from_ = -std::numeric_limits<double>::infinity();
-  double to_ = std::numeric_limits<double>::infinity();
-  double highest_ = -std::numeric_limits<double>::infinity();
-};
 
 }  // namespace
 
-Prominences::Prominences(const Terrain& terrain)
-    : terrain_(terrain),
-      has_holes_(std::count(terrain.dem().heights.begin(), terrain.dem().heights.end(), kNoHeight) >
-                 0) {}
-
-double Prominences::Of(Edge edge, const Sights& sights) const {
-  std::vector<const SightPatch*> widest;
-  for (const SightPatch& patch : sights) widest.push_back(&patch);
-  const std::size_t count = std::min(kMostPatches, widest.size());
-  std::partial_sort(widest.begin(), widest.begin() + static_cast<std::ptrdiff_t>(count),
-                    widest.end(),
-                    [](const SightPatch* p, const SightPatch* q) { return Width(*p) > Width(*q); });
-  const Point3i a = terrain_.Point(edge.a);
-  const Point3i b = terrain_.Point(edge.b);
-  double most = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double t = (widest[i]->from + widest[i]->to) / 2;
-    LineWalk walk(terrain_, edge, a.x + t * (b.x - a.x), a.y + t * (b.y - a.y),
-                  MiddleDirection(*widest[i], t));
-    const double own = a.z + t * (static_cast<double>(b.z) - a.z);
-    const double other = walk.Highest(has_holes_);
-    if (std::isfinite(other)) most = std::max(most, own - other);
+// One edge on its way down.
+class Prominences::Sinking {
+ public:
+  Sinking(const Prominences& all, std::size_t i)
+      : all_(all), i_(static_cast<std::int32_t>(i)), edge_(all.horizon_.edges[i].edge) {
+    const Horizon& horizon = all.horizon_;
+    for (std::size_t j = i == 0 ? 0 : horizon.screen_ends[i - 1]; j < horizon.screen_ends[i]; ++j) {
+      AddScreen(horizon.screens[j]);
+    }
+    const Terrain::Faces faces = all.terrain_.FacesOf(edge_);
+    for (const std::optional<VertexId> third : {faces.left, faces.right}) {
+      if (!third) continue;
+      AddScreen({all.terrain_.Point(edge_.a), all.terrain_.Point(*third)});
+      AddScreen({all.terrain_.Point(edge_.b), all.terrain_.Point(*third)});
+    }
   }
-  return most;
+
+  // How deep it gets, in scaled units.
+  std::int32_t Depth() {
+    std::deque<HiddenRange> open = {
+        {QuadraticRoot::At(Dyadic{0, 0}), QuadraticRoot::At(Dyadic{1, 0})}};
+    while (!open.empty()) {
+      const HiddenRange gap = open.front();
+      open.pop_front();
+      const std::optional<WideDyadic> t = Between(gap.from, gap.to);
+      if (!t) continue;
+      const HiddenRange hidden = Sink(*t);
+      open.push_back({gap.from, hidden.from});
+      open.push_back({hidden.to, gap.to});
+    }
+    return depth_;
+  }
+
+ private:
+  // False where it is one already.
+  bool AddScreen(const Segment& segment) {
+    Segment screen{all_.Scaled(segment.a), all_.Scaled(segment.b)};
+    if (screen.a.z > screen.b.z) std::swap(screen.a, screen.b);
+    const auto same = [&screen](const Segment& s) { return s.a == screen.a && s.b == screen.b; };
+    if (std::any_of(screens_.begin(), screens_.end(), same)) return false;
+    screens_.push_back(screen);
+    return true;
+  }
+
+  // Lowers the edge until its point at t is out of sight; says what is hidden around it then.
+  HiddenRange Sink(const WideDyadic& t) {
+    for (;;) {
+      Segment lowered{all_.Scaled(all_.terrain_.Point(edge_.a)),
+                      all_.Scaled(all_.terrain_.Point(edge_.b))};
+      lowered.a.z -= depth_ + 1;
+      lowered.b.z -= depth_ + 1;
+      const SightHints hints{screens_, likely_, std::nullopt};
+      std::vector<std::int32_t> blockers;
+      SightSearch search(all_.skyline_, lowered, Ties::kPass, i_, hints, &blockers, nullptr);
+      const SightFinding finding = search.LookAt(t);
+      if (!finding.sight) {
+        // What hides one point is likely to hide the next.
+        likely_ = std::move(blockers);
+        return finding.hidden;
+      }
+      Walk(finding.sight->t, finding.middle);
+    }
+  }
+
+  // Along a line that nothing known hides from the edge one unit lower: finds what does, or lowers it.
+  void Walk(double t, const std::array<double, 2>& direction) {
+    const Terrain& terrain = all_.terrain_;
+    const Point3i a = terrain.Point(edge_.a);
+    const Point3i b = terrain.Point(edge_.b);
+    const std::optional<HighestEdge> other = all_.walk_.HighestOther(
+        edge_, a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), direction[0], direction[1]);
+    const double own = a.z + t * (static_cast<double>(b.z) - a.z);
+    const double clearance = other ? std::ldexp(own - other->height, all_.bits_) : 0;
+    if (clearance < depth_ + 1 && other &&
+        AddScreen({terrain.Point(other->edge.a), terrain.Point(other->edge.b)})) {
+      return;
+    }
+    // Where the two disagree by what rounding does, the sight is right.
+    depth_ = std::max(depth_ + 1, static_cast<std::int32_t>(clearance));
+  }
+
+  const Prominences& all_;
+  std::int32_t i_;
+  Edge edge_;
+  std::vector<Segment> screens_;
+  std::vector<std::int32_t> likely_;
+  std::int32_t depth_ = 0;  // it is still seen at it
+};
+
+Prominences::Prominences(const Terrain& terrain, const Horizon& horizon, double tolerance)
+    : terrain_(terrain),
+      horizon_(horizon),
+      walk_(terrain),
+      skyline_(terrain.dem().columns, terrain.dem().rows) {
+  const auto [lowest, highest] = RangeOf(terrain.dem());
+  lowest_ = lowest;
+  const int span_bits = std::ilogb(std::max(1.0, static_cast<double>(highest) - lowest)) + 1;
+  bits_ = std::min(static_cast<int>(std::ceil(-std::log2(tolerance))), kHeightBits - span_bits);
+  for (const HorizonEdge& e : horizon.edges) {
+    skyline_.Insert({Scaled(terrain.Point(e.edge.a)), Scaled(terrain.Point(e.edge.b))});
+  }
+}
+
+Point3i Prominences::Scaled(Point3i p) const {
+  const double height = static_cast<double>(p.z) - lowest_;
+  return {p.x, p.y, static_cast<std::int32_t>(std::nearbyint(std::ldexp(height, bits_)))};
+}
+
+double Prominences::Of(std::size_t i) const {
+  if (horizon_.edges[i].undecided) return 0;
+  return std::ldexp(Sinking(*this, i).Depth(), -bits_);
 }
 
 }  // namespace farhorizon

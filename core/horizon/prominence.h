@@ -1,26 +1,41 @@
 #pragma once
 
-#include "core/horizon/sights.h"
+#include <cstddef>
+
+#include "core/horizon/horizon.h"
+#include "core/horizon/line_walk.h"
+#include "core/horizon/segment_index.h"
 #include "core/terrain/terrain.h"
 
 namespace farhorizon {
 
-/// How much lower the skyline would be without an edge. Threads: any number may ask at once.
+/// How much lower the skyline would be without an edge: the greatest difference, over all lines of sight
+/// that touch it, between its height there and that of the highest other edge of the terrain.
+///
+/// Threads: any number may ask at once.
 class Prominences {
  public:
-  /// Requires: `terrain` outlives it. Cost: O(posts).
-  explicit Prominences(const Terrain& terrain);
+  /// tolerance: how close an answer is to be, in quanta, above 0.
+  /// Requires: `terrain` and `horizon`, FindHorizon's of it, outlive this. Cost: O(posts).
+  Prominences(const Terrain& terrain, const Horizon& horizon, double tolerance);
 
-  /// At least so much: the greatest difference, in quanta, between the edge's height and that of the
-  /// highest other edge of the terrain, over the middle lines of the widest of its patches. A lower bound
-  /// of the greatest over all its lines of sight; nearly exact for each line (doubles). Never negative:
-  /// 0 where level ground ties.
-  /// Cost: O(columns + rows).
-  [[nodiscard]] double Of(Edge edge, const Sights& sights) const;
+  /// That of the horizon's edge i, in quanta: no more than the truth, and less by no more than the
+  /// tolerance (or 2^-27 of the terrain's range of heights, where that is more). 0 where level ground ties
+  /// everywhere, and for an undecided edge.
+  /// Cost: some forty points asked what they see, a few times FindSights for one edge.
+  [[nodiscard]] double Of(std::size_t i) const;
 
  private:
+  class Sinking;
+  /// In the units in which edges are lowered, one at a time.
+  [[nodiscard]] Point3i Scaled(Point3i p) const;
+
   const Terrain& terrain_;
-  bool has_holes_;
+  const Horizon& horizon_;
+  LineWalk walk_;
+  std::int32_t lowest_;  ///< a height that is 0 in those units
+  int bits_;             ///< 2^bits_ of them are a quantum
+  SegmentIndex skyline_;
 };
 
 }  // namespace farhorizon

@@ -97,6 +97,7 @@ SightOutcome BasicSightSample<Int>::Look(const BasicDyadic<Int>& t,
   const auto gap = cover_.WidestGap();
   Check(gap.has_value(), "a complete cover ends the search");
   const Vector along{Int{sighted_.high.x - sighted_.low.x}, Int{sighted_.high.y - sighted_.low.y}};
+  gap_ = *gap;
   sight_ = SimplestBetween(gap->from, gap->to, along);
   return SightOutcome::kSight;
 }

@@ -97,6 +97,8 @@ class BasicSightSample {
 
   [[nodiscard]] const std::vector<Arc>& arcs() const { return arcs_; }
   [[nodiscard]] const Vector& sight() const { return sight_; }
+  /// The widest range of directions that is free, where there is a sight.
+  [[nodiscard]] const typename BasicDirectionCover<Int>::Gap& gap() const { return gap_; }
 
  private:
   // False where the outcome is settled.
@@ -126,6 +128,7 @@ class BasicSightSample {
   BasicDirectionCover<Int> cover_;
   std::vector<Arc> arcs_;
   Vector sight_;
+  typename BasicDirectionCover<Int>::Gap gap_;
   SightOutcome outcome_ = SightOutcome::kSight;
 };
 using ShortSightSample = BasicSightSample<std::int64_t>;

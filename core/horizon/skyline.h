@@ -43,7 +43,7 @@ enum class Ties {
 /// What is known beforehand of a segment that is to be sighted. It saves time, and never changes whether
 /// there is a line of sight, though another one may be found.
 struct SightHints {
-  /// Segments known not to rise above the set's H.
+  /// Segments known not to rise above the set's H, each with its lower end first.
   std::span<const Segment> screens;
   /// Members to try first, say what hid a neighbour.
   std::span<const std::int32_t> likely;

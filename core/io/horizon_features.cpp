@@ -12,6 +12,8 @@ namespace {
 
 // Shares of a half turn, and measures of the lines that see an edge.
 constexpr int kMeasureDecimals = 9;
+// Prominences are found to half a millimetre.
+constexpr int kProminenceDecimals = 3;
 
 std::string FeatureText(const HorizonFeature& feature) {
   std::string text = R"({"type":"Feature","geometry":{"type":"LineString","coordinates":)";
@@ -25,7 +27,7 @@ std::string FeatureText(const HorizonFeature& feature) {
     text += R"(,"spans":)" + IntervalsText(feature.spans, kSpanDecimals);
     text += R"(,"angular_share":)" + Rounded(feature.angular_share, kMeasureDecimals);
     text += R"(,"line_measure_m":)" + Rounded(feature.line_measure_m, kMeasureDecimals);
-    text += R"(,"prominence_m":)" + Rounded(feature.prominence_m, kMetreDecimals);
+    text += R"(,"prominence_m":)" + Rounded(feature.prominence_m, kProminenceDecimals);
     text += R"(,"witness":{"t":)" + Exact(feature.witness.t);
     text += R"(,"direction":)" + Pair(feature.witness.dc, feature.witness.dr) + "}";
   }

@@ -169,7 +169,7 @@ Result<std::vector<EdgeView>> FindViews(const Terrain& terrain, const Horizon& h
   }
   Result<std::vector<GroundStep>> steps = placement.StepsAt(middles);
   if (!steps) return std::move(steps.error());
-  const Prominences prominences(terrain);
+  const Prominences prominences(terrain, horizon, kProminenceStep / terrain.dem().quantum_m);
   std::vector<EdgeView> views(horizon.edges.size());
   const auto look = [&](std::size_t begin, std::size_t end, std::size_t /*thread*/) {
     for (std::size_t i = begin; i < end; ++i) {
@@ -179,7 +179,7 @@ Result<std::vector<EdgeView>> FindViews(const Terrain& terrain, const Horizon& h
       const std::array<double, 2> along = {static_cast<double>(b.x) - a.x,
                                            static_cast<double>(b.y) - a.y};
       views[i] = ViewOf((*sights)[i], along, (*steps)[i]);
-      views[i].prominence_m = prominences.Of(edge, (*sights)[i]) * terrain.dem().quantum_m;
+      views[i].prominence_m = prominences.Of(i) * terrain.dem().quantum_m;
     }
   };
   if (!ForEachBatch(views.size(), kBatch, threads, "views", watch, look)) {

@@ -21,7 +21,8 @@ namespace farhorizon {
 /// angular_share: the measure of the azimuths over 180. line_measure_m: of the lines on which the edge
 ///   is the skyline, in radians times metres across; all lines that meet a convex region measure its
 ///   perimeter [Crofton1868]. True to a millionth of itself.
-/// prominence_m: how much lower the skyline would be without it, at least (prominence.h).
+/// prominence_m: how much lower the skyline would be without it (prominence.h): the truth, or up to
+///   kProminenceStep less.
 struct EdgeView {
   std::vector<std::array<double, 2>> azimuths;
   std::vector<std::array<double, 2>> spans;
@@ -31,6 +32,7 @@ struct EdgeView {
 };
 inline constexpr double kAzimuthStep = 1e-6;
 inline constexpr double kSpanStep = 1e-7;
+inline constexpr double kProminenceStep = 5e-4;
 
 /// Azimuths, spans, share and measure of an edge with the given lines of sight.
 /// along: from a to b in columns and rows.

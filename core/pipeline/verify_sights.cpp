@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/horizon/line_height.h"
+#include "core/horizon/line_walk.h"
 #include "core/pipeline/edge_view.h"
 
 namespace farhorizon {
@@ -35,7 +36,7 @@ bool Same(const HorizonFeature& f, const EdgeView& view) {
          Close(f.spans, view.spans, 1.5 * kSpanStep) &&
          Close(f.angular_share, view.angular_share, kRelative) &&
          Close(f.line_measure_m, view.line_measure_m, kRelative * (1 + view.line_measure_m)) &&
-         Close(f.prominence_m, view.prominence_m, 1e-4 + kRelative * view.prominence_m);
+         Close(f.prominence_m, view.prominence_m, 1.5 * kProminenceStep);
 }
 
 bool Within(const std::vector<Interval>& intervals, double value, double margin) {
@@ -152,17 +153,26 @@ PlanLine RandomLine(const Dem& dem, std::mt19937_64& random) {
   return line;
 }
 
-// How many random lines have their skyline on an edge outside its azimuths or its spans.
-int LinesOutside(const Dem& dem, const Shooter& shooter,
-                 const std::vector<HorizonFeature>& features,
-                 const std::vector<GroundStep>& steps) {
+// Of random lines, how many have their skyline on an edge outside its azimuths or its spans, and on how many
+// it would be lower by more than the edge's prominence if that were not there.
+struct LineCounts {
+  int outside = 0;
+  int beyond_prominence = 0;
+};
+
+LineCounts CountLines(const Terrain& terrain, const Horizon& horizon, const Shooter& shooter,
+                      const std::vector<HorizonFeature>& features,
+                      const std::vector<GroundStep>& steps) {
   // Lines that cross an edge far from where its north was taken are a little off.
   constexpr double kAzimuthMargin = 1e-4;
   constexpr double kSpanMargin = 1e-6;
+  // Found and then rounded to so much.
+  constexpr double kProminenceMargin = 2 * kProminenceStep + 1e-6;
+  const LineWalk walk(terrain);
   std::mt19937_64 random(1841);
-  int outside = 0;
+  LineCounts counts;
   for (int i = 0; i < kRandomLines; ++i) {
-    const PlanLine line = RandomLine(dem, random);
+    const PlanLine line = RandomLine(terrain.dem(), random);
     const std::optional<Shooter::Hit> hit = shooter.Highest(line);
     if (!hit) continue;
     const HorizonFeature& f = features[hit->edge];
@@ -172,9 +182,16 @@ int LinesOutside(const Dem& dem, const Shooter& shooter,
     const bool inside = (Within(f.azimuths, azimuth, kAzimuthMargin) ||
                          Within(f.azimuths, azimuth + 180, kAzimuthMargin)) &&
                         Within(f.spans, hit->t, kSpanMargin);
-    outside += inside ? 0 : 1;
+    counts.outside += inside ? 0 : 1;
+    const Edge edge = horizon.edges[hit->edge].edge;
+    const std::optional<HighestEdge> other =
+        walk.HighestOther(edge, line.x / 2.0, line.y / 2.0, line.dc, line.dr);
+    const double low = terrain.Point(edge.a).z;
+    const double own = low + hit->t * (terrain.Point(edge.b).z - low);
+    const double lower_m = other ? (own - other->height) * terrain.dem().quantum_m : 0;
+    counts.beyond_prominence += lower_m > f.prominence_m + kProminenceMargin ? 1 : 0;
   }
-  return outside;
+  return counts;
 }
 
 // The widest azimuth of an edge, and the widest gap between two. Requires: there are azimuths.
@@ -222,9 +239,13 @@ Status VerifySights(const Source& source, const Horizon& horizon,
   claims.Same("horizon.geojson edges with other azimuths, spans or weights", std::int64_t{0},
               different);
   const Shooter shooter(terrain, horizon);
+  const LineCounts lines = CountLines(terrain, horizon, shooter, features, *steps);
   claims.Same(std::to_string(kRandomLines) +
                   " random lines with their skyline outside an edge's azimuths or spans",
-              0, LinesOutside(dem, shooter, features, *steps));
+              0, lines.outside);
+  claims.Same(std::to_string(kRandomLines) +
+                  " random lines whose edge rises above all others by more than its prominence",
+              0, lines.beyond_prominence);
   // Not the middle, which is often the edge's own direction.
   constexpr double kWithin = 0.381966;
   // Narrower than this it is too near to the ends for what rounding does.

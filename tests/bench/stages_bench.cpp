@@ -17,8 +17,10 @@
 #include "core/horizon/candidates.h"
 #include "core/horizon/horizon.h"
 #include "core/horizon/hull_sweep.h"
+#include "core/horizon/prominence.h"
 #include "core/horizon/sights.h"
 #include "core/io/dem_reader.h"
+#include "core/pipeline/edge_view.h"
 #include "core/terrain/terrain.h"
 
 namespace {
@@ -118,13 +120,19 @@ Row Report(const Dem& dem, int repetitions) {
   const Horizon horizon = std::move(*FindHorizon(terrain, 1, {}));
   const Cost sights =
       Measure(repetitions, [&] { static_cast<void>(FindSights(terrain, horizon, 1, {})); });
+  // As closely as horizon.geojson has them; once, as it takes longest.
+  const Cost prominences = Measure(1, [&] {
+    const Prominences all(terrain, horizon, kProminenceStep / dem.quantum_m);
+    for (std::size_t i = 0; i < horizon.edges.size(); ++i) static_cast<void>(all.Of(i));
+  });
   const PredicateCounts& counts = horizon.statistics.predicates;
   std::printf(
-      "%5d x %-5d %8.1f %8.1f %8.1f %8.1f %8.1f %6.1f %6.2f %8.1f %6.0f %6.0f %8lld %7zu %9.5f\n",
+      "%5d x %-5d %8.1f %8.1f %8.1f %8.1f %8.1f %6.1f %6.2f %8.1f %8.1f %6.0f %6.0f %8lld %7zu "
+      "%9.5f\n",
       dem.columns, dem.rows, floor.ms, sweep.ms, candidates.ms, whole.ms - sweep.ms - candidates.ms,
-      whole.ms, whole.ms / floor.ms, whole.ms / two.ms, sights.ms, sweep.bytes_peak / posts,
-      whole.bytes_peak / posts, static_cast<long long>(horizon.statistics.candidates),
-      horizon.edges.size(),
+      whole.ms, whole.ms / floor.ms, whole.ms / two.ms, sights.ms, prominences.ms,
+      sweep.bytes_peak / posts, whole.bytes_peak / posts,
+      static_cast<long long>(horizon.statistics.candidates), horizon.edges.size(),
       100.0 * static_cast<double>(counts.exact) / static_cast<double>(counts.Sum()));
   std::fflush(stdout);
   return {posts, whole};
@@ -143,9 +151,9 @@ int Main(int argc, char** argv) {
   const int repetitions = argc > 2 ? std::max(std::atoi(argv[2]), 1) : 5;
   std::printf(
       "milliseconds, medians of %d; bytes a post at the peak\n"
-      "        posts     floor    sweep    cands   decide    whole  /floor 2 cores   sights  sweep "
-      " "
-      "whole    cands   edges   exact %%\n",
+      "        posts     floor    sweep    cands   decide    whole  /floor 2 cores   sights  "
+      "promin."
+      "  sweep  whole    cands   edges   exact %%\n",
       repetitions);
   std::vector<Row> rows;
   const std::int32_t side = std::min(dem->columns, dem->rows);

@@ -115,6 +115,14 @@ TEST_F(Verify, SpansAndWeightsThatAreNotTheEdgesAreFound) {
   EXPECT_TRUE(claim([](HorizonFeature& f) { f.prominence_m += 0.01; }));
 }
 
+TEST_F(Verify, ProminencesBelowTheEdgesAreFound) {
+  Result<std::vector<HorizonFeature>> features =
+      ReadHorizonGeoJson(SlurpFile(folder_ / "out" / "horizon.geojson"));
+  for (HorizonFeature& f : *features) f.prominence_m /= 8;
+  SpillFile(folder_ / "out" / "horizon.geojson", WriteHorizonGeoJson(*features));
+  EXPECT_TRUE(Names(False(), "rises above all others by more than its prominence"));
+}
+
 TEST_F(Verify, ANodeThatPlacesTheMeshElsewhereIsFound) {
   Change("lod0.glb", R"("matrix":[0.)", R"("matrix":[1.)");
   EXPECT_TRUE(Names(False(), "lod0.glb has the lattice of its Draco stream"));
