@@ -10,9 +10,9 @@ namespace {
 
 // Nearer to a post than this, the line goes through it: far more than what rounding does.
 constexpr double kAtPost = 1e-9;
-// Blocks have 2^4 posts a side. A piece of a line whose middle is in a block, and that is no longer than the
+// Blocks have 2^3 posts a side. A piece of a line whose middle is in a block, and that is no longer than the
 // block is wide, stays within the block and its neighbours, and so do the posts beside it.
-constexpr int kBlockBits = 4;
+constexpr int kBlockBits = 3;
 constexpr double kPiece = 1 << kBlockBits;
 
 // A family of parallel grid lines: posts are i steps across and j along.
@@ -86,20 +86,22 @@ class Walker {
     const double begin = std::max<double>(first, std::ceil(start - kAtPost));
     const double past = std::min<double>(last, std::floor(end + kAtPost));
     const double slope = dj / di;
+    const double limit = columns_ + rows_;
     for (auto i = static_cast<std::int32_t>(begin); i <= past; ++i) {
       const double j = j0 + (i - i0) * slope;
-      if (j > -1 && j < columns_ + rows_) Meet(f, i, j);
+      if (j > -1 && j < limit) Meet(f, i, j);
     }
   }
 
+  // j > -1.
   void Meet(const Family& f, std::int32_t i, double j) {
-    const double nearest = std::round(j);
-    if (std::abs(j - nearest) < kAtPost) {
-      const auto at = static_cast<std::int32_t>(nearest);
+    const std::int32_t whole = static_cast<std::int32_t>(j + 1) - 1;
+    const double part = j - whole;
+    if (part < kAtPost || part > 1 - kAtPost) {
+      const std::int32_t at = part < kAtPost ? whole : whole + 1;
       MeetPost(i * f.across_column + at * f.along_column, i * f.across_row + at * f.along_row);
       return;
     }
-    const auto whole = static_cast<std::int32_t>(std::floor(j));
     const std::int32_t column = i * f.across_column + whole * f.along_column;
     const std::int32_t row = i * f.across_row + whole * f.along_row;
     if (!Inside(column, row) || !Inside(column + f.along_column, row + f.along_row)) return;
@@ -107,7 +109,7 @@ class Walker {
     const VertexId q = p + f.along_row * columns_ + f.along_column;
     const double low = heights_[p];
     const double high = heights_[q];
-    const double height = low + (j - whole) * (high - low);
+    const double height = low + part * (high - low);
     if (height <= highest_.height || low == kNoHeight || high == kNoHeight) return;
     const Edge edge = MakeEdge(p, q);
     if (edge == except_) return;
