@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/exact/wide.h"
+#include "core/exact/int128.h"
 
 namespace farhorizon {
 

@@ -34,7 +34,7 @@ int SlopeAt(const Quadratic& q, Dyadic t) {
 }
 
 int SlopeAt(const Quadratic& q, const WideDyadic& t) {
-  return SignOf((WideInt(2 * q.c2) * t.n) + (WideInt(q.c1) << t.k));
+  return SignOf((Int1280(2 * q.c2) * t.n) + (Int1280(q.c1) << t.k));
 }
 
 // The root in doubles, within kNearError of itself (or of 1 where it is smaller); NaN where the
@@ -135,7 +135,7 @@ int Part(const QuadraticRoot& r, const QuadraticRoot& s, WideDyadic middle) {
     const int s_side = Compare(s, middle);
     if (r_side != s_side) return r_side > s_side ? 1 : -1;
     Check(r_side != 0 && middle.k < kMaxWideDyadicBits, "different roots are parted by 2^-424");
-    middle = {(middle.n << 1) + WideInt(r_side), middle.k + 1};
+    middle = {(middle.n << 1) + Int1280(r_side), middle.k + 1};
   }
 }
 
@@ -167,7 +167,7 @@ NonNegativeRange RangeAround(const Quadratic& q, const Number& t) {
 
 }  // namespace
 
-WideDyadic Widened(Dyadic t) { return {WideInt(t.n), t.k}; }
+WideDyadic Widened(Dyadic t) { return {Int1280(t.n), t.k}; }
 
 Dyadic Narrowed(const WideDyadic& t) {
   Check(t.k <= kMaxDyadicBits, "a number to be narrowed is no finer than 2^-70");
@@ -185,8 +185,8 @@ int SignAt(const Quadratic& q, Dyadic t) {
 }
 
 int SignAt(const Quadratic& q, const WideDyadic& t) {
-  const WideInt high = WideInt(q.c2) * t.n + (WideInt(q.c1) << t.k);
-  return SignOf(high * t.n + (WideInt(q.c0) << (2 * t.k)));
+  const Int1280 high = Int1280(q.c2) * t.n + (Int1280(q.c1) << t.k);
+  return SignOf(high * t.n + (Int1280(q.c0) << (2 * t.k)));
 }
 
 QuadraticRoot QuadraticRoot::At(const WideDyadic& t) {
@@ -251,7 +251,7 @@ std::optional<WideDyadic> Between(const QuadraticRoot& lo, const QuadraticRoot& 
     } else {
       return fine;
     }
-    fine = {(fine.n << 1) + WideInt(side), fine.k + 1};
+    fine = {(fine.n << 1) + Int1280(side), fine.k + 1};
     Check(fine.k <= kMaxWideDyadicBits, "different roots are parted by 2^-424");
   }
 }

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <optional>
 
-#include "core/exact/wide.h"
-#include "core/exact/wide_int.h"
+#include "core/exact/int128.h"
+#include "core/exact/int1280.h"
 
 namespace farhorizon {
 
@@ -31,7 +31,7 @@ using ShortDyadic = BasicDyadic<std::int64_t>;
 /// so |p2 (a' - b)| and |q2 (a - b')| are below 2^106, |p2 q2 (a' - b')| below 2^210, and |a - b| is
 /// above 2^-422. Roots of polynomials that share one are rational, or of one polynomial, and further
 /// apart.
-using WideDyadic = BasicDyadic<WideInt>;
+using WideDyadic = BasicDyadic<Int1280>;
 inline constexpr int kMaxWideDyadicBits = 424;
 
 WideDyadic Widened(Dyadic t);
@@ -52,7 +52,7 @@ int SignAt(const Quadratic& q, Dyadic t);
 int SignAt(const Quadratic& q, const WideDyadic& t);
 
 /// True only if q >= 0 on all of [0, 1] (its Bernstein coefficients are). Cheap; misses some.
-inline bool PlainlyNonNegative(const Quadratic& q) {
+inline bool BernsteinNonNegative(const Quadratic& q) {
   return q.c0 >= 0 && 2 * q.c0 + q.c1 >= 0 && q.c0 + q.c1 + q.c2 >= 0;
 }
 

@@ -1,20 +1,21 @@
 // A line of sight checked against the heights themselves: every terrain edge that it crosses is met
 // once, along the rows, the columns and the two diagonals of the grid. Exact: in 128-bit integers where
 // they hold all products, else in wide ones.
+#include "core/horizon/witness.h"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
 
-#include "core/exact/wide.h"
-#include "core/exact/wide_int.h"
-#include "core/horizon/horizon.h"
+#include "core/exact/int128.h"
+#include "core/exact/int1280.h"
 
 namespace farhorizon {
 namespace {
 
 // The line through (x, y) / 2^bits with an integer direction, and its height z / 2^bits.
 template <typename Int>
-struct SightLine {
+struct LineOfSight {
   Int x;
   Int y;
   Int z;
@@ -38,12 +39,12 @@ Int128 FloorDivide(Int128 a, Int128 b, int /*bits*/) {
 }
 
 // b > 0, a multiple of 2^bits. Exact where the quotient is below 2^30; else no less in size than that.
-WideInt FloorDivide(const WideInt& a, const WideInt& b, int bits) {
+Int1280 FloorDivide(const Int1280& a, const Int1280& b, int bits) {
   const double near = static_cast<double>(a >> bits) / static_cast<double>(b >> bits);
   constexpr double kFar = 0x1p30;
-  WideInt quotient(static_cast<std::int64_t>(std::clamp(near, -kFar, kFar)));
+  Int1280 quotient(static_cast<std::int64_t>(std::clamp(near, -kFar, kFar)));
   if (std::abs(near) >= kFar) return quotient;
-  const WideInt one(1);
+  const Int1280 one(1);
   while (quotient * b > a) quotient = quotient - one;
   while ((quotient + one) * b <= a) quotient = quotient + one;
   return quotient;
@@ -52,7 +53,7 @@ WideInt FloorDivide(const WideInt& a, const WideInt& b, int bits) {
 template <typename Int>
 class SightChecker {
  public:
-  SightChecker(const Terrain& terrain, const SightLine<Int>& line)
+  SightChecker(const Terrain& terrain, const LineOfSight<Int>& line)
       : terrain_(terrain), line_(line) {}
 
   [[nodiscard]] bool ClearsAll() const {
@@ -122,7 +123,7 @@ class SightChecker {
   }
 
   const Terrain& terrain_;
-  const SightLine<Int>& line_;
+  const LineOfSight<Int>& line_;
 };
 
 // Whether the line through n / 2^bits of the way from a to b clears the terrain.
@@ -132,8 +133,8 @@ bool Clears(const Terrain& terrain, Point3i a, Point3i b, std::int64_t n, int bi
   const auto at = [n, bits](std::int64_t from, std::int64_t to) {
     return (Int{from} << bits) + Int{to - from} * Int{n};
   };
-  const SightLine<Int> line{at(a.x, b.x), at(a.y, b.y),    at(a.z, b.z),
-                            bits,         Int{witness.dc}, Int{witness.dr}};
+  const LineOfSight<Int> line{at(a.x, b.x), at(a.y, b.y),    at(a.z, b.z),
+                              bits,         Int{witness.dc}, Int{witness.dr}};
   return SightChecker<Int>(terrain, line).ClearsAll();
 }
 
@@ -165,7 +166,7 @@ bool WitnessHolds(const Terrain& terrain, Edge edge, const Witness& witness) {
   constexpr int kNarrowBits = 90;
   const int direction_bits = std::max(BitsOf(witness.dc), BitsOf(witness.dr));
   return direction_bits + bits <= kNarrowBits ? Clears<Int128>(terrain, a, b, n, bits, witness)
-                                              : Clears<WideInt>(terrain, a, b, n, bits, witness);
+                                              : Clears<Int1280>(terrain, a, b, n, bits, witness);
 }
 
 }  // namespace farhorizon

@@ -18,7 +18,7 @@
 
 #include "core/io/complete_raster.h"
 #include "core/io/gdal_session.h"
-#include "core/io/height_scale.h"
+#include "core/io/height_quantum.h"
 
 namespace farhorizon {
 namespace {

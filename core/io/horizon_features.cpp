@@ -12,8 +12,8 @@ namespace {
 
 // Shares of a half turn, and measures of the lines that see an edge.
 constexpr int kMeasureDecimals = 9;
-// Prominences are found to half a millimetre.
-constexpr int kProminenceDecimals = 3;
+// SkylineDrops are found to half a millimetre.
+constexpr int kSkylineDropDecimals = 3;
 
 std::string FeatureText(const HorizonFeature& feature) {
   std::string text = R"({"type":"Feature","geometry":{"type":"LineString","coordinates":)";
@@ -27,7 +27,7 @@ std::string FeatureText(const HorizonFeature& feature) {
     text += R"(,"spans":)" + IntervalsText(feature.spans, kSpanDecimals);
     text += R"(,"angular_share":)" + Rounded(feature.angular_share, kMeasureDecimals);
     text += R"(,"line_measure_m":)" + Rounded(feature.line_measure_m, kMeasureDecimals);
-    text += R"(,"prominence_m":)" + Rounded(feature.prominence_m, kProminenceDecimals);
+    text += R"(,"skyline_drop_m":)" + Rounded(feature.skyline_drop_m, kSkylineDropDecimals);
     text += R"(,"witness":{"t":)" + Exact(feature.witness.t);
     text += R"(,"direction":)" + Pair(feature.witness.dc, feature.witness.dr) + "}";
   }
@@ -55,7 +55,7 @@ HorizonFeature ReadFeature(const Json& feature) {
     result.spans = properties.at("spans").get<std::vector<std::array<double, 2>>>();
     result.angular_share = properties.at("angular_share").get<double>();
     result.line_measure_m = properties.at("line_measure_m").get<double>();
-    result.prominence_m = properties.at("prominence_m").get<double>();
+    result.skyline_drop_m = properties.at("skyline_drop_m").get<double>();
     const Json& witness = properties.at("witness");
     result.witness.t = witness.at("t").get<double>();
     const auto direction = witness.at("direction").get<std::array<std::int64_t, 2>>();

@@ -23,7 +23,7 @@ struct HorizonFeature {
   std::vector<std::array<double, 2>> spans;
   double angular_share = 0;
   double line_measure_m = 0;
-  double prominence_m = 0;
+  double skyline_drop_m = 0;
   Witness witness;
   std::optional<int> level_kept;  ///< unset where no levels were built, or none keeps it
   bool undecided = false;         ///< kept for want of work: there is no witness

@@ -30,7 +30,7 @@ constexpr std::pair<const char*, OGRFieldType> kFields[] = {
     {"direction_rows", OFTInteger64}, {"level_kept", OFTInteger},
     {"azimuths", OFTString},          {"spans", OFTString},
     {"angular_share", OFTReal},       {"line_measure_m", OFTReal},
-    {"prominence_m", OFTReal}};
+    {"skyline_drop_m", OFTReal}};
 
 bool AddFields(OGRLayerH layer) {
   for (const auto& [name, type] : kFields) {
@@ -52,7 +52,7 @@ bool AddFeature(OGRLayerH layer, const HorizonFeature& edge) {
     OGR_F_SetFieldInteger64(feature.get(), 6, edge.witness.dr);
     OGR_F_SetFieldString(feature.get(), 8, IntervalsText(edge.azimuths, kAzimuthDecimals).c_str());
     OGR_F_SetFieldString(feature.get(), 9, IntervalsText(edge.spans, kSpanDecimals).c_str());
-    const double weights[] = {edge.angular_share, edge.line_measure_m, edge.prominence_m};
+    const double weights[] = {edge.angular_share, edge.line_measure_m, edge.skyline_drop_m};
     for (int i = 0; i < 3; ++i) OGR_F_SetFieldDouble(feature.get(), 10 + i, weights[i]);
   }
   if (edge.level_kept) OGR_F_SetFieldInteger(feature.get(), 7, *edge.level_kept);

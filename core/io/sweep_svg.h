@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "core/horizon/sweep_trace.h"
+#include "core/horizon/trace/sweep_trace.h"
 
 namespace farhorizon {
 

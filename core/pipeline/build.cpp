@@ -6,13 +6,14 @@
 #include <string_view>
 #include <utility>
 
+#include "core/horizon/find_horizon.h"
 #include "core/io/files.h"
 #include "core/io/horizon_features.h"
 #include "core/io/tileset.h"
-#include "core/pipeline/budgets.h"
 #include "core/pipeline/level_artifact.h"
+#include "core/pipeline/level_plan.h"
 #include "core/pipeline/report.h"
-#include "core/pipeline/source.h"
+#include "core/pipeline/terrain_input.h"
 #include "core/pipeline/version.h"
 
 namespace farhorizon {
@@ -91,7 +92,7 @@ std::vector<int> LevelsKept(const Horizon& horizon, const std::vector<Lod>& chai
   return level_kept;
 }
 
-Status WriteTilesetFor(const Source& source, const std::vector<LevelReport>& levels,
+Status WriteTilesetFor(const TerrainInput& source, const std::vector<LevelReport>& levels,
                        ArtifactWriter& writer) {
   Result<BoundingRegion> region = source.Region();
   if (!region) return std::move(region.error());
@@ -113,13 +114,14 @@ Status WriteTilesetFor(const Source& source, const std::vector<LevelReport>& lev
   for (const LevelReport& level : levels) {
     tiles.push_back({"lod" + std::to_string(level.level) + ".glb", level.geometric_error_m});
   }
-  const double size_m = std::hypot(source.placement().column_step_m() * (source.dem().columns - 1),
-                                   source.placement().row_step_m() * (source.dem().rows - 1));
+  const double size_m =
+      std::hypot(source.georeference().column_step_m() * (source.dem().columns - 1),
+                 source.georeference().row_step_m() * (source.dem().rows - 1));
   return writer.Add("tileset.json", WriteTileset(tiles, *region, RoundUp(size_m),
-                                                 source.placement().frame().EnuToEcef()));
+                                                 source.georeference().frame().EnuToEcef()));
 }
 
-Status WriteFeatures(const Source& source, const Horizon& horizon,
+Status WriteFeatures(const TerrainInput& source, const Horizon& horizon,
                      const std::vector<int>& level_kept, const BuildOptions& options,
                      const Watch& watch, ArtifactWriter& writer) {
   Result<std::vector<HorizonFeature>> features =
@@ -179,7 +181,7 @@ Status BuildArtifacts(const fs::path& dem, const fs::path& directory, const Buil
   Status checked = CheckOptions(options);
   if (!checked) return checked;
   watch.Report("read", 0);
-  Result<std::unique_ptr<Source>> source = Source::Open(dem, options);
+  Result<std::unique_ptr<TerrainInput>> source = TerrainInput::Open(dem, options);
   if (!source) return std::move(source.error());
   Result<std::vector<LevelPlan>> plans = PlanLevels(**source, options);
   if (!plans) return std::move(plans.error());
@@ -196,12 +198,12 @@ Status BuildArtifacts(const fs::path& dem, const fs::path& directory, const Buil
   Result<std::vector<Lod>> chain = BuildLodChain((*source)->terrain(), *horizon, budgets, watch);
   if (!chain) return std::move(chain.error());
 
-  Result<PostNormals> normals = FindPostNormals((*source)->terrain(), (*source)->placement());
+  Result<PostNormals> normals = FindPostNormals((*source)->terrain(), (*source)->georeference());
   if (!normals) return std::move(normals.error());
   ArtifactWriter writer(directory);
   Status opened = writer.Open();
   if (!opened) return opened;
-  const LevelContext context{(*source)->terrain(), *horizon, (*source)->placement(), *normals,
+  const LevelContext context{(*source)->terrain(), *horizon, (*source)->georeference(), *normals,
                              watch};
   Result<std::vector<LevelReport>> levels = WriteLevels(context, *plans, *chain, options, writer);
   if (!levels) return std::move(levels.error());

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/pipeline/row_span.h"
+#include "core/geometry/row_span.h"
 
 namespace farhorizon {
 namespace {
@@ -46,13 +46,13 @@ class RowSweep {
     }
   }
 
-  Result<double> Greatest(const Placement& placement) {
+  Result<double> Greatest(const Georeference& georeference) {
     double greatest = 0;
     std::vector<std::size_t> active;
     for (std::int32_t row = 0; row < terrain_.dem().rows; ++row) {
       const std::vector<std::size_t>& starting = starts_[static_cast<std::size_t>(row)];
       active.insert(active.end(), starting.begin(), starting.end());
-      Result<double> here = InRow(placement, active, row);
+      Result<double> here = InRow(georeference, active, row);
       if (!here) return here;
       greatest = std::max(greatest, *here);
       std::erase_if(active, [&](std::size_t t) {
@@ -75,7 +75,7 @@ class RowSweep {
   }
 
   // The row's greatest distance; posts between two triangles are measured against both.
-  Result<double> InRow(const Placement& placement, const std::vector<std::size_t>& active,
+  Result<double> InRow(const Georeference& georeference, const std::vector<std::size_t>& active,
                        std::int32_t row) const {
     const std::int32_t columns = terrain_.dem().columns;
     std::vector<VertexId> posts;
@@ -86,9 +86,9 @@ class RowSweep {
       slot[static_cast<std::size_t>(column)] = static_cast<std::int32_t>(posts.size());
       posts.push_back(v);
     }
-    Result<std::vector<Geodetic>> geodetic = placement.ToGeodetic(posts);
+    Result<std::vector<Geodetic>> geodetic = georeference.ToGeodetic(posts);
     if (!geodetic) return std::move(geodetic.error());
-    Result<std::vector<Enu>> enu = placement.ToEnu(*geodetic);
+    Result<std::vector<Enu>> enu = georeference.ToEnu(*geodetic);
     if (!enu) return std::move(enu.error());
     double greatest = 0;
     for (const std::size_t t : active) {
@@ -112,9 +112,9 @@ class RowSweep {
 
 }  // namespace
 
-Result<double> MeasureGeometricError(const Terrain& terrain, const Placement& placement,
+Result<double> MeasureGeometricError(const Terrain& terrain, const Georeference& georeference,
                                      const LocalMesh& mesh) {
-  return RowSweep(terrain, mesh).Greatest(placement);
+  return RowSweep(terrain, mesh).Greatest(georeference);
 }
 
 }  // namespace farhorizon

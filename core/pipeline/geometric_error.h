@@ -4,7 +4,7 @@
 
 #include "core/base/result.h"
 #include "core/io/draco_mesh.h"
-#include "core/pipeline/placement.h"
+#include "core/pipeline/georeference.h"
 #include "core/terrain/terrain.h"
 
 namespace farhorizon {
@@ -15,7 +15,7 @@ namespace farhorizon {
 ///
 /// mesh: as decoded, sources naming its vertices' posts.
 /// Errors: those of placing posts. Cost: O(posts); a row of posts at a time in memory.
-Result<double> MeasureGeometricError(const Terrain& terrain, const Placement& placement,
+Result<double> MeasureGeometricError(const Terrain& terrain, const Georeference& georeference,
                                      const LocalMesh& mesh);
 
 }  // namespace farhorizon

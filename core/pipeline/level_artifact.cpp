@@ -20,7 +20,7 @@ std::vector<VertexId> PostsOf(const PostMesh& mesh) {
 
 Result<LocalMesh> ToLocal(const LevelContext& context, const PostMesh& mesh) {
   const std::vector<VertexId> posts = PostsOf(mesh);
-  Result<std::vector<Enu>> positions = context.placement.ToEnu(posts);
+  Result<std::vector<Enu>> positions = context.georeference.ToEnu(posts);
   if (!positions) return std::move(positions.error());
   LocalMesh local;
   local.positions = *std::move(positions);
@@ -29,7 +29,7 @@ Result<LocalMesh> ToLocal(const LevelContext& context, const PostMesh& mesh) {
     return static_cast<std::uint32_t>(std::lower_bound(posts.begin(), posts.end(), v) -
                                       posts.begin());
   };
-  const bool keeps = context.placement.KeepsOrientation();
+  const bool keeps = context.georeference.KeepsOrientation();
   local.triangles.reserve(mesh.triangles.size());
   for (const Triangle& t : mesh.triangles) {
     local.triangles.push_back({index(t[0]), index(t[keeps ? 1 : 2]), index(t[keeps ? 2 : 1])});
@@ -65,7 +65,7 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> KeptInDecoded(const Horizon
 
 }  // namespace
 
-Result<QuantizationLattice> LatticeFor(const Terrain& terrain, const Placement& placement,
+Result<QuantizationLattice> LatticeFor(const Terrain& terrain, const Georeference& georeference,
                                        double wanted_step_m) {
   // The outline and the extremes of each row reach as far as any post, whatever the level keeps; all
   // posts are asked because a projected grid bulges.
@@ -74,7 +74,7 @@ Result<QuantizationLattice> LatticeFor(const Terrain& terrain, const Placement& 
   for (VertexId v = 0; v < terrain.post_count(); ++v) {
     if (terrain.dem().HasData(v)) row.push_back(v);
     if (terrain.dem().Column(v) + 1 < terrain.dem().columns || row.empty()) continue;
-    Result<std::vector<Enu>> points = placement.ToEnu(row);
+    Result<std::vector<Enu>> points = georeference.ToEnu(row);
     if (!points) return std::move(points.error());
     reach.insert(reach.end(), points->begin(), points->end());
     // Only the corners of the box so far matter.
@@ -106,10 +106,10 @@ Result<LevelReport> MeasureLevel(const LevelContext& context, const LocalMesh& d
     }
     posts.push_back(static_cast<VertexId>(source));
   }
-  Result<std::vector<GridPoint>> points = context.placement.ToGrid(decoded.positions);
+  Result<std::vector<GridPoint>> points = context.georeference.ToGrid(decoded.positions);
   if (!points) return std::move(points.error());
   grid.points = *std::move(points);
-  const bool keeps = context.placement.KeepsOrientation();
+  const bool keeps = context.georeference.KeepsOrientation();
   for (const auto& t : decoded.triangles) {
     grid.triangles.push_back({static_cast<std::int32_t>(t[0]),
                               static_cast<std::int32_t>(t[keeps ? 1 : 2]),
@@ -118,7 +118,7 @@ Result<LevelReport> MeasureLevel(const LevelContext& context, const LocalMesh& d
   Result<MeshError> error =
       MeasureMeshError(context.terrain, context.horizon, grid, posts, asked_m, context.watch);
   if (!error) return std::move(error.error());
-  Result<double> geometric = MeasureGeometricError(context.terrain, context.placement, decoded);
+  Result<double> geometric = MeasureGeometricError(context.terrain, context.georeference, decoded);
   if (!geometric) return std::move(geometric.error());
   LevelReport report;
   report.level = level;

@@ -7,7 +7,7 @@
 #include "core/base/result.h"
 #include "core/horizon/horizon.h"
 #include "core/io/draco_mesh.h"
-#include "core/pipeline/placement.h"
+#include "core/pipeline/georeference.h"
 #include "core/pipeline/post_normals.h"
 #include "core/pipeline/report.h"
 #include "core/simplify/lod_chain.h"
@@ -19,7 +19,7 @@ namespace farhorizon {
 struct LevelContext {
   const Terrain& terrain;
   const Horizon& horizon;
-  const Placement& placement;
+  const Georeference& georeference;
   const PostNormals& normals;
   const Watch& watch;
 };
@@ -33,7 +33,7 @@ struct LevelArtifact {
 
 /// The lattice for the positions of all of the terrain's posts with a step of at most `wanted_step_m`,
 /// where 16 bits allow it.
-Result<QuantizationLattice> LatticeFor(const Terrain& terrain, const Placement& placement,
+Result<QuantizationLattice> LatticeFor(const Terrain& terrain, const Georeference& georeference,
                                        double wanted_step_m);
 
 /// Encodes one level and measures it on the decoded mesh. `asked_m`: its silhouette budget.

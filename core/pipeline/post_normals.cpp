@@ -4,20 +4,20 @@
 #include <cmath>
 #include <utility>
 
-#include "core/pipeline/row_span.h"
+#include "core/geometry/row_span.h"
 
 namespace farhorizon {
 namespace {
 
 // A row of posts, placed; those without data stand anywhere.
-Result<std::vector<Enu>> PlaceRow(const Terrain& terrain, const Placement& placement,
+Result<std::vector<Enu>> PlaceRow(const Terrain& terrain, const Georeference& georeference,
                                   std::int32_t row) {
   const std::int32_t columns = terrain.dem().columns;
   std::vector<VertexId> posts;
   for (VertexId v = row * columns; v < (row + 1) * columns; ++v) {
     if (terrain.dem().HasData(v)) posts.push_back(v);
   }
-  Result<std::vector<Enu>> points = placement.ToEnu(posts);
+  Result<std::vector<Enu>> points = georeference.ToEnu(posts);
   if (!points) return points;
   std::vector<Enu> result(static_cast<std::size_t>(columns));
   for (std::size_t i = 0; i < posts.size(); ++i) {
@@ -112,21 +112,21 @@ void AddPost(const std::array<float, 3>& normal, const std::array<double, 3>& sh
 
 }  // namespace
 
-Result<PostNormals> FindPostNormals(const Terrain& terrain, const Placement& placement) {
+Result<PostNormals> FindPostNormals(const Terrain& terrain, const Georeference& georeference) {
   const Dem& dem = terrain.dem();
   PostNormals normals;
   normals.reserve(dem.heights.size());
   const Sums none(static_cast<std::size_t>(dem.columns), {0, 0, 0});
   Band band;
   band.sums = {none, none};
-  Result<std::vector<Enu>> first = PlaceRow(terrain, placement, 0);
+  Result<std::vector<Enu>> first = PlaceRow(terrain, georeference, 0);
   if (!first) return std::move(first.error());
   band.points[0] = *std::move(first);
   for (std::int32_t row = 0; row + 1 < dem.rows; ++row) {
-    Result<std::vector<Enu>> next = PlaceRow(terrain, placement, row + 1);
+    Result<std::vector<Enu>> next = PlaceRow(terrain, georeference, row + 1);
     if (!next) return std::move(next.error());
     band.points[1] = *std::move(next);
-    AddFaces(terrain, placement.KeepsOrientation(), row, band);
+    AddFaces(terrain, georeference.KeepsOrientation(), row, band);
     AppendRow(band.sums[0], normals);
     band.points[0].swap(band.points[1]);
     band.sums[0].swap(band.sums[1]);

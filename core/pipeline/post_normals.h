@@ -5,7 +5,7 @@
 
 #include "core/base/result.h"
 #include "core/io/draco_mesh.h"
-#include "core/pipeline/placement.h"
+#include "core/pipeline/georeference.h"
 #include "core/terrain/terrain.h"
 
 namespace farhorizon {
@@ -17,7 +17,7 @@ using PostNormals = std::vector<std::array<float, 3>>;
 /// The mean of the faces around each post, each by its area. A normal that leans lower than
 /// kLeastNormalUp is raised to there.
 /// Errors: those of placing posts. Cost: O(posts).
-Result<PostNormals> FindPostNormals(const Terrain& terrain, const Placement& placement);
+Result<PostNormals> FindPostNormals(const Terrain& terrain, const Georeference& georeference);
 
 /// What to light each vertex of a mesh with: the mean of the terrain's normals over the vertex's
 /// triangles, each post by the square of the vertex's share in it (its barycentric coordinate). With

@@ -7,7 +7,7 @@
 
 #include "core/base/progress.h"
 #include "core/base/result.h"
-#include "core/simplify/coverage.h"
+#include "core/simplify/posts_by_triangle.h"
 #include "core/simplify/star.h"
 #include "core/simplify/surface.h"
 #include "core/terrain/terrain.h"

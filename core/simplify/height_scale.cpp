@@ -7,7 +7,7 @@
 namespace farhorizon {
 namespace {
 
-constexpr std::int64_t kSkylineLimit = std::int64_t{1} << 30;  // |z| of a Skyline's segments
+constexpr std::int64_t kSkylineLimit = std::int64_t{1} << 30;  // |z| of a OccluderSet's segments
 constexpr int kFinestShift = 10;                               // a thousandth of a quantum will do
 
 }  // namespace

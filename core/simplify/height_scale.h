@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "core/horizon/skyline.h"
+#include "core/horizon/visibility/occluder_set.h"
 #include "core/terrain/terrain.h"
 
 namespace farhorizon {

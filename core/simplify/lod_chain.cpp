@@ -5,9 +5,9 @@
 
 #include <algorithm>
 
+#include "core/geometry/plan.h"
 #include "core/simplify/border.h"
 #include "core/simplify/collapse.h"
-#include "core/simplify/plan.h"
 #include "core/simplify/ridge_network.h"
 #include "core/simplify/skyline_guard.h"
 
@@ -42,7 +42,7 @@ class ChainBuilder {
     const double quantum = terrain_.dem().quantum_m;
     const std::int32_t steps = guard_.scale().Steps(budget.silhouette_error_m / quantum);
     ridges_.Allow(steps);
-    ridges_.ShedLooseEnds(watch);
+    ridges_.PruneLeaves(watch);
     CollapseRules rules;
     rules.limits = {budget.vertical_error_m / quantum, budget.longest_edge, budget.least_altitude,
                     steepest_};

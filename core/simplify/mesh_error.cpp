@@ -4,10 +4,10 @@
 #include <cmath>
 #include <string>
 
+#include "core/geometry/plan.h"
 #include "core/simplify/border.h"
 #include "core/simplify/line_sampling.h"
 #include "core/simplify/mesh_edges.h"
-#include "core/simplify/plan.h"
 #include "core/simplify/silhouette_bound.h"
 #include "core/simplify/vertical_error.h"
 

@@ -133,13 +133,15 @@ bool RidgeNetwork::ProveNearby(std::int32_t e, const Segment& lowered,
     return std::pair(distance(p), p) < std::pair(distance(q), q);
   });
   if (nearby.size() > kMostNearby) nearby.resize(kMostNearby);
-  screens_.clear();
+  virtual_occluders_.clear();
   for (const RidgeId r : nearby) {
-    Segment screen = Scaled(ridges_[Index(r)].edge);
-    if (screen.a.z > screen.b.z) std::swap(screen.a, screen.b);
-    screens_.push_back(screen);
+    Segment virtual_occluder = Scaled(ridges_[Index(r)].edge);
+    if (virtual_occluder.a.z > virtual_occluder.b.z)
+      std::swap(virtual_occluder.a, virtual_occluder.b);
+    virtual_occluders_.push_back(virtual_occluder);
   }
-  if (nothing_.FindSight(lowered, Ties::kBlock, std::nullopt, {screens_, {}, std::nullopt})) {
+  if (nothing_.FindLineOfSight(lowered, Ties::kBlock, std::nullopt,
+                               {virtual_occluders_, {}, std::nullopt})) {
     return false;
   }
   std::sort(nearby.begin(), nearby.end());
@@ -187,7 +189,7 @@ bool RidgeNetwork::Replace(std::span<const RidgeId> old, const std::vector<Edge>
   return true;
 }
 
-void RidgeNetwork::ShedLooseEnds(const Watch& watch) {
+void RidgeNetwork::PruneLeaves(const Watch& watch) {
   if (allowance_ == 0) return;
   // By the height of the ridge's upper end: what is low is hidden soonest.
   using Loose = std::tuple<std::int32_t, RidgeId>;

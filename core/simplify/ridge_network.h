@@ -7,7 +7,7 @@
 
 #include "core/base/progress.h"
 #include "core/horizon/horizon.h"
-#include "core/horizon/skyline.h"
+#include "core/horizon/visibility/occluder_set.h"
 #include "core/simplify/height_scale.h"
 #include "core/terrain/terrain.h"
 
@@ -31,7 +31,7 @@ class RidgeNetwork {
   /// Drops ridges from their loose ends, lowest first, as far as the allowance goes.
   /// Leaves off where the watch says stop.
   /// Cost: a sight for each horizon edge that leaned on a ridge tried.
-  void ShedLooseEnds(const Watch& watch);
+  void PruneLeaves(const Watch& watch);
 
   [[nodiscard]] bool Has(VertexId v) const { return ridges_of_.count(v) > 0; }
   /// Whether a post may move onto its neighbour: any that is on no ridge, others along a ridge.
@@ -70,12 +70,12 @@ class RidgeNetwork {
   const Terrain* terrain_;
   const Horizon* horizon_;
   HeightScale scale_;
-  Skyline nothing_;  // stays empty: over it, screens alone decide
+  OccluderSet nothing_;  // stays empty: over it, virtual occluders alone decide
   std::int32_t allowance_ = 0;
   std::vector<Ridge> ridges_;
   std::vector<std::vector<RidgeId>> certificates_;                // per horizon edge, rising
   std::unordered_map<VertexId, std::vector<RidgeId>> ridges_of_;  // only looked up, never walked
-  std::vector<Segment> screens_;
+  std::vector<Segment> virtual_occluders_;
 };
 
 }  // namespace farhorizon

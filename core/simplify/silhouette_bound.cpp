@@ -4,8 +4,8 @@
 #include <functional>
 #include <numeric>
 
-#include "core/horizon/skyline.h"
-#include "core/simplify/plan.h"
+#include "core/geometry/plan.h"
+#include "core/horizon/visibility/occluder_set.h"
 #include "core/simplify/skyline_guard.h"
 
 namespace farhorizon {
@@ -84,11 +84,11 @@ Result<double> SilhouetteBound(const Terrain& terrain, const Horizon& horizon,
   BoundSearch search(scale.Steps(asked), scale.most_steps);
 
   // Above: what the DEM itself has as an edge cannot rise above it.
-  Skyline skyline(terrain.dem().columns, terrain.dem().rows);
+  OccluderSet occluders(terrain.dem().columns, terrain.dem().rows);
   std::vector<Edge> young;
   for (const MeshEdge& e : edges) {
     if (!MayCarrySkyline(terrain, e)) continue;
-    skyline.Insert({scale.Scale(terrain.Point(e.edge.a)), scale.Scale(terrain.Point(e.edge.b))});
+    occluders.Insert({scale.Scale(terrain.Point(e.edge.a)), scale.Scale(terrain.Point(e.edge.b))});
     if (!IsTerrainEdge(terrain, e.edge)) young.push_back(e.edge);
   }
   Status above = search.Cover(
@@ -109,7 +109,7 @@ Result<double> SilhouetteBound(const Terrain& terrain, const Horizon& horizon,
   Status below = search.Cover(
       lost.size(),
       [&](std::size_t i, std::int32_t steps) {
-        return !skyline.FindSight(Lowered(lost[i], steps), Ties::kBlock).has_value();
+        return !occluders.FindLineOfSight(Lowered(lost[i], steps), Ties::kBlock).has_value();
       },
       watch);
   if (!below) return std::move(below.error());

@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/simplify/ground_chords.h"
-#include "core/simplify/ground_cover.h"
+#include "core/simplify/below_ground.h"
+#include "core/simplify/superlevel_occluders.h"
 
 namespace farhorizon {
 
@@ -13,14 +13,15 @@ SkylineGuard::SkylineGuard(const Terrain& terrain, const Horizon& horizon)
     : terrain_(&terrain),
       hulls_(&horizon.hulls),
       scale_(HeightScale::For(terrain)),
-      skyline_(terrain.dem().columns, terrain.dem().rows) {
+      occluders_(terrain.dem().columns, terrain.dem().rows) {
   std::vector<std::int32_t> heights;
   for (const HorizonEdge& h : horizon.edges) {
     heights.push_back(terrain.Point(h.edge.a).z);
-    skyline_.Insert({scale_.Scale(terrain.Point(h.edge.a)), scale_.Scale(terrain.Point(h.edge.b))});
+    occluders_.Insert(
+        {scale_.Scale(terrain.Point(h.edge.a)), scale_.Scale(terrain.Point(h.edge.b))});
   }
-  for (const Segment& chord : GroundChords(terrain, std::move(heights))) {
-    skyline_.Insert({scale_.Scale(chord.a), scale_.Scale(chord.b)});
+  for (const Segment& chord : SuperlevelOccluders(terrain, std::move(heights))) {
+    occluders_.Insert({scale_.Scale(chord.a), scale_.Scale(chord.b)});
   }
 }
 
@@ -32,7 +33,7 @@ bool SkylineGuard::Hides(VertexId p, VertexId q, std::int32_t steps_lower) const
   if (hulls_->Hides(p, q, std::max(at_p.z, at_q.z) - whole)) return true;
   if (GroundCovers(*terrain_, *hulls_, scale_, p, q, steps_lower)) return true;
   const Segment segment = Lowered({scale_.Scale(at_p), scale_.Scale(at_q)}, steps_lower);
-  return !skyline_.FindSight(segment, Ties::kBlock).has_value();
+  return !occluders_.FindLineOfSight(segment, Ties::kBlock).has_value();
 }
 
 }  // namespace farhorizon

@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "core/horizon/horizon.h"
-#include "core/horizon/skyline.h"
+#include "core/horizon/visibility/occluder_set.h"
 #include "core/simplify/height_scale.h"
 #include "core/terrain/terrain.h"
 
@@ -26,9 +26,9 @@ class SkylineGuard {
 
  private:
   const Terrain* terrain_;
-  const HullForest* hulls_;
+  const HullMergeTree* hulls_;
   HeightScale scale_;
-  Skyline skyline_;
+  OccluderSet occluders_;
 };
 
 }  // namespace farhorizon

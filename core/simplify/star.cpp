@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/base/result.h"
-#include "core/simplify/plan.h"
+#include "core/geometry/plan.h"
 
 namespace farhorizon {
 
@@ -81,7 +81,7 @@ bool Star::BuildFan(VertexId b, const TriangleLimits& limits) {
 Star::Fit Star::FitPost(Point3i post) const {
   const std::int64_t x = post.x - hub_.x;
   const std::int64_t y = post.y - hub_.y;
-  for (const Blade& blade : fan_) {
+  for (const FanTriangle& blade : fan_) {
     // The fan fills the star, so a post within a blade's wedge lies in the blade.
     const std::int64_t of_x = blade.wy * x - blade.wx * y;
     if (of_x < 0) continue;

@@ -4,8 +4,8 @@
 #include <limits>
 #include <vector>
 
-#include "core/simplify/coverage.h"
-#include "core/simplify/plan.h"
+#include "core/geometry/plan.h"
+#include "core/simplify/posts_by_triangle.h"
 #include "core/simplify/surface.h"
 #include "core/terrain/terrain.h"
 
@@ -64,7 +64,7 @@ class Star {
 
  private:
   // A triangle (b, w, x) of the fan that would take the star's place, relative to b.
-  struct Blade {
+  struct FanTriangle {
     std::int64_t wx, wy, wz;
     std::int64_t xx, xy, xz;
     std::int64_t twice_area;
@@ -78,7 +78,7 @@ class Star {
   // Error at a post under the fan, and the blade it lies under.
   struct Fit {
     double error;
-    const Blade* blade;
+    const FanTriangle* blade;
   };
   [[nodiscard]] Fit FitPost(Point3i post) const;
 
@@ -95,7 +95,7 @@ class Star {
   std::int64_t twice_area_ = 0;
   double squares_ = 0;  // of the errors under the star as it stands
 
-  std::vector<Blade> fan_;
+  std::vector<FanTriangle> fan_;
   Point3i hub_;  // where b is
 };
 

@@ -6,18 +6,11 @@
 #include <vector>
 
 #include "core/base/result.h"
+#include "core/geometry/point.h"
 #include "core/terrain/dem.h"
 #include "core/terrain/mesh.h"
 
 namespace farhorizon {
-
-/// A post as the exact predicates see it: column, row, height in quanta.
-struct Point3i {
-  std::int32_t x = 0;
-  std::int32_t y = 0;
-  std::int32_t z = 0;
-  friend bool operator==(const Point3i&, const Point3i&) = default;
-};
 
 /// The triangulated surface over a DEM, borders and holes included.
 ///

@@ -2,8 +2,9 @@
 #include <optional>
 #include <string>
 
-#include "core/pipeline/horizon_edges.h"
-#include "core/pipeline/trace.h"
+#include "core/horizon/find_horizon.h"
+#include "core/pipeline/sweep_picture.h"
+#include "core/pipeline/write_horizon.h"
 #include "service/cli/command.h"
 #include "service/cli/reporter.h"
 #include "service/cli/signals.h"

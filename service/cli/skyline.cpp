@@ -3,7 +3,7 @@
 #include <string>
 
 #include "core/io/files.h"
-#include "core/pipeline/skyline_of_dem.h"
+#include "core/pipeline/write_skyline.h"
 #include "service/cli/command.h"
 #include "service/cli/reporter.h"
 #include "service/cli/signals.h"

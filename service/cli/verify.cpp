@@ -1,4 +1,4 @@
-#include "core/pipeline/verify.h"
+#include "core/pipeline/verify/verify.h"
 
 #include <cstdio>
 #include <memory>

@@ -8,8 +8,8 @@
 
 #include <benchmark/benchmark.h>
 
-#include "core/horizon/horizon.h"
-#include "core/horizon/horizon_kinetic.h"
+#include "core/horizon/find_horizon.h"
+#include "core/horizon/kinetic/kinetic_horizon.h"
 #include "core/io/dem_reader.h"
 #include "core/terrain/terrain.h"
 #include "tests/support/terrains.h"

@@ -10,7 +10,8 @@
 #include <numbers>
 #include <vector>
 
-#include "core/horizon/directional_skyline.h"
+#include "core/horizon/find_horizon.h"
+#include "core/horizon/lines_of_sight/directional_skyline.h"
 #include "core/io/dem_reader.h"
 #include "core/terrain/terrain.h"
 
@@ -53,7 +54,7 @@ int Measure(const char* path, int directions) {
     std::fprintf(stderr, "skyline_bench: %s\n", horizon.error().message.c_str());
     return 1;
   }
-  const std::vector<Sights> sights = *FindSights(terrain, *horizon, 1, {});
+  const std::vector<LinesOfSight> sights = *FindLinesOfSight(terrain, *horizon, 1, {});
   std::vector<Segment> edges;
   for (const Edge& e : terrain.Edges()) edges.push_back({terrain.Point(e.a), terrain.Point(e.b)});
   std::vector<Segment> seen;

@@ -14,13 +14,13 @@
 #include <new>
 #include <vector>
 
-#include "core/horizon/candidates.h"
-#include "core/horizon/horizon.h"
-#include "core/horizon/hull_sweep.h"
-#include "core/horizon/prominence.h"
-#include "core/horizon/sights.h"
+#include "core/horizon/find_horizon.h"
+#include "core/horizon/lines_of_sight/lines_of_sight.h"
+#include "core/horizon/lines_of_sight/skyline_drop.h"
+#include "core/horizon/sweep/candidates.h"
+#include "core/horizon/sweep/hull_sweep.h"
 #include "core/io/dem_reader.h"
-#include "core/pipeline/edge_view.h"
+#include "core/pipeline/edge_measures.h"
 #include "core/terrain/terrain.h"
 
 namespace {
@@ -119,10 +119,10 @@ Row Report(const Dem& dem, int repetitions) {
   const Cost two = find(2);
   const Horizon horizon = std::move(*FindHorizon(terrain, 1, {}));
   const Cost sights =
-      Measure(repetitions, [&] { static_cast<void>(FindSights(terrain, horizon, 1, {})); });
+      Measure(repetitions, [&] { static_cast<void>(FindLinesOfSight(terrain, horizon, 1, {})); });
   // As closely as horizon.geojson has them; once, as it takes longest.
-  const Cost prominences = Measure(1, [&] {
-    const Prominences all(terrain, horizon, kProminenceStep / dem.quantum_m);
+  const Cost skyline_drops = Measure(1, [&] {
+    const SkylineDrops all(terrain, horizon, kSkylineDropStep / dem.quantum_m);
     for (std::size_t i = 0; i < horizon.edges.size(); ++i) static_cast<void>(all.Of(i));
   });
   const PredicateCounts& counts = horizon.statistics.predicates;
@@ -130,7 +130,7 @@ Row Report(const Dem& dem, int repetitions) {
       "%5d x %-5d %8.1f %8.1f %8.1f %8.1f %8.1f %6.1f %6.2f %8.1f %8.1f %6.0f %6.0f %8lld %7zu "
       "%9.5f\n",
       dem.columns, dem.rows, floor.ms, sweep.ms, candidates.ms, whole.ms - sweep.ms - candidates.ms,
-      whole.ms, whole.ms / floor.ms, whole.ms / two.ms, sights.ms, prominences.ms,
+      whole.ms, whole.ms / floor.ms, whole.ms / two.ms, sights.ms, skyline_drops.ms,
       sweep.bytes_peak / posts, whole.bytes_peak / posts,
       static_cast<long long>(horizon.statistics.candidates), horizon.edges.size(),
       100.0 * static_cast<double>(counts.exact) / static_cast<double>(counts.Sum()));

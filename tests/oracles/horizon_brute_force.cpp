@@ -16,8 +16,8 @@
 #include <utility>
 
 #include "core/base/result.h"
+#include "tests/oracles/point_view_by_definition.h"
 #include "tests/oracles/quadratic_root.h"
-#include "tests/oracles/sight_sample.h"
 
 namespace farhorizon {
 namespace {
@@ -85,17 +85,17 @@ class Sight {
   }
 
   /// Samples until one is free or what the samples' covers hide is the whole segment.
-  std::optional<OracleSight> Decide() {
+  std::optional<OracleLineOfSight> Decide() {
     std::deque<std::pair<QuadraticNumber, QuadraticNumber>> undecided{{kZero, kOne}};
     while (!undecided.empty()) {
       const auto [low, high] = undecided.front();
       undecided.pop_front();
       const DyadicNumber t = SimplestBetween(low, high);
-      const SightVerdict verdict = LookAround(problem_, t);
-      if (verdict.kind == SightVerdict::Kind::kFree) return OracleSight{t, verdict.gap};
+      const LineVerdict verdict = LookAround(problem_, t);
+      if (verdict.kind == LineVerdict::Kind::kFree) return OracleLineOfSight{t, verdict.gap};
       QuadraticNumber from = QuadraticNumber::Dyadic(t.numerator, t.exponent);
       QuadraticNumber to = from;
-      if (verdict.kind == SightVerdict::Kind::kHidden) {
+      if (verdict.kind == LineVerdict::Kind::kOccluded) {
         std::tie(from, to) = Certified(verdict.cover, from, low, high);
       }
       if (low < from) undecided.emplace_back(low, from);
@@ -112,10 +112,10 @@ class Sight {
     std::sort(critical.begin(), critical.end());
     for (std::size_t i = 0; i + 1 < critical.size(); ++i) {
       if (!(critical[i] < critical[i + 1])) continue;
-      const SightVerdict verdict =
+      const LineVerdict verdict =
           LookAround(problem_, SimplestBetween(critical[i], critical[i + 1]));
-      Check(verdict.kind != SightVerdict::Kind::kCritical, "every critical position is known");
-      if (verdict.kind == SightVerdict::Kind::kFree) return true;
+      Check(verdict.kind != LineVerdict::Kind::kCritical, "every critical position is known");
+      if (verdict.kind == LineVerdict::Kind::kFree) return true;
     }
     return false;
   }
@@ -263,7 +263,7 @@ std::vector<Edge> HorizonByBruteForce(const OracleMesh& mesh) {
       if (other == edge || std::max(f.a.z, f.b.z) <= std::min(segment.a.z, segment.b.z)) continue;
       obstacles.push_back(f);
     }
-    if (SightByBruteForce(segment, obstacles, Ties::kPass)) horizon.push_back(edge);
+    if (LineOfSightByBruteForce(segment, obstacles, Ties::kPass)) horizon.push_back(edge);
   }
   return horizon;
 }
@@ -272,12 +272,14 @@ std::vector<Edge> HorizonByBruteForce(const Terrain& terrain) {
   return HorizonByBruteForce(MeshOf(terrain));
 }
 
-std::optional<OracleSight> SightByBruteForce(const Segment& segment,
-                                             const std::vector<Segment>& obstacles, Ties ties) {
+std::optional<OracleLineOfSight> LineOfSightByBruteForce(const Segment& segment,
+                                                         const std::vector<Segment>& obstacles,
+                                                         Ties ties) {
   return Sight(segment, obstacles, ties).Decide();
 }
 
-bool SightByAllCells(const Segment& segment, const std::vector<Segment>& obstacles, Ties ties) {
+bool LineOfSightByAllCells(const Segment& segment, const std::vector<Segment>& obstacles,
+                           Ties ties) {
   return Sight(segment, obstacles, ties).DecideByAllCells();
 }
 

@@ -3,9 +3,9 @@
 #include <optional>
 #include <vector>
 
-#include "core/horizon/skyline.h"
+#include "core/horizon/visibility/occluder_set.h"
 #include "core/terrain/terrain.h"
-#include "tests/oracles/sight_sample.h"
+#include "tests/oracles/point_view_by_definition.h"
 
 namespace farhorizon {
 
@@ -31,7 +31,7 @@ std::vector<Edge> HorizonByBruteForce(const Terrain& terrain);
 
 /// Lines of sight: through the point t of the way along the segment, in the directions of `gap` but for
 /// finitely many of them.
-struct OracleSight {
+struct OracleLineOfSight {
   oracle::DyadicNumber t;
   oracle::FreeGap gap;
 };
@@ -41,11 +41,13 @@ struct OracleSight {
 ///
 /// Requires: neither the segment nor an obstacle is a point in plan; the extent of all in plan times
 /// that in height is below 2^60.
-std::optional<OracleSight> SightByBruteForce(const Segment& segment,
-                                             const std::vector<Segment>& obstacles, Ties ties);
+std::optional<OracleLineOfSight> LineOfSightByBruteForce(const Segment& segment,
+                                                         const std::vector<Segment>& obstacles,
+                                                         Ties ties);
 
 /// The same answer without any short cut: one sample in every cell of every critical position there
 /// is. The slow twin of the slow twin; some 30 obstacles are its limit.
-bool SightByAllCells(const Segment& segment, const std::vector<Segment>& obstacles, Ties ties);
+bool LineOfSightByAllCells(const Segment& segment, const std::vector<Segment>& obstacles,
+                           Ties ties);
 
 }  // namespace farhorizon

@@ -35,8 +35,8 @@ std::int64_t CountAt(const std::vector<Edge>& edges, VertexId post) {
 /// The line of sight meets nothing of `obstacles` above the point it comes from (kPass), or at or
 /// above it (kBlock), in one of some directions of its gap: an obstacle in line with the point blocks
 /// one direction without an arc, so not every direction need do.
-bool SightHolds(const OracleSight& sight, const Segment& segment,
-                const std::vector<Segment>& obstacles, Ties ties) {
+bool LineOfSightHolds(const OracleLineOfSight& sight, const Segment& segment,
+                      const std::vector<Segment>& obstacles, Ties ties) {
   const Wide denominator = Wide(1) << static_cast<unsigned>(sight.t.exponent);
   const Ratio<Wide> own{
       segment.a.z * denominator + (Wide(segment.b.z) - segment.a.z) * sight.t.numerator,
@@ -83,7 +83,7 @@ std::vector<Segment> Reduce(const std::vector<Segment>& segments) {
   for (std::size_t i = 0; i < segments.size(); ++i) {
     std::vector<Segment> others = segments;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
-    if (SightByBruteForce(segments[i], others, Ties::kPass)) kept.push_back(segments[i]);
+    if (LineOfSightByBruteForce(segments[i], others, Ties::kPass)) kept.push_back(segments[i]);
   }
   return kept;
 }
@@ -169,7 +169,7 @@ TEST(BruteForce, ShortCutsGiveTheAnswerOfAllCellsOnTerrains) {
     for (const Edge e : creases) {
       std::vector<Edge> others = EdgesOf(mesh);
       std::erase(others, e);
-      if (SightByAllCells(SegmentsOf(mesh, {e})[0], SegmentsOf(mesh, others), Ties::kPass)) {
+      if (LineOfSightByAllCells(SegmentsOf(mesh, {e})[0], SegmentsOf(mesh, others), Ties::kPass)) {
         expected.push_back(e);
       }
     }
@@ -186,11 +186,13 @@ TEST(BruteForce, ShortCutsGiveTheAnswerOfAllCellsOnSegmentsThatCrossAndOverlap) 
     const Segment segment = segments.back();
     segments.pop_back();
     for (const Ties ties : {Ties::kPass, Ties::kBlock}) {
-      const std::optional<OracleSight> sight = SightByBruteForce(segment, segments, ties);
-      ASSERT_EQ(sight.has_value(), SightByAllCells(segment, segments, ties)) << "round " << round;
+      const std::optional<OracleLineOfSight> sight =
+          LineOfSightByBruteForce(segment, segments, ties);
+      ASSERT_EQ(sight.has_value(), LineOfSightByAllCells(segment, segments, ties))
+          << "round " << round;
       if (sight) {
         ++seen;
-        ASSERT_TRUE(SightHolds(*sight, segment, segments, ties)) << "round " << round;
+        ASSERT_TRUE(LineOfSightHolds(*sight, segment, segments, ties)) << "round " << round;
       }
     }
   }
@@ -207,7 +209,7 @@ TEST(BruteForce, NoRandomLineSeesASegmentThatIsHidden) {
     std::vector<Segment> segments = RandomSegments(8 + round % 9, 4, 4, random);
     const Segment segment = segments.back();
     segments.pop_back();
-    if (SightByBruteForce(segment, segments, Ties::kPass)) continue;
+    if (LineOfSightByBruteForce(segment, segments, Ties::kPass)) continue;
     for (int shot = 0; shot < 200; ++shot, ++lines) {
       const Wide t = 1 + random() % 1022;
       const Wide dx = static_cast<int>(random() % 2001) - 1000;

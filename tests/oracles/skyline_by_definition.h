@@ -5,7 +5,7 @@
 
 #include <boost/multiprecision/cpp_int.hpp>
 
-#include "core/horizon/upper_envelope.h"
+#include "core/horizon/lines_of_sight/upper_envelope.h"
 
 namespace farhorizon {
 

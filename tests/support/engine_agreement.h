@@ -3,8 +3,8 @@
 #include <functional>
 #include <string>
 
-#include "core/horizon/horizon.h"
-#include "core/horizon/horizon_kinetic.h"
+#include "core/horizon/find_horizon.h"
+#include "core/horizon/kinetic/kinetic_horizon.h"
 #include "core/terrain/terrain.h"
 
 namespace farhorizon {

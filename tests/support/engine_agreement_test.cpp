@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/horizon/find_horizon.h"
 #include "tests/support/ascii_dem.h"
 #include "tests/support/engines_agree.h"
 #include "tests/support/terrains.h"

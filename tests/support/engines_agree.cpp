@@ -5,7 +5,7 @@
 #include <fstream>
 #include <string>
 
-#include "core/horizon/sweep_trace.h"
+#include "core/horizon/trace/sweep_trace.h"
 #include "core/io/sweep_svg.h"
 
 namespace farhorizon {

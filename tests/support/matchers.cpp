@@ -109,8 +109,8 @@ testing::AssertionResult MaximiserIsIn(const Terrain& terrain, const std::vector
   return testing::AssertionSuccess();
 }
 
-testing::AssertionResult SightIsClear(const Witness& witness, const Segment& segment,
-                                      const std::vector<Segment>& obstacles, Ties ties) {
+testing::AssertionResult LineOfSightIsClear(const Witness& witness, const Segment& segment,
+                                            const std::vector<Segment>& obstacles, Ties ties) {
   const auto bad = [&witness] {
     return testing::AssertionFailure() << "witness t = " << witness.t << ", direction ("
                                        << witness.dc << ", " << witness.dr << "): ";

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/horizon/skyline.h"
+#include "core/horizon/visibility/occluder_set.h"
 #include "core/terrain/terrain.h"
 
 namespace farhorizon {
@@ -28,8 +28,8 @@ testing::AssertionResult MaximiserIsIn(const Terrain& terrain, const std::vector
 
 /// The line of `witness` crosses `segment` at its t, in (0, 1), and meets nothing of `obstacles` above
 /// (kPass), or at or above (kBlock), that point: from the definition, exact.
-testing::AssertionResult SightIsClear(const Witness& witness, const Segment& segment,
-                                      const std::vector<Segment>& obstacles, Ties ties);
+testing::AssertionResult LineOfSightIsClear(const Witness& witness, const Segment& segment,
+                                            const std::vector<Segment>& obstacles, Ties ties);
 
 /// The edges of a terrain as segments.
 std::vector<Segment> SegmentsOf(const Terrain& terrain, const std::vector<Edge>& edges);

@@ -38,13 +38,14 @@ TEST(MaximiserIsIn, FailsWhereAnEdgeOfTheHorizonIsLeftOut) {
   EXPECT_FALSE(MaximiserIsIn(terrain, AllButTheLast(terrain), 1'000, 1));
 }
 
-TEST(SightIsClear, TellsWhatStandsInTheWay) {
+TEST(LineOfSightIsClear, TellsWhatStandsInTheWay) {
   const Segment low{{0, 0, 1}, {2, 0, 1}};
   const Segment wall{{0, 2, 2}, {2, 2, 2}};
-  EXPECT_FALSE(SightIsClear({0.5, 0, 1}, low, {wall}, Ties::kPass));
-  EXPECT_TRUE(SightIsClear({0.5, 2, 1}, low, {wall}, Ties::kPass)) << "passes beside the wall";
-  EXPECT_TRUE(SightIsClear({0.5, 0, 1}, wall, {low}, Ties::kBlock));
-  EXPECT_FALSE(SightIsClear({0.5, 1, 0}, low, {}, Ties::kPass)) << "runs along the segment";
+  EXPECT_FALSE(LineOfSightIsClear({0.5, 0, 1}, low, {wall}, Ties::kPass));
+  EXPECT_TRUE(LineOfSightIsClear({0.5, 2, 1}, low, {wall}, Ties::kPass))
+      << "passes beside the wall";
+  EXPECT_TRUE(LineOfSightIsClear({0.5, 0, 1}, wall, {low}, Ties::kBlock));
+  EXPECT_FALSE(LineOfSightIsClear({0.5, 1, 0}, low, {}, Ties::kPass)) << "runs along the segment";
 }
 
 }  // namespace

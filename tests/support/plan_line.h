@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "core/horizon/skyline.h"
+#include "core/horizon/visibility/occluder_set.h"
 
 namespace farhorizon {
 

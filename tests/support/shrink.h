@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include "core/horizon/skyline.h"
+#include "core/horizon/visibility/occluder_set.h"
 #include "core/terrain/dem.h"
 
 namespace farhorizon {

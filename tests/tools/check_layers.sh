@@ -6,16 +6,31 @@ set -euo pipefail
 export LC_ALL=C
 cd "${1:-"$(dirname "${BASH_SOURCE[0]}")/../.."}"
 
-# Our own headers: what each folder may include beside itself.
+# Our own headers: what each room (a folder, but for files named below) may include beside itself.
+below_horizon="core/base core/exact core/geometry core/terrain"
+below_pipeline="$below_horizon core/horizon core/horizon/search core/horizon/lines core/horizon/visibility
+  core/horizon/lines_of_sight core/horizon/trace core/simplify core/geo core/io"
 declare -A may=(
   [core/base]=""
   [core/exact]="core/base"
-  [core/terrain]="core/base core/exact"
-  [core/horizon]="core/base core/exact core/terrain"
-  [core/simplify]="core/base core/exact core/terrain core/horizon"
+  [core/geometry]="core/base core/exact"
+  [core/terrain]="core/base core/exact core/geometry"
+  # The rooms of core/horizon. Its root holds what the rooms share (the types of the result, witnesses, the
+  # tree of merging hulls); `search` is what stands above the rooms (folder_of names its files).
+  [core/horizon]="$below_horizon"
+  [core/horizon/lines]="$below_horizon core/horizon"
+  [core/horizon/visibility]="$below_horizon core/horizon"
+  [core/horizon/sweep]="$below_horizon core/horizon core/horizon/visibility"
+  # A second opinion: it shares no room with what it checks.
+  [core/horizon/kinetic]="$below_horizon core/horizon"
+  [core/horizon/lines_of_sight]="$below_horizon core/horizon core/horizon/lines core/horizon/visibility"
+  [core/horizon/trace]="$below_horizon core/horizon core/horizon/sweep core/horizon/kinetic"
+  [core/horizon/search]="$below_horizon core/horizon core/horizon/visibility core/horizon/sweep core/horizon/kinetic"
+  [core/simplify]="$below_horizon core/horizon core/horizon/visibility"
   [core/geo]="core/base"
-  [core/io]="core/base core/terrain core/horizon core/geo"
-  [core/pipeline]="core/base core/terrain core/horizon core/simplify core/geo core/io"
+  [core/io]="core/base core/geometry core/terrain core/horizon core/horizon/lines_of_sight core/horizon/trace core/geo"
+  [core/pipeline]="$below_pipeline"
+  [core/pipeline/verify]="$below_pipeline core/pipeline"
   # The service's own root: configuration and the wrapper header of Asio. main.cpp is below.
   [service]="core/base"
   [service/worker]="core/base core/io core/pipeline service"
@@ -23,7 +38,7 @@ declare -A may=(
   [service/handlers]="core/base core/io core/pipeline service service/jobs"
   [service/http]="core/base service service/handlers"
   [service/viewer]=""
-  [service/cli]="core/base core/io core/pipeline service service/worker service/jobs service/handlers service/http"
+  [service/cli]="core/base core/io core/pipeline service service/worker service/jobs service/handlers service/http core/pipeline/verify core/horizon core/horizon/search"
   [service/main.cpp]="core/base service service/cli"
 )
 
@@ -53,17 +68,14 @@ offence() {
   bad=1
 }
 
-# The row of `may` that a path belongs to: main.cpp by itself, else its folder.
+# The row of `may` that a path belongs to: its folder, but for the files that have a row elsewhere.
 folder_of() {
-  local path=$1
-  if [[ $path == service/main.cpp ]]; then
-    echo "$path"
-  elif [[ $path =~ ^(core|service)/[^/]+/ ]]; then
-    path=${BASH_REMATCH[0]}
-    echo "${path%/}"
-  else
-    echo "${path%%/*}"
-  fi
+  case $1 in
+    service/main.cpp) echo "$1" ;;
+    core/horizon/find_horizon.* | core/horizon/candidate_decider.* | core/horizon/join_horizons.*)
+      echo core/horizon/search ;;
+    *) dirname "$1" ;;
+  esac
 }
 
 check_own() { # PLACE FILE TARGET

@@ -27,7 +27,7 @@ expect 0 "$sound" core/pipeline/build.cpp '"core/horizon/horizon.h"'
 expect 0 "$sound" service/http/router.cpp '"service/handlers/jobs.h"'
 expect 0 "$sound" core/io/dem_reader.cpp '<gdal_priv.h>'
 expect 0 "$sound" core/geo/crs.cpp '<proj_experimental.h>'
-expect 0 "$sound" core/exact/wide.h '<boost/multiprecision/cpp_int.hpp>'
+expect 0 "$sound" core/exact/int128.h '<boost/multiprecision/cpp_int.hpp>'
 expect 0 "$sound" service/jobs/sqlite_job_store.cpp '<sqlite3.h>'
 # Up, or across.
 expect 1 'core/base may not include core/io' core/base/result.cpp '"core/io/files.h"'
@@ -38,6 +38,13 @@ expect 1 'core/geo may not include core/io' core/geo/crs.cpp '  "core/io/files.h
 expect 1 'has no row' core/misc/thing.h '"core/base/result.h"'
 expect 1 'name it from the root' core/base/result.cpp '"result.h"'
 expect 1 'name it from the root' core/base/result.cpp '"tests/support/ascii_dem.h"'
+# A room by itself: the second engine shares no algorithm with the first.
+expect 1 'core/horizon/kinetic may not include core/horizon/sweep' core/horizon/kinetic/scene.cpp '"core/horizon/sweep/hull_sweep.h"'
+expect 1 'core/horizon/kinetic may not include core/horizon/visibility' core/horizon/kinetic/scene.h '"core/horizon/visibility/occluder_set.h"'
+expect 1 'core/horizon/kinetic may not include core/horizon/lines_of_sight' core/horizon/kinetic/scene.h '"core/horizon/lines_of_sight/lines_of_sight.h"'
+expect 1 'core/horizon/sweep may not include core/horizon/search' core/horizon/sweep/candidates.cpp '"core/horizon/find_horizon.h"'
+expect 1 'core/horizon/attic has no row' core/horizon/attic/thing.h '"core/base/result.h"'
+expect 0 "$sound" core/horizon/find_horizon.cpp '"core/horizon/kinetic/kinetic_horizon.h"'
 # Foreign headers outside their rooms, or in a header of the core.
 expect 1 '<gdal_priv.h> may not be included here' core/io/dem_reader.h '<gdal_priv.h>'
 expect 1 '<ogrsf_frmts.h> may not be included here' core/geo/crs.cpp '<ogrsf_frmts.h>'

@@ -19,7 +19,7 @@ void Scene::CheckAll() const {
 }
 
 void Scene::CheckPair(ClusterId c, ClusterId other) const {
-  Check(!Meet(c, other), "hulls are apart");
+  Check(!AddObstacle(c, other), "hulls are apart");
   const std::int32_t first = FirstTangent(c, other);
   for (std::int32_t t = first; t < first + 4; ++t) {
     Check(Stands(t), "tangents stand");

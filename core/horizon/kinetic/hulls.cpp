@@ -155,7 +155,7 @@ Scene::Box Scene::BoxOf(ClusterId c, double s, double margin) const {
 
 // Two convex polygons are apart just where an edge of one has all corners of the other beyond it.
 template <typename Turn>
-bool Scene::Meet(ClusterId a, ClusterId b, double s, double off, const Turn& turn) const {
+bool Scene::AddObstacle(ClusterId a, ClusterId b, double s, double off, const Turn& turn) const {
   // Points move by a post a quantum at most; doubles are off by far less than a thousandth.
   const Box p = BoxOf(a, s, off + 1e-3);
   const Box q = BoxOf(b, s, off + 1e-3);
@@ -176,13 +176,13 @@ bool Scene::Meet(ClusterId a, ClusterId b, double s, double off, const Turn& tur
          !parts(cluster(b).corners, cluster(a).corners);
 }
 
-bool Scene::Meet(ClusterId a, ClusterId b) const {
-  return Meet(a, b, now_.lo, now_.hi - now_.lo,
-              [this](PointId p, PointId q, PointId r) { return Orient(p, q, r); });
+bool Scene::AddObstacle(ClusterId a, ClusterId b) const {
+  return AddObstacle(a, b, now_.lo, now_.hi - now_.lo,
+                     [this](PointId p, PointId q, PointId r) { return Orient(p, q, r); });
 }
 
 bool Scene::MeetAt(ClusterId a, ClusterId b, std::int64_t s) const {
-  return Meet(a, b, static_cast<double>(s), 0, [&](PointId p, PointId q, PointId r) {
+  return AddObstacle(a, b, static_cast<double>(s), 0, [&](PointId p, PointId q, PointId r) {
     return OrientAt(point(p).path, point(q).path, point(r).path, s);
   });
 }
@@ -192,7 +192,7 @@ bool Scene::JoinFresh() {
     const ClusterId c = listed_[i];
     if (Find(c) != c || !cluster(c).fresh) continue;
     for (const ClusterId other : apart_) {
-      if (other == c || !Meet(c, other)) continue;
+      if (other == c || !AddObstacle(c, other)) continue;
       Join(c, other);
       return true;
     }
@@ -205,7 +205,7 @@ bool Scene::JoinAcross(SideId side) {
   if (Outer(side) || Stands(side / 2)) return false;
   const ClusterId a = Find(point(Own(side)).cluster);
   const ClusterId b = Find(point(Other(side)).cluster);
-  if (!Meet(a, b)) return false;
+  if (!AddObstacle(a, b)) return false;
   Join(a, b);
   return true;
 }

@@ -96,24 +96,24 @@ bool Proportional(const Quadratic& p, const Quadratic& q) {
 
 // (a + b sqrt(x)) / d, with b in {-1, 0, 1}, x >= 0, d > 0.
 struct Surd {
-  WideInt a;
+  Int1280 a;
   Int128 b = 0;
-  WideInt x;
-  WideInt d;
+  Int1280 x;
+  Int1280 d;
 };
 
 Surd SurdOf(const Moment& m) {
   const Quadratic& q = m.q;
   const bool negative = (q.c2 != 0 ? q.c2 : q.c1) < 0;
-  const auto turned = [negative](Int128 c) { return WideInt(negative ? -c : c); };
-  if (q.c2 == 0) return {-turned(q.c0), 0, WideInt(0), turned(q.c1)};
-  const WideInt c1(q.c1);
-  const WideInt x = c1 * c1 - ((WideInt(q.c2) * WideInt(q.c0)) << 2);
+  const auto turned = [negative](Int128 c) { return Int1280(negative ? -c : c); };
+  if (q.c2 == 0) return {-turned(q.c0), 0, Int1280(0), turned(q.c1)};
+  const Int1280 c1(q.c1);
+  const Int1280 x = c1 * c1 - ((Int1280(q.c2) * Int1280(q.c0)) << 2);
   return {-turned(q.c1), m.upper ? 1 : -1, x, turned(2 * q.c2)};
 }
 
 // The sign of a + b sqrt(x), x >= 0.
-int SignOfSum(const WideInt& a, const WideInt& b, const WideInt& x) {
+int SignOfSum(const Int1280& a, const Int1280& b, const Int1280& x) {
   const int sign_a = SignOf(a);
   const int sign_b = SignOf(x) == 0 ? 0 : SignOf(b);
   if (sign_a * sign_b >= 0) return sign_a != 0 ? sign_a : sign_b;
@@ -132,9 +132,9 @@ int CompareRoots(const Moment& a, const Moment& b) {
   const Surd r = SurdOf(a);
   const Surd t = SurdOf(b);
   // The sign of p + q sqrt(x) + k sqrt(y).
-  const WideInt p = r.a * t.d - t.a * r.d;
-  const WideInt q = WideInt(r.b) * t.d;
-  const WideInt k = WideInt(-t.b) * r.d;
+  const Int1280 p = r.a * t.d - t.a * r.d;
+  const Int1280 q = Int1280(r.b) * t.d;
+  const Int1280 k = Int1280(-t.b) * r.d;
   const int first = SignOfSum(p, q, r.x);
   const int second = SignOf(t.x) == 0 ? 0 : SignOf(k);
   if (first * second >= 0) return first != 0 ? first : second;

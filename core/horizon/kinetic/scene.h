@@ -228,8 +228,9 @@ class Scene {
   };
   [[nodiscard]] Box BoxOf(ClusterId c, double s, double margin) const;
   template <typename Turn>
-  [[nodiscard]] bool Meet(ClusterId a, ClusterId b, double s, double off, const Turn& turn) const;
-  [[nodiscard]] bool Meet(ClusterId a, ClusterId b) const;
+  [[nodiscard]] bool AddObstacle(ClusterId a, ClusterId b, double s, double off,
+                                 const Turn& turn) const;
+  [[nodiscard]] bool AddObstacle(ClusterId a, ClusterId b) const;
   [[nodiscard]] bool JoinFresh();
   [[nodiscard]] bool JoinAcross(SideId side);
   void ShakePassed();

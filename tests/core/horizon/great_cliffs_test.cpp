@@ -9,8 +9,8 @@
 
 #include <gtest/gtest.h>
 
-#include "core/horizon/candidates.h"
-#include "core/horizon/horizon.h"
+#include "core/horizon/find_horizon.h"
+#include "core/horizon/sweep/candidates.h"
 #include "tests/oracles/horizon_brute_force.h"
 #include "tests/support/ascii_dem.h"
 #include "tests/support/effort.h"
@@ -39,19 +39,20 @@ struct Sighting {
 /// What FindHorizon decides, whether or not all witnesses are exact.
 std::vector<Sighting> Sightings(const Terrain& terrain) {
   const Candidates sweep = *FindCandidates(terrain, *SweepHulls(terrain, 1, {}), 1, {});
-  Skyline skyline(terrain.dem().columns, terrain.dem().rows);
+  OccluderSet occluders(terrain.dem().columns, terrain.dem().rows);
   std::vector<Edge> edges;
   for (const Candidate& c : sweep.edges) edges.push_back(c.edge);
   const std::vector<Segment> segments = SegmentsOf(terrain, edges);
-  for (const Segment& s : segments) skyline.Insert(s);
+  for (const Segment& s : segments) occluders.Insert(s);
   std::vector<Sighting> sightings;
   for (std::size_t i = 0; i < edges.size(); ++i) {
     const Candidate& c = sweep.edges[i];
-    const std::optional<Witness> sight = skyline.FindSight(
-        segments[i], Ties::kPass, static_cast<Skyline::Id>(i),
-        {std::span<const Segment>(sweep.screens).subspan(c.first_screen, c.screen_count),
-         {},
-         WedgeOf(terrain, edges[i])});
+    const std::optional<Witness> sight =
+        occluders.FindLineOfSight(segments[i], Ties::kPass, static_cast<OccluderSet::Id>(i),
+                                  {std::span<const Segment>(sweep.virtual_occluders)
+                                       .subspan(c.first_virtual_occluder, c.virtual_occluder_count),
+                                   {},
+                                   WedgeOf(terrain, edges[i])});
     if (sight) sightings.push_back({edges[i], *sight});
   }
   return sightings;
@@ -87,7 +88,7 @@ void ExpectTheDefinition(const Dem& dem, Tally& tally) {
     if (std::max(std::abs(s.witness.dc), std::abs(s.witness.dr)) >= kLong) ++tally.long_directions;
     ASSERT_TRUE(WitnessHolds(terrain, s.edge, s.witness))
         << DrawAscii(dem) << "edge " << s.edge.a << '-' << s.edge.b;
-    ASSERT_TRUE(SightIsClear(s.witness, SegmentsOf(terrain, {s.edge})[0], all, Ties::kPass))
+    ASSERT_TRUE(LineOfSightIsClear(s.witness, SegmentsOf(terrain, {s.edge})[0], all, Ties::kPass))
         << DrawAscii(dem) << "edge " << s.edge.a << '-' << s.edge.b;
   }
   tally.inexact += inexact;
@@ -222,7 +223,7 @@ TEST(WitnessHolds, IsTheDefinitionForTheFinestNumbers) {
       if (witness.dc == 0 && witness.dr == 0) continue;
       const Segment& e = all[i];
       if (Int128{e.b.x - e.a.x} * witness.dr == Int128{e.b.y - e.a.y} * witness.dc) continue;
-      const bool expected = static_cast<bool>(SightIsClear(witness, e, all, Ties::kPass));
+      const bool expected = static_cast<bool>(LineOfSightIsClear(witness, e, all, Ties::kPass));
       ASSERT_EQ(WitnessHolds(terrain, edges[i], witness), expected)
           << DrawAscii(dem) << "edge " << edges[i].a << '-' << edges[i].b << " t " << witness.t
           << " direction " << witness.dc << ' ' << witness.dr;

@@ -11,9 +11,9 @@
 
 #include <gtest/gtest.h>
 
-#include "core/horizon/horizon.h"
-#include "core/horizon/horizon_kinetic.h"
-#include "core/horizon/reduction.h"
+#include "core/horizon/find_horizon.h"
+#include "core/horizon/join_horizons.h"
+#include "core/horizon/kinetic/kinetic_horizon.h"
 #include "tests/oracles/horizon_brute_force.h"
 #include "tests/support/ascii_dem.h"
 #include "tests/support/effort.h"

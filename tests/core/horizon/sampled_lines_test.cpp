@@ -9,8 +9,8 @@
 
 #include <gtest/gtest.h>
 
-#include "core/horizon/horizon.h"
-#include "core/horizon/line_height.h"
+#include "core/horizon/find_horizon.h"
+#include "core/horizon/lines/highest_over_line.h"
 #include "tests/support/effort.h"
 #include "tests/support/matchers.h"
 #include "tests/support/terrains.h"

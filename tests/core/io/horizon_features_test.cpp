@@ -26,7 +26,7 @@ HorizonFeature Feature() {
   feature.spans = {{0, 0.25}, {0.5, 1}};
   feature.angular_share = 0.125;
   feature.line_measure_m = 3.5;
-  feature.prominence_m = 1.25;
+  feature.skyline_drop_m = 1.25;
   feature.witness.t = 0.1 + 0.2;
   feature.witness.dc = -7;
   feature.witness.dr = 2;
@@ -58,7 +58,7 @@ TEST(HorizonGeoJson, IsTheTextThatTheContractShows) {
             "{\"type\":\"Feature\",\"geometry\":{\"type\":\"LineString\",\"coordinates\":"
             "[[-84.25,36.5,1076],[-84.123456789,36.49,1075.1235]]},\"properties\":{\"a\":[3,4],"
             "\"b\":[4,5],\"azimuths\":[[12.5,13],[170.25,190.125]],\"spans\":[[0,0.25],[0.5,1]],"
-            "\"angular_share\":0.125,\"line_measure_m\":3.5,\"prominence_m\":1.25,"
+            "\"angular_share\":0.125,\"line_measure_m\":3.5,\"skyline_drop_m\":1.25,"
             "\"witness\":{\"t\":0.5,\"direction\":[-7,2]},\"level_kept\":2}}\n]}\n");
 }
 
@@ -80,7 +80,7 @@ TEST(HorizonGeoJson, ReadsBackWhatItWrote) {
     EXPECT_EQ(f.spans, features[i].spans);
     EXPECT_EQ(f.angular_share, features[i].angular_share);
     EXPECT_EQ(f.line_measure_m, features[i].line_measure_m);
-    EXPECT_EQ(f.prominence_m, features[i].prominence_m);
+    EXPECT_EQ(f.skyline_drop_m, features[i].skyline_drop_m);
     EXPECT_EQ(f.witness.t, features[i].witness.t);
     EXPECT_EQ(f.witness.dc, features[i].witness.dc);
     EXPECT_EQ(f.witness.dr, features[i].witness.dr);

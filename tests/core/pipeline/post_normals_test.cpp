@@ -30,14 +30,14 @@ struct Placed {
   explicit Placed(Dem with)
       : dem(std::move(with)),
         terrain(*Terrain::Build(dem)),
-        placement(*Placement::Of(terrain, "")) {
+        georeference(*Georeference::Of(terrain, "")) {
     for (VertexId v = 0; v < terrain.post_count(); ++v) {
       if (terrain.IsVertex(v)) vertices.push_back(v);
     }
   }
   Dem dem;
   Terrain terrain;
-  Placement placement;
+  Georeference georeference;
   std::vector<VertexId> vertices;
 };
 
@@ -45,7 +45,7 @@ UnitNormal Widen(const std::array<float, 3>& n) { return {n[0], n[1], n[2]}; }
 
 // At some.vertices.
 std::vector<UnitNormal> NormalsOf(const Placed& some) {
-  Result<PostNormals> found = FindPostNormals(some.terrain, some.placement);
+  Result<PostNormals> found = FindPostNormals(some.terrain, some.georeference);
   if (!found) throw std::runtime_error(found.error().message);
   std::vector<UnitNormal> normals;
   for (const VertexId v : some.vertices)
@@ -101,7 +101,7 @@ TEST(PostNormals, AreTheMeanOfTheFacesByArea) {
   // The slow twin: every face of the terrain hands its normal to its corners.
   std::vector<UnitNormal> sums(some.dem.heights.size(), {0, 0, 0});
   for (const Triangle& t : some.terrain.Triangles()) {
-    const std::vector<Enu> p = *some.placement.ToEnu(std::vector<VertexId>(t.begin(), t.end()));
+    const std::vector<Enu> p = *some.georeference.ToEnu(std::vector<VertexId>(t.begin(), t.end()));
     const UnitNormal u = {p[1].east - p[0].east, p[1].north - p[0].north, p[1].up - p[0].up};
     const UnitNormal v = {p[2].east - p[0].east, p[2].north - p[0].north, p[2].up - p[0].up};
     for (const VertexId corner : t) {
@@ -145,7 +145,7 @@ TEST(PostNormals, AreZeroWhereThereIsNoTerrain) {
   const Placed some(MakeDem(9, 9, [](std::int32_t c, std::int32_t r) {
     return c > 3 && (c + r) % 2 == 0 ? kNoHeight : 10 * c;
   }));
-  const PostNormals normals = *FindPostNormals(some.terrain, some.placement);
+  const PostNormals normals = *FindPostNormals(some.terrain, some.georeference);
   ASSERT_EQ(normals.size(), 81U);
   for (VertexId v = 0; v < 81; ++v) {
     EXPECT_EQ(normals[static_cast<std::size_t>(v)][2] > 0, some.terrain.IsVertex(v)) << v;
@@ -204,7 +204,7 @@ std::array<UnitNormal, 3> SumsOver(const Placed& some, const PostNormals& posts,
 
 TEST(MeanNormals, WeighPostsByTheSquareOfTheirShare) {
   const Placed some = Hills(25);
-  const PostNormals posts = *FindPostNormals(some.terrain, some.placement);
+  const PostNormals posts = *FindPostNormals(some.terrain, some.georeference);
   const LocalMesh mesh = EveryNth(25, 8);
   std::vector<UnitNormal> sums(mesh.sources.size(), {0, 0, 0});
   for (const auto& t : mesh.triangles) {
@@ -227,7 +227,7 @@ TEST(MeanNormals, WeighPostsByTheSquareOfTheirShare) {
 TEST(MeanNormals, OnASlopeAreItsNormal) {
   const Placed some(
       MakeDem(25, 25, [](std::int32_t c, std::int32_t r) { return 900 * c + 1500 * r; }));
-  const PostNormals posts = *FindPostNormals(some.terrain, some.placement);
+  const PostNormals posts = *FindPostNormals(some.terrain, some.georeference);
   for (const UnitNormal& n : MeanNormals(some.terrain, posts, EveryNth(25, 6))) {
     EXPECT_LT(AngleDeg(n, OfSlope(0.3, -0.5)), 0.05);
   }
@@ -235,7 +235,7 @@ TEST(MeanNormals, OnASlopeAreItsNormal) {
 
 TEST(MeanNormals, VerticesThatAreSplitBetweenFansGetTheNormalOfTheWhole) {
   const Placed some = Hills(25);
-  const PostNormals posts = *FindPostNormals(some.terrain, some.placement);
+  const PostNormals posts = *FindPostNormals(some.terrain, some.georeference);
   const LocalMesh whole = EveryNth(25, 8);
   LocalMesh split = whole;
   for (auto& t : split.triangles) {

@@ -4,9 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include "core/geometry/plan.h"
+#include "core/horizon/find_horizon.h"
 #include "core/io/dem_reader.h"
 #include "core/simplify/border.h"
-#include "core/simplify/plan.h"
 #include "tests/support/drawn_dem.h"
 #include "tests/support/line_heights.h"
 #include "tests/support/mesh_checks.h"

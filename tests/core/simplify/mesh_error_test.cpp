@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/horizon/find_horizon.h"
 #include "core/simplify/lod_chain.h"
 #include "tests/support/drawn_dem.h"
 #include "tests/support/line_heights.h"

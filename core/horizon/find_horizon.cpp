@@ -1,0 +1,124 @@
+// The exact set of edges on the distant horizon, definition D2 of [Archambault05]'s problem:
+// creases that attain the greatest height over a line of sight on an open set of lines. The sweep
+// (hull_sweep.h, candidates.h) leaves candidates, which contain every horizon edge and so make the same
+// skyline as the whole terrain; each is then sighted over the others, exactly (candidate_decider.h).
+#include "core/horizon/find_horizon.h"
+
+#include <algorithm>
+#include <optional>
+#include <string>
+
+#include "core/horizon/candidate_decider.h"
+#include "core/horizon/kinetic/kinetic_horizon.h"
+#include "core/horizon/sweep/candidates.h"
+#include "core/horizon/sweep/hull_sweep.h"
+
+namespace farhorizon {
+namespace {
+
+Error TooNarrow(const Terrain& terrain, Edge edge) {
+  const auto post = [&terrain](VertexId v) {
+    const Point3i p = terrain.Point(v);
+    return "(" + std::to_string(p.x) + ", " + std::to_string(p.y) + ") of height " +
+           std::to_string(p.z);
+  };
+  return {ErrorCode::kUnsupportedData,
+          "the edge from post " + post(edge.a) + " to post " + post(edge.b) +
+              " quanta is on the horizon through a gap too narrow for the witness to be written: "
+              "cliffs of this height differ by too little; round the heights to a coarser unit, or "
+              "mark spikes as nodata",
+          "sight-too-narrow"};
+}
+
+Error OverBudget(std::int64_t budget, std::size_t candidates) {
+  return {ErrorCode::kResourceExhausted,
+          "deciding " + std::to_string(candidates) +
+              " candidate edges takes more than the work budget of " + std::to_string(budget) +
+              " decisions: white noise and forests of spikes are hard without end; keep what stays "
+              "undecided (approximate), raise the work budget, or smooth the heights",
+          "work-budget"};
+}
+
+std::string Doubt(const Horizon& horizon) {
+  return "approximate: the work budget of " + std::to_string(horizon.statistics.work_budget) +
+         " decisions leaves " + std::to_string(horizon.statistics.undecided) + " of " +
+         std::to_string(horizon.edges.size()) + " edges undecided; they are kept, and marked";
+}
+
+// Leaves of the candidates the edges that the kinetic engine finds: they make the same skyline as the
+// terrain, so they do for obstacles, too.
+Result<EventCounts> KeepKineticEdges(const Terrain& terrain, Candidates& candidates,
+                                     const Watch& watch, std::optional<std::int64_t> work_budget) {
+  Result<KineticHorizon> kinetic = FindHorizonKinetic(terrain, watch, work_budget);
+  if (!kinetic) return std::move(kinetic.error());
+  std::erase_if(candidates.edges, [&](const Candidate& candidate) {
+    return !std::binary_search(kinetic->edges.begin(), kinetic->edges.end(), candidate.edge);
+  });
+  Check(candidates.edges.size() == kinetic->edges.size(),
+        "every edge of the kinetic engine is a candidate of the adaptive one");
+  return kinetic->events;
+}
+
+void Tell(const EventCounts& events, HorizonStatistics& statistics) {
+  statistics.peaks = events.peak;
+  statistics.births = events.peak;
+  statistics.regular = events.regular;
+  statistics.saddles = events.saddle;
+  statistics.minima = events.minimum;
+  statistics.merges = events.merge;
+  statistics.hull_changes = events.hull;
+  statistics.bitangents = events.bitangent;
+  statistics.clusters_max = events.clusters_max;
+  statistics.queue_max = events.queue_max;
+}
+
+}  // namespace
+
+std::int64_t DefaultWorkBudget(std::int64_t terrain_edges) {
+  constexpr std::int64_t kPerEdge = 2000;
+  constexpr std::int64_t kLeast = 1'000'000'000;
+  return std::max(kLeast, kPerEdge * terrain_edges);
+}
+
+Result<Horizon> FindHorizon(const Terrain& terrain, const HorizonOptions& options,
+                            const Watch& watch) {
+  Result<HullSweep> sweep = SweepHulls(terrain, options.threads, watch);
+  if (!sweep) return std::move(sweep.error());
+  Result<Candidates> candidates = FindCandidates(terrain, *sweep, options.threads, watch);
+  if (!candidates) return std::move(candidates.error());
+  Horizon horizon;
+  horizon.statistics = sweep->statistics;
+  horizon.statistics.candidates = static_cast<std::int64_t>(candidates->edges.size());
+  horizon.hulls = std::move(sweep->hulls);
+  const bool kinetic = options.engine == Engine::kKinetic;
+  std::int64_t budget = DefaultWorkBudget(horizon.statistics.terrain_edges);
+  if (kinetic) {
+    Result<EventCounts> events = KeepKineticEdges(terrain, *candidates, watch, options.work_budget);
+    if (!events) return std::move(events.error());
+    Tell(*events, horizon.statistics);
+  } else {
+    budget = options.work_budget.value_or(budget);
+  }
+  horizon.statistics.work_budget = budget;
+  CandidateDecider decider(terrain, *candidates, watch);
+  PredicateCounts& counts = horizon.statistics.predicates;
+  bool goes_on = decider.DecideAll(options.threads, budget, counts);
+  if (goes_on && decider.undecided() > 0) {
+    if (!options.approximate) return OverBudget(budget, candidates->edges.size());
+    goes_on = decider.DecideSome(options.threads, budget, counts);
+  }
+  if (!goes_on) return Error{ErrorCode::kCancelled, "stopped while deciding horizon edges"};
+  horizon.statistics.undecided = decider.undecided();
+  decider.AppendEdges(horizon);
+  if (decider.undecided() > 0) watch.Tell(Doubt(horizon));
+  Check(!kinetic || horizon.edges.size() == candidates->edges.size(),
+        "every edge of the kinetic engine has a line of sight");
+  for (const HorizonEdge& e : horizon.edges) {
+    if (!e.witness.exact) return TooNarrow(terrain, e.edge);
+    Check(!kinetic || e.undecided || WitnessHolds(terrain, e.edge, e.witness),
+          "a line of sight over the kinetic engine's edges is one over the terrain");
+  }
+  return horizon;
+}
+
+}  // namespace farhorizon

@@ -1,0 +1,219 @@
+// The plane's way down the terrain: posts, level by level, between the scene's own events
+// (algorithm 3.1). No heights are perturbed. All posts of one height and all certificates that fail at it
+// are one event, and what holds just below is found from the signs of the predicates just below
+// (scene.h), so that between two events every edge that is on the horizon for a while is seen there:
+// for sloped edges that is definition D2 itself, since a line that only touches an edge at an event is
+// inside no open set of such lines. Level edges live at one event only and are asked of the scene's limit
+// from above (level_sight.h): ground of their own height does not hide them.
+#include "core/horizon/kinetic/kinetic_sweep.h"
+
+#include <algorithm>
+#include <bit>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "core/horizon/kinetic/level_sight.h"
+
+namespace farhorizon::kinetic {
+namespace {
+
+// A ridge or a border: nothing else is a corner of a hull.
+bool IsConvex(const Terrain& terrain, Edge edge) {
+  const Terrain::Faces faces = terrain.FacesOf(edge);
+  return !faces.left || !faces.right ||
+         Convexity(terrain.Point(edge.a), terrain.Point(edge.b), terrain.Point(*faces.left),
+                   terrain.Point(*faces.right)) > 0;
+}
+
+Error TooLarge() {
+  return {ErrorCode::kUnsupportedData,
+          "extent and range of heights are too large for the kinetic engine's numbers; take the "
+          "adaptive engine, or round the heights to a coarser unit",
+          "kinetic-too-large"};
+}
+
+}  // namespace
+
+KineticSweep::KineticSweep(const Terrain& terrain, const Watch& watch, std::int64_t work_budget,
+                           bool checks)
+    : terrain_(terrain), watch_(watch), work_budget_(work_budget), checks_(checks) {
+  const auto posts = static_cast<std::size_t>(terrain.post_count());
+  cluster_.assign(posts, -1);
+  arriving_.resize(posts);
+  for (VertexId v = 0; v < terrain.post_count(); ++v) {
+    if (terrain.IsVertex(v)) order_.push_back(v);
+  }
+  std::sort(order_.begin(), order_.end(), [this](VertexId a, VertexId b) {
+    return Height(a) != Height(b) ? Height(a) > Height(b) : a < b;
+  });
+  summit_ = Height(order_.front());
+}
+
+// Whether the largest coefficient of any predicate, an orientation's, leaves room for its sums.
+bool KineticSweep::Fits() const {
+  const auto extent = static_cast<unsigned>(std::max(terrain_.dem().columns, terrain_.dem().rows));
+  const auto range = static_cast<unsigned>(summit_ - Height(order_.back()));
+  return 2 * std::bit_width(extent) + 3 * std::bit_width(range) + 6 <= 124;
+}
+
+bool KineticSweep::OverBudget() const {
+  return events_.work > work_budget_ ||
+         static_cast<std::int64_t>(scene_.apart().size()) > kMostKineticHulls;
+}
+
+// Why SinkPast() was false.
+Error KineticSweep::Stopped() const {
+  if (!OverBudget()) return {ErrorCode::kCancelled, "stopped during the kinetic sweep"};
+  return {ErrorCode::kResourceExhausted,
+          "the kinetic engine's work budget of " + std::to_string(work_budget_) +
+              " is spent, or more than " + std::to_string(kMostKineticHulls) +
+              " hulls are apart: white noise and forests of spikes do that; take the adaptive "
+              "engine, raise the work budget, or smooth the heights",
+          "work-budget"};
+}
+
+Status KineticSweep::Run(std::int64_t last) {
+  if (!Fits()) return TooLarge();
+  if (!SinkPast(last)) return Stopped();
+  return Done{};
+}
+
+// Down to depth `last`, its own events included. False where the watch said stop or the budget was
+// spent.
+bool KineticSweep::SinkPast(std::int64_t last) {
+  std::size_t next = 0;
+  while (next < order_.size() && DepthOf(order_[next]) <= last) {
+    const std::int64_t s = DepthOf(order_[next]);
+    if (!SinkTo(s) || !MayGoOn()) return false;
+    std::size_t end = next + 1;
+    while (end < order_.size() && DepthOf(order_[end]) == s) ++end;
+    watch_.Report("sweep", static_cast<double>(end) / static_cast<double>(order_.size()));
+    LookAtLevelEdges(next, end, s);
+    scene_.Advance(Moment::At(s));
+    PassPosts(next, end, s);
+    Settle();
+    events_.queue_max = std::max(
+        events_.queue_max, scene_.queue_size() + static_cast<std::int64_t>(order_.size() - end));
+    next = end;
+  }
+  if (last == kNever) return true;
+  if (!SinkTo(last)) return false;
+  scene_.Advance(Moment::At(last));
+  Settle();
+  return true;
+}
+
+KineticHorizon KineticSweep::Take() {
+  for (PointId p = 0; p < scene_.point_count(); ++p) {
+    const Scene::Point& point = scene_.point(p);
+    if (point.seen && point.tag >= 0) {
+      result_.edges.push_back(edges_[static_cast<std::size_t>(point.tag)]);
+    }
+  }
+  std::sort(result_.edges.begin(), result_.edges.end());
+  const SceneCounts& counts = scene_.counts();
+  events_.merge = counts.merges;
+  events_.hull = counts.hull_failures + counts.left_hulls;
+  events_.inside = counts.inside_failures - counts.left_hulls;
+  events_.by_kind = counts.tangent_failures;
+  for (const std::int64_t n : counts.tangent_failures) events_.bitangent += n;
+  events_.clusters_max = counts.clusters_max;
+  result_.events = events_;
+  return std::move(result_);
+}
+
+// Handles the scene's own events before depth s.
+bool KineticSweep::SinkTo(std::int64_t s) {
+  std::optional<Moment> at = scene_.NextFailure();
+  for (; at && Compare(*at, Moment::At(s)) < 0; at = scene_.NextFailure()) {
+    if (!MayGoOn()) return false;
+    scene_.Advance(*at);
+    Settle();
+  }
+  return true;
+}
+
+void KineticSweep::Settle() {
+  scene_.Settle();
+  if (checks_) scene_.CheckAll();
+}
+
+// Counts a stop of the plane: all hulls are looked at there.
+bool KineticSweep::MayGoOn() {
+  events_.work += static_cast<std::int64_t>(scene_.apart().size()) + 1;
+  return !OverBudget() && !watch_.StopRequested();
+}
+
+void KineticSweep::LookAtLevelEdges(std::size_t next, std::size_t end, std::int64_t s) {
+  std::optional<LevelSight> sight;
+  for (std::size_t i = next; i < end; ++i) {
+    const VertexId v = order_[i];
+    for (const VertexId n : terrain_.NeighboursOf(v)) {
+      if (n < v || Height(n) != Height(v) || !IsConvex(terrain_, {v, n})) continue;
+      if (!sight) sight.emplace(scene_, s);
+      if (sight->Sees(terrain_.Point(v), terrain_.Point(n))) result_.edges.push_back({v, n});
+    }
+  }
+}
+
+void KineticSweep::PassPosts(std::size_t next, std::size_t end, std::int64_t s) {
+  around_.clear();
+  for (std::size_t i = next; i < end; ++i) {
+    around_.push_back(HasHigherNeighbour(order_[i]) ? -1
+                                                    : scene_.Around(terrain_.Point(order_[i]).x,
+                                                                    terrain_.Point(order_[i]).y));
+  }
+  for (std::size_t i = next; i < end; ++i) {
+    for (const PointId p : arriving_[static_cast<std::size_t>(order_[i])]) scene_.Remove(p);
+    Connect(order_[i], around_[i - next]);
+  }
+  for (std::size_t i = next; i < end; ++i) Continue(order_[i], s);
+}
+
+bool KineticSweep::HasHigherNeighbour(VertexId v) const {
+  const Terrain::Neighbours around = terrain_.NeighboursOf(v);
+  return std::any_of(around.begin(), around.end(),
+                     [&](VertexId n) { return Height(n) > Height(v); });
+}
+
+// Puts v into the cluster of what is connected with it or, a peak, around it, or into a new one.
+void KineticSweep::Connect(VertexId v, ClusterId around) {
+  ClusterId mine = -1;
+  bool joins = false;
+  bool minimum = true;
+  for (const VertexId n : terrain_.NeighboursOf(v)) {
+    const ClusterId theirs = cluster_[static_cast<std::size_t>(n)];
+    minimum = minimum && theirs >= 0;
+    if (theirs < 0) continue;
+    joins = joins || (mine >= 0 && scene_.Find(mine) != scene_.Find(theirs));
+    mine = mine < 0 ? scene_.Find(theirs) : scene_.Join(mine, theirs);
+  }
+  const bool peak = mine < 0 && around < 0;
+  if (mine < 0) mine = around >= 0 ? scene_.Find(around) : scene_.NewCluster();
+  cluster_[static_cast<std::size_t>(v)] = mine;
+  ++(peak ? events_.peak : joins ? events_.saddle : minimum ? events_.minimum : events_.regular);
+}
+
+// Sends points down the convex edges from v; one stays at v where it is on the border, since the
+// slice ends there.
+void KineticSweep::Continue(VertexId v, std::int64_t s) {
+  const ClusterId c = cluster_[static_cast<std::size_t>(v)];
+  bool border = false;
+  for (const VertexId n : terrain_.NeighboursOf(v)) {
+    const Edge edge = MakeEdge(v, n);
+    const Terrain::Faces faces = terrain_.FacesOf(edge);
+    border = border || !faces.left || !faces.right;
+    if (DepthOf(n) <= s || !IsConvex(terrain_, edge)) continue;
+    const auto tag = static_cast<std::int32_t>(edges_.size());
+    edges_.push_back(edge);
+    const PointId p = scene_.Add(
+        c, MovingPoint::Sliding(terrain_.Point(v), terrain_.Point(n), summit_), DepthOf(n), tag);
+    arriving_[static_cast<std::size_t>(n)].push_back(p);
+  }
+  if (border) {
+    scene_.Add(c, MovingPoint::Standing(terrain_.Point(v).x, terrain_.Point(v).y), kNever, -1);
+  }
+}
+
+}  // namespace farhorizon::kinetic

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/base/progress.h"
+#include "core/base/result.h"
+#include "core/horizon/kinetic/kinetic_horizon.h"
+#include "core/horizon/kinetic/scene.h"
+#include "core/terrain/terrain.h"
+
+namespace farhorizon::kinetic {
+
+/// The plane's way down the terrain, post by post, and the scene of hulls and tangents that it keeps
+/// ([Archambault03] algorithm 3.1).
+class KineticSweep {
+ public:
+  /// work_budget: most EventCounts::work to be done. checks: whether all invariants of the scene are
+  /// checked after every step. Requires: `terrain` and `watch` outlive it.
+  KineticSweep(const Terrain& terrain, const Watch& watch, std::int64_t work_budget, bool checks);
+
+  /// Goes down to depth `last`, its own events included; to the bottom by default. Call it once.
+  /// Errors: those of FindHorizonKinetic.
+  Status Run(std::int64_t last = kNever);
+
+  [[nodiscard]] const Scene& scene() const { return scene_; }
+  [[nodiscard]] std::int32_t summit() const { return summit_; }
+  [[nodiscard]] std::int32_t lowest() const { return Height(order_.back()); }
+
+  /// The edges that were on the horizon down to here, and what was counted. Call it once, at the end.
+  KineticHorizon Take();
+
+ private:
+  [[nodiscard]] std::int32_t Height(VertexId v) const { return terrain_.Point(v).z; }
+  [[nodiscard]] std::int64_t DepthOf(VertexId v) const { return std::int64_t{summit_} - Height(v); }
+  [[nodiscard]] bool Fits() const;
+  [[nodiscard]] bool OverBudget() const;
+  [[nodiscard]] Error Stopped() const;
+  bool SinkTo(std::int64_t s);
+  bool SinkPast(std::int64_t last);
+  bool MayGoOn();
+  void Settle();
+  void LookAtLevelEdges(std::size_t next, std::size_t end, std::int64_t s);
+  void PassPosts(std::size_t next, std::size_t end, std::int64_t s);
+  [[nodiscard]] bool HasHigherNeighbour(VertexId v) const;
+  void Connect(VertexId v, ClusterId around);
+  void Continue(VertexId v, std::int64_t s);
+
+  const Terrain& terrain_;
+  const Watch& watch_;
+  std::int64_t work_budget_;
+  bool checks_;
+  Scene scene_;
+  std::int32_t summit_ = 0;
+  std::vector<VertexId> order_;                 // from the summit down
+  std::vector<ClusterId> cluster_;              // per post; -1 below the plane
+  std::vector<std::vector<PointId>> arriving_;  // per post: points whose edges end there
+  std::vector<ClusterId> around_;
+  std::vector<Edge> edges_;  // by tag
+  EventCounts events_;
+  KineticHorizon result_;
+};
+
+}  // namespace farhorizon::kinetic

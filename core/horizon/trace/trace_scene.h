@@ -1,0 +1,14 @@
+#pragma once
+
+#include <cstdint>
+
+#include "core/horizon/kinetic/scene.h"
+#include "core/horizon/trace/sweep_trace.h"
+
+namespace farhorizon {
+
+/// Adds the hulls, the bitangents and what was seen to `trace`, as they are at depth s.
+/// Requires: the scene is settled just after s, or after the last event before it.
+void TraceScene(const kinetic::Scene& scene, std::int64_t s, SweepTrace& trace);
+
+}  // namespace farhorizon

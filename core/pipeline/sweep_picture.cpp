@@ -1,0 +1,54 @@
+#include "core/pipeline/sweep_picture.h"
+
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+#include "core/horizon/trace/sweep_trace.h"
+#include "core/io/files.h"
+#include "core/io/sweep_svg.h"
+#include "core/pipeline/terrain_input.h"
+
+namespace farhorizon {
+namespace {
+
+std::string Metres(double value) {
+  std::ostringstream text;
+  text.precision(8);
+  text << value << " m";
+  return text.str();
+}
+
+}  // namespace
+
+Status WriteSweepPicture(const std::filesystem::path& dem, const std::filesystem::path& out,
+                         double level_m, const BuildOptions& options, const Watch& watch) {
+  if (out.extension() != ".svg") {
+    return Error{
+        ErrorCode::kInvalidArgument,
+        "a trace is a picture: its file must end in .svg, not \"" + out.extension().string() + "\"",
+        "unknown-format"};
+  }
+  watch.Report("read", 0);
+  Result<std::unique_ptr<TerrainInput>> source = TerrainInput::Open(dem, options);
+  if (!source) return std::move(source.error());
+  const Dem& grid = (*source)->dem();
+  const double quanta = std::round((level_m - grid.height_offset_m) / grid.quantum_m);
+  constexpr double kLimit = 1 << 30;
+  Result<SweepTrace> trace = Error{ErrorCode::kInvalidArgument, "", "no-such-level"};
+  if (std::abs(quanta) < kLimit) {
+    trace = TraceSweep((*source)->terrain(), static_cast<std::int32_t>(quanta), watch);
+  }
+  if (!trace && trace.error().kind == "no-such-level") {
+    const auto [least, most] = (*source)->report().heights_m;
+    return Error{ErrorCode::kInvalidArgument,
+                 "no ground is cut at " + Metres(level_m) + "; heights are " + Metres(least) +
+                     " to " + Metres(most),
+                 "no-such-level"};
+  }
+  if (!trace) return std::move(trace.error());
+  const double drawn_m = grid.height_offset_m + trace->level * grid.quantum_m;
+  return WriteFile(out, DrawSweep(*trace, dem.filename().string() + " at " + Metres(drawn_m)));
+}
+
+}  // namespace farhorizon

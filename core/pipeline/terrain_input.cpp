@@ -1,0 +1,126 @@
+#include "core/pipeline/terrain_input.h"
+
+#include <algorithm>
+#include <numbers>
+#include <utility>
+
+#include "core/io/dem_reader.h"
+#include "core/io/files.h"
+#include "core/pipeline/edge_measures.h"
+
+namespace farhorizon {
+namespace {
+
+constexpr double kRadiansPerDegree = std::numbers::pi / 180;
+
+void Include(BoundingRegion& region, const Geodetic& p) {
+  region.west = std::min(region.west, p.lon_deg * kRadiansPerDegree);
+  region.east = std::max(region.east, p.lon_deg * kRadiansPerDegree);
+  region.south = std::min(region.south, p.lat_deg * kRadiansPerDegree);
+  region.north = std::max(region.north, p.lat_deg * kRadiansPerDegree);
+  region.min_height_m = std::min(region.min_height_m, p.height_m);
+  region.max_height_m = std::max(region.max_height_m, p.height_m);
+}
+
+}  // namespace
+
+Result<std::unique_ptr<TerrainInput>> TerrainInput::Open(const std::filesystem::path& path,
+                                                         const BuildOptions& options) {
+  std::unique_ptr<TerrainInput> source(new TerrainInput());
+  Result<Dem> dem =
+      ReadDem(path, {.max_posts = options.max_posts, .crs = options.crs, .nodata = options.nodata});
+  if (!dem) return std::move(dem.error()).Within("read DEM");
+  source->dem_ = *std::move(dem);
+  Result<Terrain> terrain = Terrain::Build(source->dem_);
+  if (!terrain) return std::move(terrain.error()).Within("triangulate DEM");
+  source->terrain_ = *terrain;
+  Result<Georeference> georeference =
+      Georeference::Of(*source->terrain_, options.vertical_datum.value_or(""));
+  if (!georeference) return std::move(georeference.error()).Within("place DEM on the globe");
+  source->georeference_.emplace(*std::move(georeference));
+  Result<std::string> sha256 = Sha256OfFile(path);
+  if (!sha256) return std::move(sha256.error()).Within("read DEM");
+  source->report_.sha256 = *std::move(sha256);
+  source->Describe();
+  return source;
+}
+
+void TerrainInput::Describe() {
+  report_.columns = dem_.columns;
+  report_.rows = dem_.rows;
+  report_.crs = georeference_->CrsName();
+  report_.cell_m = {RoundUp(georeference_->column_step_m()), RoundUp(georeference_->row_step_m())};
+  report_.height_quantum_m = dem_.quantum_m;
+  report_.heights_rounded = dem_.quantized;
+  bool first = true;
+  for (VertexId v = 0; v < terrain_->post_count(); ++v) {
+    if (!dem_.HasData(v)) {
+      ++report_.nodata_posts;
+      continue;
+    }
+    const double height = dem_.HeightM(v);
+    report_.heights_m = {first ? height : std::min(report_.heights_m[0], height),
+                         first ? height : std::max(report_.heights_m[1], height)};
+    first = false;
+  }
+}
+
+Result<BoundingRegion> TerrainInput::Region() const {
+  BoundingRegion region;
+  bool first = true;
+  std::vector<VertexId> row;
+  for (VertexId v = 0; v < terrain_->post_count(); ++v) {
+    if (dem_.HasData(v)) row.push_back(v);
+    if (dem_.Column(v) + 1 < dem_.columns || row.empty()) continue;
+    Result<std::vector<Geodetic>> points = georeference_->ToGeodetic(row);
+    if (!points) return std::move(points.error());
+    row.clear();
+    for (const Geodetic& p : *points) {
+      if (first) {
+        const double lon = p.lon_deg * kRadiansPerDegree;
+        const double lat = p.lat_deg * kRadiansPerDegree;
+        region = {lon, lat, lon, lat, p.height_m, p.height_m};
+        first = false;
+      }
+      Include(region, p);
+    }
+  }
+  return region;
+}
+
+Result<std::vector<HorizonFeature>> TerrainInput::Features(const Horizon& horizon,
+                                                           const std::vector<int>& level_kept,
+                                                           int threads, const Watch& watch) const {
+  std::vector<VertexId> ends;
+  for (const HorizonEdge& e : horizon.edges) {
+    ends.push_back(e.edge.a);
+    ends.push_back(e.edge.b);
+  }
+  Result<std::vector<Geodetic>> points = georeference_->ToGeodetic(ends);
+  if (!points) return std::move(points.error());
+  Result<std::vector<EdgeMeasures>> views =
+      MeasureEdges(*terrain_, horizon, *georeference_, threads, watch);
+  if (!views) return std::move(views.error());
+  std::vector<HorizonFeature> features;
+  for (std::size_t i = 0; i < horizon.edges.size(); ++i) {
+    const HorizonEdge& e = horizon.edges[i];
+    HorizonFeature feature;
+    feature.a = {dem_.Column(e.edge.a), dem_.Row(e.edge.a)};
+    feature.b = {dem_.Column(e.edge.b), dem_.Row(e.edge.b)};
+    feature.from = (*points)[2 * i];
+    feature.to = (*points)[2 * i + 1];
+    EdgeMeasures& view = (*views)[i];
+    feature.azimuths = std::move(view.azimuths);
+    feature.spans = std::move(view.spans);
+    feature.angular_share = view.angular_share;
+    feature.line_measure_m = view.line_measure_m;
+    feature.skyline_drop_m = view.skyline_drop_m;
+    feature.witness = e.witness;
+    feature.undecided = e.undecided;
+    if (i < level_kept.size() && level_kept[i] >= 0) feature.level_kept = level_kept[i];
+    features.push_back(std::move(feature));
+  }
+  return features;
+}
+
+}  // namespace farhorizon

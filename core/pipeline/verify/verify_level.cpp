@@ -1,0 +1,153 @@
+#include "core/pipeline/verify/verify_level.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "core/io/files.h"
+#include "core/io/glb.h"
+
+namespace farhorizon {
+namespace {
+
+std::optional<std::vector<std::uint8_t>> Load(const std::filesystem::path& path, Claims& claims) {
+  Result<std::string> text = ReadFile(path);
+  if (!text) {
+    claims.Add(false, path.filename().string() + ": " + text.error().message);
+    return std::nullopt;
+  }
+  return std::vector<std::uint8_t>(text->begin(), text->end());
+}
+
+// The Draco stream of a level, from its GLB and its .drc, which must be one and the same.
+struct Stream {
+  std::vector<std::uint8_t> draco;
+  std::optional<GlbContents> glb;
+};
+
+std::optional<Stream> LoadStream(const std::filesystem::path& directory, const std::string& name,
+                                 const LevelReport& claimed, Claims& claims) {
+  Stream stream;
+  if (claimed.glb_bytes > 0) {
+    const auto bytes = Load(directory / (name + ".glb"), claims);
+    if (!bytes) return std::nullopt;
+    claims.Same(name + ".glb bytes", claimed.glb_bytes, static_cast<std::int64_t>(bytes->size()));
+    Result<GlbContents> glb = ReadGlb(*bytes);
+    claims.Add(glb.has_value(), name + ".glb is a binary glTF with a Draco mesh" +
+                                    (glb ? "" : ": " + glb.error().message));
+    if (!glb) return std::nullopt;
+    stream.draco = glb->draco;
+    stream.glb = *std::move(glb);
+  }
+  if (claimed.drc_bytes > 0) {
+    const auto bytes = Load(directory / (name + ".drc"), claims);
+    if (!bytes) return std::nullopt;
+    claims.Same(name + ".drc bytes", claimed.drc_bytes, static_cast<std::int64_t>(bytes->size()));
+    if (stream.glb) claims.Add(*bytes == stream.draco, name + ".glb carries the bytes of the .drc");
+    stream.draco = *bytes;
+  }
+  if (stream.draco.empty()) return std::nullopt;
+  return stream;
+}
+
+void VerifyAccessors(const std::string& name, const GlbContents& glb, const DecodedMesh& decoded,
+                     Claims& claims) {
+  const LocalMesh& mesh = decoded.mesh;
+  claims.Same(name + ".glb POSITION count", glb.vertex_count,
+              static_cast<std::int64_t>(mesh.positions.size()));
+  claims.Same(name + ".glb NORMAL count", glb.normal_count,
+              static_cast<std::int64_t>(mesh.normals.size()));
+  claims.Same(name + ".glb indices count", glb.index_count,
+              static_cast<std::int64_t>(3 * mesh.triangles.size()));
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  std::array<double, 3> least = {kFar, kFar, kFar};
+  std::array<double, 3> most = {-kFar, -kFar, -kFar};
+  for (const Enu& p : mesh.positions) {
+    const std::array<double, 3> v = LatticeNumbers(p, decoded.lattice);
+    for (std::size_t k = 0; k < 3; ++k) {
+      least[k] = std::min(least[k], v[k]);
+      most[k] = std::max(most[k], v[k]);
+    }
+  }
+  claims.Add(glb.min == least && glb.max == most,
+             name + ".glb POSITION min and max are those of the decoded mesh");
+  claims.Add(glb.matrix == GltfMatrix(decoded.lattice),
+             name + ".glb has the lattice of its Draco stream in the node's matrix");
+}
+
+bool AllTurnLeft(const LocalMesh& mesh) {
+  return std::all_of(mesh.triangles.begin(), mesh.triangles.end(), [&mesh](const auto& t) {
+    const Enu& a = mesh.positions[t[0]];
+    const Enu& b = mesh.positions[t[1]];
+    const Enu& c = mesh.positions[t[2]];
+    return (b.east - a.east) * (c.north - a.north) - (b.north - a.north) * (c.east - a.east) > 0;
+  });
+}
+
+// Every decoded normal is the mean of the DEM's, as nearly as its bits tell.
+void VerifyNormals(const LevelContext& context, const std::string& name, const LocalMesh& mesh,
+                   Claims& claims) {
+  constexpr double kLeastCosine = 0.99985;  // of a degree; rounding is less
+  const std::vector<UnitNormal> normals = MeanNormals(context.terrain, context.normals, mesh);
+  std::int64_t astray = 0;
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    const UnitNormal& n = normals[i];
+    const UnitNormal& m = mesh.normals[i];
+    const bool near = m[2] > 0 && n[0] * m[0] + n[1] * m[1] + n[2] * m[2] > kLeastCosine;
+    astray += near ? 0 : 1;
+  }
+  claims.Same(name + " normals a degree or more off the DEM's", std::int64_t{0}, astray);
+}
+
+std::vector<Edge> EdgesByPost(const LocalMesh& mesh) {
+  std::vector<Edge> edges;
+  for (const auto& t : mesh.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      edges.push_back(MakeEdge(static_cast<VertexId>(mesh.sources[t[k]]),
+                               static_cast<VertexId>(mesh.sources[t[(k + 1) % 3]])));
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  return edges;
+}
+
+}  // namespace
+
+std::vector<Edge> VerifyLevel(const LevelContext& context, const std::filesystem::path& directory,
+                              const LevelReport& claimed, Claims& claims) {
+  const std::string name = "lod" + std::to_string(claimed.level);
+  const std::optional<Stream> stream = LoadStream(directory, name, claimed, claims);
+  if (!stream) {
+    claims.Add(false, name + ": no mesh to measure");
+    return {};
+  }
+  Result<DecodedMesh> decoded = DecodeDraco(stream->draco);
+  claims.Add(decoded.has_value(),
+             name + " decodes as Draco" + (decoded ? "" : ": " + decoded.error().message));
+  if (!decoded) return {};
+  if (stream->glb) VerifyAccessors(name, *stream->glb, *decoded, claims);
+  const LocalMesh& mesh = decoded->mesh;
+  claims.Same(name + " lattice's step, metres", claimed.quantization_step_m,
+              decoded->lattice.step_m);
+  claims.Add(AllTurnLeft(mesh), name + ": no triangle is flipped or without area");
+  Result<LevelReport> found = MeasureLevel(context, mesh, claimed.level,
+                                           claimed.quantization_step_m, claimed.asked_silhouette_m);
+  claims.Add(found.has_value(),
+             name + " covers the DEM without cracks" + (found ? "" : ": " + found.error().message));
+  if (!found) return {};
+  VerifyNormals(context, name, mesh, claims);
+  claims.Same(name + " triangles", claimed.triangles, found->triangles);
+  claims.Same(name + " vertices", claimed.vertices, found->vertices);
+  claims.AtMost(name + " vertical error, max", claimed.vertical.max_m, found->vertical.max_m);
+  claims.AtMost(name + " vertical error, rms", claimed.vertical.rms_m, found->vertical.rms_m);
+  claims.AtMost(name + " silhouette error, max", claimed.silhouette.max_m, found->silhouette.max_m);
+  claims.AtMost(name + " silhouette error, rms", claimed.silhouette.rms_m, found->silhouette.rms_m);
+  claims.AtMost(name + " geometric error", claimed.geometric_error_m, found->geometric_error_m);
+  return EdgesByPost(mesh);
+}
+
+}  // namespace farhorizon

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstdint>
+
+#include "core/horizon/horizon.h"
+#include "core/simplify/height_scale.h"
+#include "core/terrain/terrain.h"
+
+namespace farhorizon {
+
+/// True only if the segment between posts p and q, lowered by `steps`, is at every point at or below
+/// the ground there, or below a merged hull of the ground: either way below the DEM's visual hull, so
+/// that it is hidden from every side. Cell by cell; false: not known.
+///
+/// Requires: the segment lies in the terrain's domain. Cost: the cells that it crosses.
+bool GroundCovers(const Terrain& terrain, const HullMergeTree& hulls, const HeightScale& scale,
+                  VertexId p, VertexId q, std::int32_t steps);
+
+}  // namespace farhorizon

@@ -1,0 +1,111 @@
+#include "core/simplify/superlevel_occluders.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <functional>
+#include <limits>
+
+namespace farhorizon {
+namespace {
+
+constexpr std::size_t kLevels = 64;
+constexpr std::int32_t kLeastExtent = 5;  // columns or rows; what is smaller hides little
+
+/// A connected piece of ground, by its extreme posts: least and greatest x, y, x + y, x - y.
+using Extremes = std::array<VertexId, 8>;
+
+class Pieces {
+ public:
+  explicit Pieces(const Terrain& terrain)
+      : terrain_(terrain),
+        parent_(static_cast<std::size_t>(terrain.post_count()), -1),
+        extremes_(static_cast<std::size_t>(terrain.post_count())) {}
+
+  void Add(VertexId v) {
+    parent_[Index(v)] = v;
+    extremes_[Index(v)].fill(v);
+    roots_.push_back(v);
+    for (const VertexId n : terrain_.NeighboursOf(v)) {
+      if (parent_[Index(n)] >= 0) Join(v, n);
+    }
+  }
+
+  void AppendChords(std::int32_t level, std::vector<Segment>& chords) {
+    std::erase_if(roots_, [this](VertexId v) { return parent_[Index(v)] != v; });
+    for (const VertexId root : roots_) {
+      const Extremes& e = extremes_[Index(root)];
+      for (std::size_t k = 0; k < 8; k += 2) {
+        Point3i a = terrain_.Point(e[k]);
+        Point3i b = terrain_.Point(e[k + 1]);
+        if (std::max(std::abs(a.x - b.x), std::abs(a.y - b.y)) < kLeastExtent) continue;
+        a.z = b.z = level;
+        chords.push_back({a, b});
+      }
+    }
+  }
+
+ private:
+  static std::size_t Index(VertexId v) { return static_cast<std::size_t>(v); }
+
+  VertexId Root(VertexId v) {
+    while (parent_[Index(v)] != v) v = parent_[Index(v)] = parent_[Index(parent_[Index(v)])];
+    return v;
+  }
+
+  void Join(VertexId p, VertexId q) {
+    p = Root(p);
+    q = Root(q);
+    if (p == q) return;
+    parent_[Index(q)] = p;
+    for (std::size_t k = 0; k < 8; ++k) {
+      VertexId& ours = extremes_[Index(p)][k];
+      const VertexId theirs = extremes_[Index(q)][k];
+      const std::int32_t difference = Reach(theirs, k / 2) - Reach(ours, k / 2);
+      if (k % 2 == 0 ? difference < 0 : difference > 0) ours = theirs;
+    }
+  }
+
+  [[nodiscard]] std::int32_t Reach(VertexId v, std::size_t direction) const {
+    const std::int32_t x = terrain_.dem().Column(v);
+    const std::int32_t y = terrain_.dem().Row(v);
+    const std::array<std::int32_t, 4> reach = {x, y, x + y, x - y};
+    return reach[direction];
+  }
+
+  const Terrain& terrain_;
+  std::vector<VertexId> parent_;  // -1: below the level
+  std::vector<Extremes> extremes_;
+  std::vector<VertexId> roots_;  // some are roots no more
+};
+
+}  // namespace
+
+std::vector<Segment> SuperlevelOccluders(const Terrain& terrain,
+                                         std::vector<std::int32_t> heights) {
+  std::vector<Segment> chords;
+  if (heights.empty()) return chords;
+  std::sort(heights.begin(), heights.end(), std::greater<>());
+  std::vector<VertexId> order;
+  for (VertexId v = 0; v < terrain.post_count(); ++v) {
+    if (terrain.IsVertex(v)) order.push_back(v);
+  }
+  std::sort(order.begin(), order.end(), [&terrain](VertexId p, VertexId q) {
+    const std::int32_t at_p = terrain.Point(p).z;
+    const std::int32_t at_q = terrain.Point(q).z;
+    return at_p > at_q || (at_p == at_q && p < q);
+  });
+  Pieces pieces(terrain);
+  std::size_t next = 0;
+  std::int32_t last = std::numeric_limits<std::int32_t>::max();
+  for (std::size_t i = 0; i < kLevels; ++i) {
+    const std::int32_t level = heights[i * heights.size() / kLevels];
+    if (level == last) continue;
+    last = level;
+    while (next < order.size() && terrain.Point(order[next]).z >= level) pieces.Add(order[next++]);
+    pieces.AppendChords(level, chords);
+  }
+  return chords;
+}
+
+}  // namespace farhorizon

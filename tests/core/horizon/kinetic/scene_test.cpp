@@ -1,0 +1,95 @@
+// A scene's tangents against the definition of their activity, at every event.
+#include "core/horizon/kinetic/scene.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/effort.h"
+
+namespace farhorizon::kinetic {
+namespace {
+
+/// Whether the line of a tangent has corners of a third hull on both its sides just after `now`.
+bool MeetsAThirdHull(const Scene& scene, std::int32_t t, const Moment& now) {
+  const PointId p = scene.tangent(t).touch[0];
+  const PointId q = scene.tangent(t).touch[1];
+  return std::any_of(scene.apart().begin(), scene.apart().end(), [&](ClusterId c) {
+    const std::vector<PointId>& ring = scene.cluster(c).corners;
+    if (std::find(ring.begin(), ring.end(), p) != ring.end() ||
+        std::find(ring.begin(), ring.end(), q) != ring.end()) {
+      return false;
+    }
+    int sides = 0;
+    for (const PointId r : ring) {
+      const int side =
+          OrientAfter(scene.point(p).path, scene.point(q).path, scene.point(r).path, now);
+      sides |= side > 0 ? 1 : 2;
+    }
+    return sides == 3;
+  });
+}
+
+void CheckActivities(Scene& scene, const Moment& now) {
+  scene.CheckAll();
+  for (const ClusterId a : scene.apart()) {
+    for (const ClusterId b : scene.apart()) {
+      if (a >= b) continue;
+      const std::int32_t first = scene.FirstTangent(a, b);
+      for (std::int32_t t = first; t < first + 4; ++t) {
+        const bool expected = !MeetsAThirdHull(scene, t, now);
+        ASSERT_EQ(scene.Active(2 * t), expected);
+        ASSERT_EQ(scene.Active(2 * t + 1), expected);
+      }
+    }
+  }
+}
+
+// Summits of eight ridges each, far from any tie.
+TEST(Scene, KnowsAtEveryEventWhichTangentsAreActive) {
+  std::mt19937 random(1);
+  const auto any = [&random](std::int32_t low, std::int32_t high) {
+    return std::uniform_int_distribution(low, high)(random);
+  };
+  SceneCounts sum;
+  for (int round = 0; round < Rounds(20); ++round) {
+    Scene scene;
+    std::int64_t s = 0;
+    for (int peak = 0; peak < 12; ++peak, s += any(1, 400)) {
+      for (std::optional<Moment> at = scene.NextFailure(); at && Compare(*at, Moment::At(s)) < 0;
+           at = scene.NextFailure()) {
+        scene.Advance(*at);
+        scene.Settle();
+        CheckActivities(scene, *at);
+      }
+      scene.Advance(Moment::At(s));
+      const Point3i top{any(0, 5000), any(0, 5000), static_cast<std::int32_t>(-s)};
+      if (scene.Around(top.x, top.y) < 0) {
+        const ClusterId c = scene.NewCluster();
+        const int signs[8][2] = {{1, 0},  {1, 1},   {0, 1},  {-1, 1},
+                                 {-1, 0}, {-1, -1}, {0, -1}, {1, -1}};
+        for (const auto& [x, y] : signs) {
+          const Point3i foot{top.x + x * any(9000, 15000) + any(1, 99),
+                             top.y + y * any(9000, 15000) + any(1, 99), top.z - 30000 - any(0, 99)};
+          scene.Add(c, MovingPoint::Sliding(top, foot, 0), -foot.z, 0);
+        }
+      }
+      scene.Settle();
+      CheckActivities(scene, Moment::At(s));
+      if (HasFatalFailure()) return;
+    }
+    for (std::size_t i = 0; i < 4; ++i)
+      sum.tangent_failures[i] += scene.counts().tangent_failures[i];
+    sum.merges += scene.counts().merges;
+  }
+  // All that can happen did: figure 3.1's four kinds, and collisions.
+  for (const std::int64_t n : sum.tangent_failures) EXPECT_GT(n, Rounds(20));
+  EXPECT_GT(sum.merges, Rounds(20));
+}
+
+}  // namespace
+}  // namespace farhorizon::kinetic

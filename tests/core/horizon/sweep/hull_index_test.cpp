@@ -1,0 +1,99 @@
+#include "core/horizon/sweep/hull_index.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/effort.h"
+
+namespace farhorizon {
+namespace {
+
+constexpr std::int32_t kColumns = 150;
+constexpr std::int32_t kRows = 100;
+
+class HullIndexTest : public testing::Test {
+ protected:
+  int Any(int low, int high) { return std::uniform_int_distribution(low, high)(random_); }
+  Point2i AnyPost() { return {Any(0, kColumns - 1), Any(0, kRows - 1)}; }
+  std::int32_t AnyPlace() { return Any(0, static_cast<int>(hulls_.size()) - 1); }
+
+  void Add() {
+    hulls_.emplace_back(AnyPost());
+    index_.Add(hulls_.back());
+  }
+  // By a post nearby, or now and then by any.
+  void Grow() {
+    const std::int32_t place = AnyPlace();
+    ConvexPolygon& hull = hulls_[static_cast<std::size_t>(place)];
+    Point2i p = AnyPost();
+    if (Any(0, 9) > 0) {
+      p = {std::clamp(hull.least().x + Any(-9, 9), 0, kColumns - 1),
+           std::clamp(hull.least().y + Any(-9, 9), 0, kRows - 1)};
+    }
+    if (!hull.Contains(p)) hull.Extend(p);
+    index_.Grow(place, hull);
+  }
+  void Drop() {
+    const std::int32_t place = AnyPlace();
+    std::swap(hulls_[static_cast<std::size_t>(place)], hulls_.back());
+    hulls_.pop_back();
+    index_.Drop(place);
+  }
+
+  // What is found in the box, whether or not it reaches beyond the DEM, is what a look at all hulls finds.
+  void ExpectAllThatMeet(Point2i least, Point2i most) {
+    std::vector<std::int32_t> found;
+    const std::int32_t last = index_.Find(least, most, [&found](std::int32_t place) {
+      found.push_back(place);
+      return false;
+    });
+    ASSERT_EQ(last, -1);
+    std::vector<std::int32_t> expected;
+    for (std::size_t i = 0; i < hulls_.size(); ++i) {
+      const ConvexPolygon& hull = hulls_[i];
+      const bool apart = hull.most().x < least.x || hull.least().x > most.x ||
+                         hull.most().y < least.y || hull.least().y > most.y;
+      const auto place = static_cast<std::int32_t>(i);
+      ASSERT_EQ(index_.Meets(place, least, most), !apart);
+      if (!apart) expected.push_back(place);
+    }
+    const std::vector<std::int32_t> in_order = found;
+    std::sort(found.begin(), found.end());
+    ASSERT_EQ(found, expected);
+    for (std::size_t i = 0; i < in_order.size(); ++i) {
+      const std::int32_t wanted = in_order[i];
+      ASSERT_EQ(index_.Find(least, most, [&](std::int32_t place) { return place == wanted; }),
+                wanted);
+    }
+  }
+
+  std::mt19937 random_{3};
+  std::vector<ConvexPolygon> hulls_;
+  HullIndex index_{kColumns, kRows};
+};
+
+TEST_F(HullIndexTest, FindsWhatALookAtAllHullsDoes) {
+  for (int round = 0; round < Rounds(5000); ++round) {
+    const int step = Any(0, 9);
+    if (hulls_.empty() || step < 4) {
+      Add();
+    } else if (step < 8) {
+      Grow();
+    } else {
+      Drop();
+    }
+    const Point2i least{Any(-40, kColumns + 40), Any(-40, kRows + 40)};
+    ExpectAllThatMeet(least, {least.x + Any(0, 60), least.y + Any(0, 60)});
+    if (HasFatalFailure()) return;
+  }
+  while (!hulls_.empty()) Drop();
+  ExpectAllThatMeet({0, 0}, {kColumns, kRows});
+}
+
+}  // namespace
+}  // namespace farhorizon

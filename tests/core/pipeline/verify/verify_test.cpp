@@ -1,0 +1,213 @@
+#include "core/pipeline/verify/verify.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "core/io/glb.h"
+#include "core/io/horizon_features.h"
+#include "tests/support/temp_dir.h"
+
+namespace farhorizon {
+namespace {
+
+// A hilly DEM with a hole, and what is built of it.
+class Built : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string text =
+        "ncols 30\nnrows 24\nxllcorner 500000\nyllcorner 5100000\ncellsize 30\n"
+        "NODATA_value -9999\n";
+    for (int r = 0; r < 24; ++r) {
+      for (int c = 0; c < 30; ++c) {
+        const bool hole = r / 3 == 4 && c / 4 == 2;
+        const double height = 500 + 60 * std::sin(c / 3.0) + 40 * std::cos(r / 2.5 + c / 8.0);
+        text += (hole ? "-9999" : std::to_string(std::lround(height))) + (c < 29 ? " " : "\n");
+      }
+    }
+    SpillFile(folder_ / "hills.asc", text);
+    options_.crs = "EPSG:32610";
+    options_.levels = 2;
+    Status built = BuildArtifacts(folder_ / "hills.asc", folder_ / "out", options_, watch_);
+    ASSERT_TRUE(built) << built.error().message;
+  }
+
+  // The claims that do not hold.
+  std::vector<std::string> False() {
+    Result<std::vector<ClaimCheck>> claims =
+        VerifyArtifacts(folder_ / "hills.asc", folder_ / "out", options_, watch_);
+    if (!claims) throw std::runtime_error(claims.error().message);
+    std::vector<std::string> lines;
+    for (const ClaimCheck& check : *claims) {
+      if (!check.holds) lines.push_back(check.claim);
+    }
+    return lines;
+  }
+
+  // Puts `with` for the first `what` of an artifact.
+  void Change(const std::string& name, const std::string& what, const std::string& with) {
+    std::string bytes = SlurpFile(folder_ / "out" / name);
+    const std::size_t at = bytes.find(what);
+    ASSERT_NE(at, std::string::npos);
+    ASSERT_EQ(what.size(), with.size());
+    SpillFile(folder_ / "out" / name, bytes.replace(at, what.size(), with));
+  }
+
+  DecodedMesh Decode(const std::string& name) {
+    const std::string bytes = SlurpFile(folder_ / "out" / name);
+    return *DecodeDraco({bytes.begin(), bytes.end()});
+  }
+  double StepOf(const std::string& name) { return Decode(name).lattice.step_m; }
+
+  static bool Names(const std::vector<std::string>& lines, const std::string& text) {
+    return std::any_of(lines.begin(), lines.end(), [&](const std::string& line) {
+      return line.find(text) != std::string::npos;
+    });
+  }
+
+  TempDir folder_;
+  BuildOptions options_;
+  Watch watch_;
+};
+
+using Verify = Built;
+
+TEST_F(Verify, EveryClaimOfABuildHolds) { EXPECT_TRUE(False().empty()) << False().front(); }
+
+TEST_F(Verify, AzimuthsThatAreNotTheEdgesAreFound) {
+  // Every edge's azimuths a quarter turn on.
+  Result<std::vector<HorizonFeature>> features =
+      ReadHorizonGeoJson(SlurpFile(folder_ / "out" / "horizon.geojson"));
+  for (HorizonFeature& f : *features) {
+    for (auto& [from, to] : f.azimuths) {
+      const double turn = from < 90 ? 90 : -90;
+      from += turn;
+      to += turn;
+    }
+    std::sort(f.azimuths.begin(), f.azimuths.end());
+  }
+  SpillFile(folder_ / "out" / "horizon.geojson", WriteHorizonGeoJson(*features));
+  const std::vector<std::string> lines = False();
+  EXPECT_TRUE(Names(lines, "other azimuths, spans or weights"));
+  EXPECT_TRUE(Names(lines, "random lines with their skyline outside an edge's azimuths"));
+  EXPECT_TRUE(Names(lines, "seen from between their azimuths"));
+  EXPECT_TRUE(Names(lines, "not seen from within an azimuth"));
+}
+
+TEST_F(Verify, SpansAndWeightsThatAreNotTheEdgesAreFound) {
+  const auto claim = [&](const std::function<void(HorizonFeature&)>& change) {
+    Result<std::vector<HorizonFeature>> features =
+        ReadHorizonGeoJson(SlurpFile(folder_ / "out" / "horizon.geojson"));
+    std::vector<HorizonFeature> changed = *features;
+    change(changed[changed.size() / 2]);
+    SpillFile(folder_ / "out" / "horizon.geojson", WriteHorizonGeoJson(changed));
+    const bool found = Names(False(), "other azimuths, spans or weights: claimed 0, found 1");
+    SpillFile(folder_ / "out" / "horizon.geojson", WriteHorizonGeoJson(*features));
+    return found;
+  };
+  EXPECT_TRUE(claim([](HorizonFeature& f) { f.spans[0][1] -= 1e-4; }));
+  EXPECT_TRUE(claim([](HorizonFeature& f) { f.line_measure_m *= 1.001; }));
+  EXPECT_TRUE(claim([](HorizonFeature& f) { f.angular_share += 1e-4; }));
+  EXPECT_TRUE(claim([](HorizonFeature& f) { f.skyline_drop_m += 0.01; }));
+}
+
+TEST_F(Verify, ProminencesBelowTheEdgesAreFound) {
+  Result<std::vector<HorizonFeature>> features =
+      ReadHorizonGeoJson(SlurpFile(folder_ / "out" / "horizon.geojson"));
+  for (HorizonFeature& f : *features) f.skyline_drop_m /= 8;
+  SpillFile(folder_ / "out" / "horizon.geojson", WriteHorizonGeoJson(*features));
+  EXPECT_TRUE(Names(False(), "rises above all others by more than its prominence"));
+}
+
+TEST_F(Verify, ANodeThatPlacesTheMeshElsewhereIsFound) {
+  Change("lod0.glb", R"("matrix":[0.)", R"("matrix":[1.)");
+  EXPECT_TRUE(Names(False(), "lod0.glb has the lattice of its Draco stream"));
+}
+
+TEST_F(Verify, ADracoStreamWithAnotherLatticeIsFound) {
+  // Half the step, in the bitstream that both files carry.
+  const double half = StepOf("lod1.drc") / 2;
+  for (const std::string name : {"lod1.drc", "lod1.glb"}) {
+    std::string bytes = SlurpFile(folder_ / "out" / name);
+    const std::size_t at = bytes.find("lattice_step") + std::string("lattice_step").size() + 1;
+    std::memcpy(bytes.data() + at, &half, sizeof half);
+    SpillFile(folder_ / "out" / name, bytes);
+  }
+  const std::vector<std::string> lines = False();
+  EXPECT_FALSE(Names(lines, "carries the bytes of the .drc"));
+  EXPECT_TRUE(Names(lines, "lod1.glb has the lattice of its Draco stream"));
+  EXPECT_TRUE(Names(lines, "lod1 lattice's step"));
+}
+
+TEST_F(Verify, NormalsThatAreNotTheDemsAreFound) {
+  DecodedMesh decoded = Decode("lod1.drc");
+  // Turned about by two degrees or so.
+  for (UnitNormal& n : decoded.mesh.normals) {
+    n[0] += 0.04;
+    const double length = std::hypot(n[0], n[1], n[2]);
+    n = {n[0] / length, n[1] / length, n[2] / length};
+  }
+  decoded.lattice.bits = 16;
+  const std::vector<std::uint8_t> drc = *EncodeDraco(decoded.mesh, decoded.lattice);
+  const std::vector<std::uint8_t> glb = WriteGlb(drc, *DecodeDraco(drc), {});
+  SpillFile(folder_ / "out" / "lod1.drc", {drc.begin(), drc.end()});
+  SpillFile(folder_ / "out" / "lod1.glb", {glb.begin(), glb.end()});
+  const std::vector<std::string> lines = False();
+  EXPECT_TRUE(Names(lines, "lod1 normals a degree or more off the DEM's: claimed 0, found"));
+  EXPECT_FALSE(Names(lines, "lod0 normals"));
+}
+
+// White noise under a budget that leaves much undecided.
+class BuiltApproximately : public Built {
+ protected:
+  void SetUp() override {
+    std::string text =
+        "ncols 25\nnrows 25\nxllcorner 500000\nyllcorner 5100000\ncellsize 30\n"
+        "NODATA_value -9999\n";
+    std::uint32_t noise = 1;
+    for (int i = 0; i < 25 * 25; ++i) {
+      noise = noise * 1664525U + 1013904223U;
+      text += std::to_string(noise >> 20U) + (i % 25 < 24 ? " " : "\n");
+    }
+    SpillFile(folder_ / "hills.asc", text);
+    options_.crs = "EPSG:32610";
+    options_.levels = 1;
+    options_.work_budget = 20'000;
+    options_.approximate = true;
+    Status built = BuildArtifacts(folder_ / "hills.asc", folder_ / "out", options_, watch_);
+    ASSERT_TRUE(built) << built.error().message;
+  }
+};
+
+using VerifyApproximate = BuiltApproximately;
+
+TEST_F(VerifyApproximate, EveryClaimHoldsAndSaysThatTheSetIsASuperset) {
+  // What was asked for stands in the report; the one who verifies does not know it.
+  options_.work_budget.reset();
+  options_.approximate = false;
+  EXPECT_TRUE(False().empty()) << False().front();
+  EXPECT_NE(SlurpFile(folder_ / "out" / "report.json").find(R"("approximate": true)"),
+            std::string::npos);
+  EXPECT_NE(SlurpFile(folder_ / "out" / "horizon.geojson").find(R"("undecided":true)"),
+            std::string::npos);
+}
+
+TEST_F(VerifyApproximate, AReportThatHidesADoubtIsFound) {
+  Change("report.json", R"("approximate": true)", R"("approximate":false)");
+  EXPECT_TRUE(Names(False(), "report.json"));
+}
+
+TEST_F(VerifyApproximate, ItIsAnErrorWhereItMayNotBeApproximate) {
+  options_.approximate = false;
+  Status built = BuildArtifacts(folder_ / "hills.asc", folder_ / "other", options_, watch_);
+  ASSERT_FALSE(built);
+  EXPECT_EQ(built.error().kind, "work-budget");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "other" / "report.json"));
+}
+
+}  // namespace
+}  // namespace farhorizon
