@@ -244,7 +244,7 @@ Status VerifyEdges(const TerrainInput& source, const Horizon& horizon,
                   " random lines with their skyline outside an edge's azimuths or spans",
               0, lines.outside);
   claims.Same(std::to_string(kRandomLines) +
-                  " random lines whose edge rises above all others by more than its prominence",
+                  " random lines whose edge rises above all others by more than its skyline drop",
               0, lines.beyond_skyline_drop);
   // Not the middle, which is often the edge's own direction.
   constexpr double kWithin = 0.381966;

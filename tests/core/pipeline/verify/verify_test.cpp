@@ -120,7 +120,7 @@ TEST_F(Verify, ProminencesBelowTheEdgesAreFound) {
       ReadHorizonGeoJson(SlurpFile(folder_ / "out" / "horizon.geojson"));
   for (HorizonFeature& f : *features) f.skyline_drop_m /= 8;
   SpillFile(folder_ / "out" / "horizon.geojson", WriteHorizonGeoJson(*features));
-  EXPECT_TRUE(Names(False(), "rises above all others by more than its prominence"));
+  EXPECT_TRUE(Names(False(), "rises above all others by more than its skyline drop"));
 }
 
 TEST_F(Verify, ANodeThatPlacesTheMeshElsewhereIsFound) {
