@@ -33,7 +33,7 @@ expect 0 "$sound" README.md $'- [Gauss27] C. F. Gauss, after [Euler36].\n## More
 # Keys.
 expect 1 'core/horizon/kinetic/scene.h:2: [Gauss27] is not in README' $code '// [Gauss27]'
 expect 1 'scene.h:2: [Gauss27] is not in README' $code 'int x = 0;  ///< as in [Gauss27, theorem 3]'
-expect 1 'tests/run.sh:2: [Gauss27] is not in README' tests/run.sh '  # as in [Gauss27]'
+expect 1 'tests/run.sh:2: [Gauss27] is not in README' tests/run.sh $'\t# as in [Gauss27]'
 expect 1 '[RFC 9457] is not in README' $code '// [RFC 9457]'
 expect 1 'core/horizon/notes.md:1: [Gauss27] is not in README' core/horizon/notes.md '[Gauss27]'
 expect 1 'README.md:5: [Gauss27] is not in README' README.md '  after [Gauss27].'
@@ -47,7 +47,7 @@ expect 1 'sweep/scene.h does not exist' $code '// see sweep/scene.h'
 expect 1 'core/horizon/README.md does not exist' $code '// core/horizon/README.md, theorem 3.'
 expect 1 'service/viewer does not exist' $code '// As in service/viewer.'
 expect 1 'gone.sh does not exist' tests/run.sh '# Calls gone.sh.'
-expect 1 'core/gone.h does not exist' core/horizon/notes.md 'See `core/gone.h`.'
+expect 1 'core/gone.h does not exist' core/horizon/notes.md 'See core/gone.h.'
 
 # A folder that is no tree.
 if "$check" "$tree/core" >/dev/null 2>"$tree/said" || ! grep -q 'is this the root' "$tree/said"; then
