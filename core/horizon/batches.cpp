@@ -7,8 +7,7 @@
 #include <vector>
 
 namespace farhorizon {
-bool ForEachBatch(std::size_t count, std::size_t size, int threads, const char* stage,
-                  const Watch& watch,
+bool ForEachBatch(std::size_t count, std::size_t size, int threads, Stage stage, const Watch& watch,
                   const std::function<void(std::size_t, std::size_t, std::size_t)>& work) {
   std::atomic<std::size_t> next{0};
   const auto run = [&](std::size_t thread) {
@@ -37,7 +36,9 @@ bool ForEachBatch(std::size_t count, std::size_t size, int threads, const char* 
   for (const std::exception_ptr& failure : failures) {
     if (failure) std::rethrow_exception(failure);
   }
-  return !watch.StopRequested();
+  if (watch.StopRequested()) return false;
+  watch.Report(stage, 1);
+  return true;
 }
 
 }  // namespace farhorizon

@@ -44,6 +44,7 @@ Sights SightsOf(const SightRegion& region, const Sighted& edge, bool from_high) 
 
 Result<std::vector<Sights>> FindSights(const Terrain& terrain, const Horizon& horizon, int threads,
                                        const Watch& watch) {
+  watch.Report(Stage::kLinesOfSight, 0);
   SegmentIndex index(terrain.dem().columns, terrain.dem().rows);
   for (const HorizonEdge& e : horizon.edges) {
     index.Insert({terrain.Point(e.edge.a), terrain.Point(e.edge.b)});
@@ -64,7 +65,7 @@ Result<std::vector<Sights>> FindSights(const Terrain& terrain, const Horizon& ho
   const auto look_at_all = [&](std::size_t begin, std::size_t end, std::size_t /*thread*/) {
     for (std::size_t i = begin; i < end; ++i) look(i);
   };
-  if (!ForEachBatch(sights.size(), kBatch, threads, "sights", watch, look_at_all)) {
+  if (!ForEachBatch(sights.size(), kBatch, threads, Stage::kLinesOfSight, watch, look_at_all)) {
     return Error{ErrorCode::kCancelled, "stopped while finding lines of sight"};
   }
   return sights;

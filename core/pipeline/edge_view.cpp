@@ -161,6 +161,7 @@ Result<std::vector<EdgeView>> FindViews(const Terrain& terrain, const Horizon& h
                                         const Watch& watch) {
   Result<std::vector<Sights>> sights = FindSights(terrain, horizon, threads, watch);
   if (!sights) return std::move(sights.error());
+  watch.Report(Stage::kEdgeMeasures, 0);
   std::vector<std::array<double, 2>> middles;
   for (const HorizonEdge& e : horizon.edges) {
     const Point3i a = terrain.Point(e.edge.a);
@@ -182,7 +183,7 @@ Result<std::vector<EdgeView>> FindViews(const Terrain& terrain, const Horizon& h
       views[i].prominence_m = prominences.Of(i) * terrain.dem().quantum_m;
     }
   };
-  if (!ForEachBatch(views.size(), kBatch, threads, "views", watch, look)) {
+  if (!ForEachBatch(views.size(), kBatch, threads, Stage::kEdgeMeasures, watch, look)) {
     return Error{ErrorCode::kCancelled, "stopped while weighing horizon edges"};
   }
   return views;

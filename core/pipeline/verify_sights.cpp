@@ -224,6 +224,7 @@ Status VerifySights(const Source& source, const Horizon& horizon,
   Result<std::vector<EdgeView>> views =
       FindViews(terrain, horizon, source.placement(), threads, watch);
   if (!views) return std::move(views.error());
+  watch.Report(Stage::kVerify, kVerifiedBeforeSights);
   std::vector<Interval> middles;
   middles.reserve(features.size());
   for (const HorizonFeature& f : features) {

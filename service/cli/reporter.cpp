@@ -6,8 +6,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "service/overall_progress.h"
-
 namespace farhorizon {
 
 namespace {
@@ -28,9 +26,11 @@ Reporter::Reporter(const ReporterOptions& options)
 
 Reporter::~Reporter() { Clear(); }
 
-Progress Reporter::progress() {
+Progress Reporter::progress(Workflow workflow) {
   if (!bar_ && !json_) return {};
-  return [this](const char* stage, double done) { Show(stage, done, OverallPercent(stage, done)); };
+  return [this, overall = OverallProgress(workflow)](Stage stage, double done) mutable {
+    Show(StageName(stage), done, overall.Percent(stage, done));
+  };
 }
 
 Notice Reporter::notice() {

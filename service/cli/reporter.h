@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "core/base/progress.h"
+#include "core/pipeline/progress_plan.h"
 
 namespace farhorizon {
 
@@ -24,8 +25,8 @@ class Reporter {
   Reporter(const Reporter&) = delete;
   Reporter& operator=(const Reporter&) = delete;
 
-  /// Requires: this outlives it.
-  Progress progress();
+  /// For one run. Requires: this outlives it.
+  Progress progress(Workflow workflow);
   /// A line of its own, in every form. Requires: as above.
   Notice notice();
   /// The same with the overall percentage known already.

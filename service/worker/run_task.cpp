@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <optional>
 #include <string>
 #include <unistd.h>
 
@@ -30,13 +31,13 @@ void Say(const WorkerMessage& message) {
   }
 }
 
-/// Tells at once of a new stage, and of steps in it now and then.
+/// Tells at once of a new stage and of a stage's end, and of steps between them now and then.
 Progress Telling() {
-  return [stage = std::string(), last = std::chrono::steady_clock::time_point()](
-             const char* name, double done) mutable {
+  return [told = std::optional<Stage>(), last = std::chrono::steady_clock::time_point()](
+             Stage stage, double done) mutable {
     const auto now = std::chrono::steady_clock::now();
-    if (stage == name && now - last < kBetweenReports) return;
-    stage = name;
+    if (told == stage && done < 1 && now - last < kBetweenReports) return;
+    told = stage;
     last = now;
     Say(WorkerProgress{stage, done});
   };

@@ -67,13 +67,14 @@ class Sweep {
   /// Down to depth `last`, its own events included. False where the watch said stop or the budget was
   /// spent.
   bool Run(std::int64_t last = kinetic::kNever) {
+    watch_.Report(Stage::kKineticSweep, 0);
     std::size_t next = 0;
     while (next < order_.size() && DepthOf(order_[next]) <= last) {
       const std::int64_t s = DepthOf(order_[next]);
       if (!SinkTo(s) || !MayGoOn()) return false;
       std::size_t end = next + 1;
       while (end < order_.size() && DepthOf(order_[end]) == s) ++end;
-      watch_.Report("sweep", static_cast<double>(end) / static_cast<double>(order_.size()));
+      Report(static_cast<double>(end) / static_cast<double>(order_.size()));
       LookAtLevelEdges(next, end, s);
       scene_.Advance(Moment::At(s));
       PassPosts(next, end, s);
@@ -82,10 +83,12 @@ class Sweep {
           events_.queue_max, scene_.queue_size() + static_cast<std::int64_t>(order_.size() - end));
       next = end;
     }
-    if (last == kinetic::kNever) return true;
-    if (!SinkTo(last)) return false;
-    scene_.Advance(Moment::At(last));
-    Settle();
+    if (last != kinetic::kNever) {
+      if (!SinkTo(last)) return false;
+      scene_.Advance(Moment::At(last));
+      Settle();
+    }
+    watch_.Report(Stage::kKineticSweep, 1);
     return true;
   }
 
@@ -118,6 +121,12 @@ class Sweep {
   }
 
  private:
+  // Every height is an event; a report a percent is enough.
+  void Report(double done) {
+    if (done < reported_ + 0.01) return;
+    reported_ = done;
+    watch_.Report(Stage::kKineticSweep, done);
+  }
   [[nodiscard]] std::int32_t Height(VertexId v) const { return terrain_.Point(v).z; }
   [[nodiscard]] std::int64_t DepthOf(VertexId v) const { return std::int64_t{summit_} - Height(v); }
 
@@ -217,6 +226,7 @@ class Sweep {
 
   const Terrain& terrain_;
   const Watch& watch_;
+  double reported_ = 0;
   std::int64_t work_budget_;
   bool checks_;
   Scene scene_;
