@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <stop_token>
 #include <string>
@@ -13,7 +14,7 @@ namespace farhorizon {
 /// Called from the thread that does the work, at most some hundred times a stage.
 using Progress = std::function<void(Stage stage, double done)>;
 
-/// Where work says what its caller should know although it goes on: a sentence. Called as Progress is.
+/// Takes a sentence that the caller should know although the work goes on. Called as Progress is.
 using Notice = std::function<void(const std::string& text)>;
 
 /// How a caller watches long work and stops it. All may be left empty.
@@ -25,13 +26,13 @@ struct Watch {
   void Report(Stage stage, double done) const {
     if (progress) progress(stage, done);
   }
-  /// The watch for work that is only the piece [from, to] of each stage it reports: its 0 is `from`,
-  /// its 1 is `to`.
+  /// The watch for work that is only a piece of each stage that it reports: its 0 is `from` of the
+  /// stage, its 1 is `to`.
   [[nodiscard]] Watch Between(double from, double to) const {
     Watch piece = *this;
     if (progress) {
       piece.progress = [whole = progress, from, to](Stage stage, double done) {
-        whole(stage, from + (to - from) * done);
+        whole(stage, std::lerp(from, to, done));
       };
     }
     return piece;

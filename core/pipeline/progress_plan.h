@@ -1,7 +1,7 @@
 #pragma once
 
 #include <array>
-#include <vector>
+#include <span>
 
 #include "core/base/stage.h"
 
@@ -22,7 +22,7 @@ struct StageShare {
 
 /// The stages of a run in the order in which they first report. The shares are positive and add up
 /// to 1.
-const std::vector<StageShare>& PlanOf(Workflow workflow);
+std::span<const StageShare> PlanOf(Workflow workflow);
 
 /// How much of one run is done. Each stage adds its share times what is done of it, so that the sum
 /// rises where stages alternate, too: a build encodes and measures level after level.
@@ -31,11 +31,12 @@ class OverallProgress {
   explicit OverallProgress(Workflow workflow) : plan_(PlanOf(workflow)) {}
 
   /// Takes one report and returns the percentage so far, from 0 to 99: the work is done only when
-  /// its caller says so. It never falls, whatever is reported; a stage outside the plan adds nothing.
+  /// its caller says so. The percentage never falls, whatever is reported; a stage outside the plan
+  /// adds nothing.
   int Percent(Stage stage, double done);
 
  private:
-  const std::vector<StageShare>& plan_;
+  std::span<const StageShare> plan_;
   std::array<double, kStages.size()> done_{};
 };
 

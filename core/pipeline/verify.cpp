@@ -157,7 +157,8 @@ void VerifyLevels(const Source& source, const Horizon& horizon, const fs::path& 
     LevelWatch(watch.Between(kVerifiedWithSights, 1), level, report.levels.size())
         .Report(Stage::kVerify, 0);
     const LevelReport& claimed = report.levels[level];
-    const std::vector<Edge> edges = VerifyLevel(context.With(level_watch), directory, claimed, claims);
+    const std::vector<Edge> edges =
+        VerifyLevel(context.With(level_watch), directory, claimed, claims);
     claims.Add(
         claimed.geometric_error_m >= finer_error_m,
         "lod" + std::to_string(level) + " has no smaller geometric error than a finer level");
