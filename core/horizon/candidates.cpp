@@ -158,7 +158,7 @@ class CandidateSearch {
 Result<Candidates> FindCandidates(const Terrain& terrain, const HullSweep& sweep, int threads,
                                   const Watch& watch) {
   constexpr std::size_t kRows = 32;
-  constexpr double kSurvivors = 0.5;  // their share of the stage's time
+  constexpr double kSurvivors = 0.15;  // their share of the stage's time
   watch.Report(Stage::kCandidates, 0);
   const CandidateSearch search(terrain, sweep);
   const auto rows = static_cast<std::size_t>(terrain.dem().rows);

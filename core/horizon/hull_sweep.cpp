@@ -206,7 +206,7 @@ Result<HullSweep> SweepHulls(const Terrain& terrain, int threads, const Watch& w
   // Few enough for their scenes to be small beside the terrain, many enough to keep all threads busy.
   constexpr std::size_t kLandmarks = 64;
   constexpr std::size_t kAhead = 16;
-  constexpr double kOrder = 0.4;  // the share of the stage's time that finding the order takes
+  constexpr double kOrder = 0.1;  // the share of the stage's time that finding the order takes
   const Error stopped{ErrorCode::kCancelled, "stopped during the sweep"};
   watch.Report(Stage::kSweep, 0);
   const std::optional<SweepOrder> order = OrderOfSweep(terrain, threads, watch.Between(0, kOrder));

@@ -92,7 +92,7 @@ Result<QuantizationLattice> LatticeFor(const Terrain& terrain, const Placement& 
 }
 
 // The share of Stage::kMeasure that MeasureMeshError takes; the rest is MeasureGeometricError's.
-constexpr double kMeshErrorShare = 0.9;
+constexpr double kMeshErrorShare = 0.95;
 
 Result<LevelReport> MeasureLevel(const LevelContext& context, const LocalMesh& decoded, int level,
                                  double step_m, double asked_m) {

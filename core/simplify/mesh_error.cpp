@@ -172,10 +172,10 @@ Result<MeshError> MeasureMeshError(const Terrain& terrain, const Horizon& horizo
   MeshError error;
   error.displacement = displacement->greatest;
   error.vertical = VerticalError(terrain, mesh);
-  watch.Report(Stage::kMeasure, 0.2);
+  watch.Report(Stage::kMeasure, 0.05);
   error.silhouette.rms_m = RmsOverLines(SkylineOf(terrain, horizon), SidesOf(mesh),
                                         terrain.dem().columns, terrain.dem().rows);
-  watch.Report(Stage::kMeasure, 0.4);
+  watch.Report(Stage::kMeasure, 0.45);
   const double quantum = terrain.dem().quantum_m;
   // A point of the mesh is at most `by_column`, `by_row` in plan and `greatest_m` in height away from
   // its place on the mesh over posts, whose height changes by no more than its slopes on the way.
