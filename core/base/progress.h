@@ -11,7 +11,8 @@ namespace farhorizon {
 
 /// Takes how far long work is: a stage and the share of it that is done, in [0, 1]. That share
 /// never falls within a stage; stages may alternate.
-/// Called from the thread that does the work, at most some hundred times a stage.
+/// Called from the thread that does the work, at most some hundred times a stage. It is copied
+/// (Watch::Between): what it remembers from call to call must be shared by its copies.
 using Progress = std::function<void(Stage stage, double done)>;
 
 /// Takes a sentence that the caller should know although the work goes on. Called as Progress is.

@@ -248,6 +248,7 @@ Result<std::vector<ClaimCheck>> VerifyArtifacts(const fs::path& dem, const fs::p
   claims.Same("horizon edges", report->horizon_edges,
               static_cast<std::int64_t>(horizon->edges.size()));
 
+  watch.Report(Stage::kVerify, 0);
   std::optional<PublishedEdges> published;
   if (fs::exists(directory / "horizon.geojson")) {
     Result<std::string> geojson = ReadFile(directory / "horizon.geojson");
@@ -256,7 +257,6 @@ Result<std::vector<ClaimCheck>> VerifyArtifacts(const fs::path& dem, const fs::p
     if (!features) return std::move(features.error());
     claims.Same("horizon.geojson features", report->horizon_edges,
                 static_cast<std::int64_t>(features->size()));
-    watch.Report(Stage::kVerify, 0);
     published = VerifyFeatures(**source, *features, claims);
     VerifySet(published->edges, *horizon, claims);
     claims.Same("horizon.geojson edges that are undecided", report->statistics.undecided,

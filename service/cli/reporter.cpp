@@ -28,8 +28,9 @@ Reporter::~Reporter() { Clear(); }
 
 Progress Reporter::progress(Workflow workflow) {
   if (!bar_ && !json_) return {};
-  return [this, overall = OverallProgress(workflow)](Stage stage, double done) mutable {
-    Show(StageName(stage), done, overall.Percent(stage, done));
+  overall_.emplace(workflow);
+  return [this](Stage stage, double done) {
+    Show(StageName(stage), done, overall_->Percent(stage, done));
   };
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -39,6 +40,7 @@ class Reporter {
   bool json_ = false;
   bool drawn_ = false;
   std::string last_;
+  std::optional<OverallProgress> overall_;
 };
 
 }  // namespace farhorizon

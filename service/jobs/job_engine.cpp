@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <fstream>
+#include <memory>
 #include <optional>
 #include <system_error>
 
@@ -152,15 +153,19 @@ Status JobEngine::Prepare(const Job& job, const fs::path& directory) {
 
 Progress JobEngine::Reporting(const Job& job) {
   using Clock = std::chrono::steady_clock;
-  return [this, id = job.id, attempt = job.attempt, last = Clock::time_point(),
-          shown = std::optional<Stage>(),
-          overall = OverallProgress(Workflow::kBuild)](Stage stage, double done) mutable {
-    const int percent = overall.Percent(stage, done);
+  struct Shown {
+    OverallProgress overall{Workflow::kBuild};
+    std::optional<Stage> stage;
+    Clock::time_point at;
+  };
+  return [this, id = job.id, attempt = job.attempt, shown = std::make_shared<Shown>()](
+             Stage stage, double done) {
+    const int percent = shown->overall.Percent(stage, done);
     const Clock::time_point now = Clock::now();
-    if (shown == stage && now - last < kBetweenReports) return;
-    if (shown != stage && now - last < kBetweenReports / 5) return;
-    shown = stage;
-    last = now;
+    if (shown->stage == stage && now - shown->at < kBetweenReports) return;
+    if (shown->stage != stage && now - shown->at < kBetweenReports / 5) return;
+    shown->stage = stage;
+    shown->at = now;
     Result<bool> told = jobs_.ReportProgress(id, attempt, percent, StageName(stage), NowMs());
     if (!told) Log(LogLevel::kWarning, "progress lost", {{"error", told.error().message}});
   };

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdio>
 #include <exception>
+#include <memory>
 #include <new>
 #include <optional>
 #include <string>
@@ -33,12 +34,14 @@ void Say(const WorkerMessage& message) {
 
 /// Tells at once of a new stage and of a stage's end, and of steps between them now and then.
 Progress Telling() {
-  return [told = std::optional<Stage>(), last = std::chrono::steady_clock::time_point()](
-             Stage stage, double done) mutable {
+  struct Told {
+    std::optional<Stage> stage;
+    std::chrono::steady_clock::time_point at;
+  };
+  return [last = std::make_shared<Told>()](Stage stage, double done) {
     const auto now = std::chrono::steady_clock::now();
-    if (told == stage && done < 1 && now - last < kBetweenReports) return;
-    told = stage;
-    last = now;
+    if (last->stage == stage && done < 1 && now - last->at < kBetweenReports) return;
+    *last = {stage, now};
     Say(WorkerProgress{stage, done});
   };
 }
