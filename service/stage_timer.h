@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "core/base/progress.h"
@@ -13,7 +14,7 @@ class StageTimer {
  public:
   /// A progress that keeps time and passes on to `next`. Requires: this outlives it.
   Progress Listen(Progress next) {
-    return [this, next = std::move(next)](const char* stage, double done) {
+    return [this, next = std::move(next)](Stage stage, double done) {
       if (stage_ != stage) Enter(stage);
       if (next) next(stage, done);
     };
@@ -21,21 +22,21 @@ class StageTimer {
 
   /// Seconds by stage, the present one up to now.
   std::map<std::string, double> Seconds() {
-    Enter(stage_);
+    if (stage_) Enter(*stage_);
     return seconds_;
   }
 
  private:
   using Clock = std::chrono::steady_clock;
 
-  void Enter(std::string stage) {
+  void Enter(Stage stage) {
     const Clock::time_point now = Clock::now();
-    if (!stage_.empty()) seconds_[stage_] += std::chrono::duration<double>(now - since_).count();
-    stage_ = std::move(stage);
+    if (stage_) seconds_[StageName(*stage_)] += std::chrono::duration<double>(now - since_).count();
+    stage_ = stage;
     since_ = now;
   }
 
-  std::string stage_;
+  std::optional<Stage> stage_;
   Clock::time_point since_ = Clock::now();
   std::map<std::string, double> seconds_;
 };

@@ -7,7 +7,7 @@
 #include <vector>
 
 namespace farhorizon {
-bool ParallelForBatches(std::size_t count, std::size_t size, int threads, const char* stage,
+bool ParallelForBatches(std::size_t count, std::size_t size, int threads, Stage stage,
                         const Watch& watch,
                         const std::function<void(std::size_t, std::size_t, std::size_t)>& work) {
   std::atomic<std::size_t> next{0};
@@ -37,7 +37,9 @@ bool ParallelForBatches(std::size_t count, std::size_t size, int threads, const 
   for (const std::exception_ptr& failure : failures) {
     if (failure) std::rethrow_exception(failure);
   }
-  return !watch.StopRequested();
+  if (watch.StopRequested()) return false;
+  watch.Report(stage, 1);
+  return true;
 }
 
 }  // namespace farhorizon

@@ -14,7 +14,7 @@ namespace farhorizon {
 /// The batches are the same for any number of threads.
 inline constexpr std::size_t kBatch = 256;
 bool ParallelForBatches(
-    std::size_t count, std::size_t size, int threads, const char* stage, const Watch& watch,
+    std::size_t count, std::size_t size, int threads, Stage stage, const Watch& watch,
     const std::function<void(std::size_t begin, std::size_t end, std::size_t thread)>& work);
 
 }  // namespace farhorizon

@@ -1,16 +1,21 @@
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <stop_token>
 #include <string>
 
+#include "core/base/stage.h"
+
 namespace farhorizon {
 
-/// Where long work says how far it is: a stage by name and the share of it that is done, in [0, 1].
-/// Called from the thread that does the work, at most some hundred times a stage.
-using Progress = std::function<void(const char* stage, double done)>;
+/// Takes how far long work is: a stage and the share of it that is done, in [0, 1]. That share
+/// never falls within a stage; stages may alternate.
+/// Called from the thread that does the work, at most some hundred times a stage. It is copied
+/// (Watch::Between): what it remembers from call to call must be shared by its copies.
+using Progress = std::function<void(Stage stage, double done)>;
 
-/// Where work says what its caller should know although it goes on: a sentence. Called as Progress is.
+/// Takes a sentence that the caller should know although the work goes on. Called as Progress is.
 using Notice = std::function<void(const std::string& text)>;
 
 /// How a caller watches long work and stops it. All may be left empty.
@@ -19,8 +24,19 @@ struct Watch {
   std::stop_token stop = {};
   Notice notice = {};
 
-  void Report(const char* stage, double done) const {
+  void Report(Stage stage, double done) const {
     if (progress) progress(stage, done);
+  }
+  /// The watch for work that is only a piece of each stage that it reports: its 0 is `from` of the
+  /// stage, its 1 is `to`.
+  [[nodiscard]] Watch Between(double from, double to) const {
+    Watch piece = *this;
+    if (progress) {
+      piece.progress = [whole = progress, from, to](Stage stage, double done) {
+        whole(stage, std::lerp(from, to, done));
+      };
+    }
+    return piece;
   }
   void Tell(const std::string& text) const {
     if (notice) notice(text);

@@ -26,8 +26,9 @@ CandidateDecider::CandidateDecider(const Terrain& terrain, const Candidates& can
   }
 }
 
-bool CandidateDecider::DecideAll(int threads, std::int64_t budget, PredicateCounts& counts) {
-  Round(threads, {budget, budget}, counts);
+bool CandidateDecider::DecideAll(int threads, std::int64_t budget, PredicateCounts& counts,
+                                 double share) {
+  Round(threads, {budget, budget}, counts, share);
   if (spent_ <= budget) undecided_.clear();
   return !watch_.StopRequested();
 }
@@ -40,7 +41,8 @@ bool CandidateDecider::DecideSome(int threads, std::int64_t budget, PredicateCou
         (budget - counts.Sum()) / static_cast<std::int64_t>(undecided_.size());
     if (next < std::max<std::int64_t>(2 * share, 1)) break;
     share = next;
-    Round(threads, {share, std::numeric_limits<std::int64_t>::max()}, counts);
+    // How many rounds there will be is not known: each is half of what is left.
+    Round(threads, {share, std::numeric_limits<std::int64_t>::max()}, counts, (done_ + 1) / 2);
     std::erase_if(undecided_, [this](std::size_t i) { return decided_[i] != 0; });
   }
   return !watch_.StopRequested();
@@ -71,14 +73,16 @@ void CandidateDecider::AppendEdges(Horizon& horizon) const {
   }
 }
 
-void CandidateDecider::Round(int threads, Limits limits, PredicateCounts& counts) {
+void CandidateDecider::Round(int threads, Limits limits, PredicateCounts& counts, double done) {
   spent_ = 0;
   std::vector<PredicateCounts> per_thread(static_cast<std::size_t>(std::max(threads, 1)));
-  ParallelForBatches(undecided_.size(), kBatch, threads, "decide", watch_,
+  ParallelForBatches(undecided_.size(), kBatch, threads, Stage::kDecide,
+                     watch_.Between(done_, done),
                      [&](std::size_t begin, std::size_t end, std::size_t thread) {
                        if (spent_ <= limits.all)
                          DecideBatch(begin, end, limits.each, per_thread[thread]);
                      });
+  done_ = done;
   for (const PredicateCounts& c : per_thread) {
     counts.filtered += c.filtered;
     counts.exact += c.exact;

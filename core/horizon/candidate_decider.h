@@ -24,7 +24,8 @@ class CandidateDecider {
 
   /// Decides all, or leaves all undecided where that takes more than the budget: a sum, so that the
   /// threads do not matter. False where the watch said stop.
-  bool DecideAll(int threads, std::int64_t budget, PredicateCounts& counts);
+  /// share: of the stage's progress that this is; the rest is left to DecideSome.
+  bool DecideAll(int threads, std::int64_t budget, PredicateCounts& counts, double share = 1);
 
   /// Decides what the budget suffices for. Every undecided candidate may take an equal share of what is
   /// left of it; what the easy ones leave over makes the next round's share larger, until none is
@@ -47,7 +48,8 @@ class CandidateDecider {
     std::vector<OccluderSet::Id> likely;  ///< of the last hidden candidate
     std::vector<OccluderSet::Id> found;
   };
-  void Round(int threads, Limits limits, PredicateCounts& counts);
+  // Brings the stage's progress to `done`.
+  void Round(int threads, Limits limits, PredicateCounts& counts, double done);
   void DecideBatch(std::size_t begin, std::size_t end, std::int64_t most, PredicateCounts& counts);
   /// It has a line of sight, or is undecided.
   [[nodiscard]] bool IsKept(std::size_t i) const { return decided_[i] == 0 || witnesses_[i]; }
@@ -61,6 +63,7 @@ class CandidateDecider {
   std::vector<std::optional<Witness>> witnesses_;
   std::vector<char> decided_;  ///< each its own byte: threads write side by side
   std::vector<std::size_t> undecided_;
+  double done_ = 0;                     ///< of the stage's progress
   std::atomic<std::int64_t> spent_{0};  ///< decisions in this round
 };
 

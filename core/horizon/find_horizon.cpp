@@ -100,9 +100,10 @@ Result<Horizon> FindHorizon(const Terrain& terrain, const HorizonOptions& option
     budget = options.work_budget.value_or(budget);
   }
   horizon.statistics.work_budget = budget;
+  watch.Report(Stage::kDecide, 0);
   CandidateDecider decider(terrain, *candidates, watch);
   PredicateCounts& counts = horizon.statistics.predicates;
-  bool goes_on = decider.DecideAll(options.threads, budget, counts);
+  bool goes_on = decider.DecideAll(options.threads, budget, counts, options.approximate ? 0.5 : 1);
   if (goes_on && decider.undecided() > 0) {
     if (!options.approximate) return OverBudget(budget, candidates->edges.size());
     goes_on = decider.DecideSome(options.threads, budget, counts);
@@ -118,6 +119,7 @@ Result<Horizon> FindHorizon(const Terrain& terrain, const HorizonOptions& option
     Check(!kinetic || e.undecided || WitnessHolds(terrain, e.edge, e.witness),
           "a line of sight over the kinetic engine's edges is one over the terrain");
   }
+  watch.Report(Stage::kDecide, 1);
   return horizon;
 }
 

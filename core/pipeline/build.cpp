@@ -127,6 +127,7 @@ Status WriteFeatures(const TerrainInput& source, const Horizon& horizon,
   Result<std::vector<HorizonFeature>> features =
       source.Features(horizon, level_kept, options.threads, watch);
   if (!features) return std::move(features.error());
+  watch.Report(Stage::kWrite, 0);
   if (Asks(options, "geojson")) {
     Status added = writer.Add("horizon.geojson", WriteHorizonGeoJson(*features));
     if (!added) return added;
@@ -145,8 +146,8 @@ Result<std::vector<LevelReport>> WriteLevels(const LevelContext& context,
                                              const BuildOptions& options, ArtifactWriter& writer) {
   std::vector<LevelReport> reports;
   for (std::size_t i = 0; i < chain.size(); ++i) {
-    context.watch.Report("encode", static_cast<double>(i) / static_cast<double>(chain.size()));
-    Result<LevelArtifact> level = EncodeLevel(context, chain[i], static_cast<int>(i),
+    const Watch watch = LevelWatch(context.watch, i, chain.size());
+    Result<LevelArtifact> level = EncodeLevel(context.With(watch), chain[i], static_cast<int>(i),
                                               plans[i].lattice, plans[i].silhouette_error_m);
     if (!level) return std::move(level.error());
     level->report.asked_vertical_m = plans[i].max_error_m;
@@ -180,11 +181,12 @@ Status BuildArtifacts(const fs::path& dem, const fs::path& directory, const Buil
                       const Watch& watch) {
   Status checked = CheckOptions(options);
   if (!checked) return checked;
-  watch.Report("read", 0);
+  watch.Report(Stage::kRead, 0);
   Result<std::unique_ptr<TerrainInput>> source = TerrainInput::Open(dem, options);
   if (!source) return std::move(source.error());
   Result<std::vector<LevelPlan>> plans = PlanLevels(**source, options);
   if (!plans) return std::move(plans.error());
+  watch.Report(Stage::kRead, 1);
 
   Result<Horizon> horizon = FindHorizon((*source)->terrain(),
                                         {.threads = options.threads,
@@ -198,6 +200,7 @@ Status BuildArtifacts(const fs::path& dem, const fs::path& directory, const Buil
   Result<std::vector<Lod>> chain = BuildLodChain((*source)->terrain(), *horizon, budgets, watch);
   if (!chain) return std::move(chain.error());
 
+  watch.Report(Stage::kEncode, 0);
   Result<PostNormals> normals = FindPostNormals((*source)->terrain(), (*source)->georeference());
   if (!normals) return std::move(normals.error());
   ArtifactWriter writer(directory);
@@ -211,7 +214,6 @@ Status BuildArtifacts(const fs::path& dem, const fs::path& directory, const Buil
     Status tileset = WriteTilesetFor(**source, *levels, writer);
     if (!tileset) return tileset;
   }
-  watch.Report("write", 0);
   Status features =
       WriteFeatures(**source, *horizon, LevelsKept(*horizon, *chain), options, watch, writer);
   if (!features) return features;
@@ -221,7 +223,7 @@ Status BuildArtifacts(const fs::path& dem, const fs::path& directory, const Buil
   Status reported = writer.Add("report.json", WriteReport(report));
   if (!reported) return reported;
   Status finished = writer.Finish();
-  watch.Report("write", 1);
+  watch.Report(Stage::kWrite, 1);
   return finished;
 }
 

@@ -15,10 +15,6 @@ Error Invalid(const std::string& name, const std::string& value, const std::stri
           "invalid-parameter"};
 }
 
-Error NotYet(const std::string& what) {
-  return {ErrorCode::kInvalidArgument, what + " is not built yet; leave it out", "not-available"};
-}
-
 template <typename Number>
 bool ReadNumber(const std::string& text, Number& number) {
   const char* end = text.data() + text.size();
@@ -50,7 +46,6 @@ Status Read(const std::string& name, const std::string& value, BuildOptions& opt
   }
   if (name == "maxError") return read_metres(options.max_error_m.emplace());
   if (name == "silhouetteError") return read_metres(options.silhouette_error_m);
-  if (name == "skirt") return read_metres(options.skirt_m);
   if (name == "formats") {
     options.formats = SplitAtCommas(value);
     return Done{};
@@ -78,10 +73,9 @@ Status Read(const std::string& name, const std::string& value, BuildOptions& opt
     options.approximate = value == "true";
     return Done{};
   }
-  if (name == "triangles") return NotYet("triangles");
   return Error{ErrorCode::kInvalidArgument,
                "there is no parameter \"" + name +
-                   "\"; known are levels, maxError, silhouetteError, formats, skirt, crs, "
+                   "\"; known are levels, maxError, silhouetteError, formats, crs, "
                    "verticalDatum, nodata, workBudget and approximate",
                "unknown-parameter"};
 }
@@ -98,8 +92,6 @@ Status CheckOptions(const BuildOptions& options) {
   if (!(options.silhouette_error_m >= 0 && options.silhouette_error_m <= 1e5)) {
     return Invalid("silhouetteError", Text(options.silhouette_error_m), "0 to 100000 metres");
   }
-  if (!(options.skirt_m >= 0)) return Invalid("skirt", Text(options.skirt_m), "0 or more metres");
-  if (options.skirt_m > 0) return NotYet("a skirt");
   if (options.nodata && std::isinf(*options.nodata)) {
     return Invalid("nodata", Text(*options.nodata), "a finite number or nan");
   }
@@ -109,7 +101,6 @@ Status CheckOptions(const BuildOptions& options) {
   if (options.formats.empty()) return Invalid("formats", "", "at least one format");
   constexpr std::array kKnown = {"3dtiles", "drc", "geojson", "flatgeobuf"};
   for (const std::string& format : options.formats) {
-    if (format == "quantized-mesh") return NotYet("the format quantized-mesh");
     if (std::find(kKnown.begin(), kKnown.end(), format) == kKnown.end()) {
       return Invalid("formats", format, "of 3dtiles, drc, geojson and flatgeobuf");
     }

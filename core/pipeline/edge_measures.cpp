@@ -162,6 +162,7 @@ Result<std::vector<EdgeMeasures>> MeasureEdges(const Terrain& terrain, const Hor
                                                const Watch& watch) {
   Result<std::vector<LinesOfSight>> sights = FindLinesOfSight(terrain, horizon, threads, watch);
   if (!sights) return std::move(sights.error());
+  watch.Report(Stage::kEdgeMeasures, 0);
   std::vector<std::array<double, 2>> middles;
   for (const HorizonEdge& e : horizon.edges) {
     const Point3i a = terrain.Point(e.edge.a);
@@ -183,7 +184,7 @@ Result<std::vector<EdgeMeasures>> MeasureEdges(const Terrain& terrain, const Hor
       views[i].skyline_drop_m = skyline_drops.Of(i) * terrain.dem().quantum_m;
     }
   };
-  if (!ParallelForBatches(views.size(), kBatch, threads, "views", watch, look)) {
+  if (!ParallelForBatches(views.size(), kBatch, threads, Stage::kEdgeMeasures, watch, look)) {
     return Error{ErrorCode::kCancelled, "stopped while weighing horizon edges"};
   }
   return views;

@@ -91,6 +91,9 @@ Result<QuantizationLattice> LatticeFor(const Terrain& terrain, const Georeferenc
   return ChooseLattice(reach, wanted_step_m);
 }
 
+// The share of Stage::kMeasure that MeasureMeshError takes; the rest is MeasureGeometricError's.
+constexpr double kMeshErrorShare = 0.95;
+
 Result<LevelReport> MeasureLevel(const LevelContext& context, const LocalMesh& decoded, int level,
                                  double step_m, double asked_m) {
   const VertexId post_count = context.terrain.post_count();
@@ -115,11 +118,12 @@ Result<LevelReport> MeasureLevel(const LevelContext& context, const LocalMesh& d
                               static_cast<std::int32_t>(t[keeps ? 1 : 2]),
                               static_cast<std::int32_t>(t[keeps ? 2 : 1])});
   }
-  Result<MeshError> error =
-      MeasureMeshError(context.terrain, context.horizon, grid, posts, asked_m, context.watch);
+  Result<MeshError> error = MeasureMeshError(context.terrain, context.horizon, grid, posts, asked_m,
+                                             context.watch.Between(0, kMeshErrorShare));
   if (!error) return std::move(error.error());
   Result<double> geometric = MeasureGeometricError(context.terrain, context.georeference, decoded);
   if (!geometric) return std::move(geometric.error());
+  context.watch.Report(Stage::kMeasure, 1);
   LevelReport report;
   report.level = level;
   report.triangles = static_cast<std::int64_t>(decoded.triangles.size());
@@ -133,6 +137,7 @@ Result<LevelReport> MeasureLevel(const LevelContext& context, const LocalMesh& d
 
 Result<LevelArtifact> EncodeLevel(const LevelContext& context, const Lod& lod, int level,
                                   const QuantizationLattice& lattice, double asked_m) {
+  context.watch.Report(Stage::kEncode, 0);
   Result<LocalMesh> local = ToLocal(context, lod.mesh);
   if (!local) return std::move(local.error());
   LevelArtifact artifact;
@@ -143,6 +148,7 @@ Result<LevelArtifact> EncodeLevel(const LevelContext& context, const Lod& lod, i
   if (!decoded) return std::move(decoded.error());
   artifact.glb =
       WriteGlb(artifact.drc, *decoded, KeptInDecoded(context.horizon, lod, decoded->mesh));
+  context.watch.Report(Stage::kEncode, 1);
   Result<LevelReport> report = MeasureLevel(context, decoded->mesh, level, lattice.step_m, asked_m);
   if (!report) {
     return std::move(report.error()).Within("level " + std::to_string(level));

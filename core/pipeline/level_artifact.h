@@ -22,7 +22,20 @@ struct LevelContext {
   const Georeference& georeference;
   const PostNormals& normals;
   const Watch& watch;
+
+  /// The same, watched by another watch, which must outlive it.
+  [[nodiscard]] LevelContext With(const Watch& other) const {
+    return {terrain, horizon, placement, normals, other};
+  }
 };
+
+/// The watch for level i of `count`.
+inline Watch LevelWatch(const Watch& watch, std::size_t i, std::size_t count) {
+  const auto share = [count](std::size_t n) {
+    return static_cast<double>(n) / static_cast<double>(count);
+  };
+  return watch.Between(share(i), share(i + 1));
+}
 
 /// A level as it is stored, and what was measured on what it decodes to.
 struct LevelArtifact {

@@ -29,9 +29,10 @@ Status WriteSweepPicture(const std::filesystem::path& dem, const std::filesystem
         "a trace is a picture: its file must end in .svg, not \"" + out.extension().string() + "\"",
         "unknown-format"};
   }
-  watch.Report("read", 0);
+  watch.Report(Stage::kRead, 0);
   Result<std::unique_ptr<TerrainInput>> source = TerrainInput::Open(dem, options);
   if (!source) return std::move(source.error());
+  watch.Report(Stage::kRead, 1);
   const Dem& grid = (*source)->dem();
   const double quanta = std::round((level_m - grid.height_offset_m) / grid.quantum_m);
   constexpr double kLimit = 1 << 30;
@@ -48,7 +49,11 @@ Status WriteSweepPicture(const std::filesystem::path& dem, const std::filesystem
   }
   if (!trace) return std::move(trace.error());
   const double drawn_m = grid.height_offset_m + trace->level * grid.quantum_m;
-  return WriteFile(out, DrawSweep(*trace, dem.filename().string() + " at " + Metres(drawn_m)));
+  watch.Report(Stage::kWrite, 0);
+  Status written =
+      WriteFile(out, DrawSweep(*trace, dem.filename().string() + " at " + Metres(drawn_m)));
+  watch.Report(Stage::kWrite, 1);
+  return written;
 }
 
 }  // namespace farhorizon

@@ -17,9 +17,10 @@ Status WriteHorizonEdges(const std::filesystem::path& dem, const std::filesystem
                  "no format has the ending \"" + ending + "\"; use .geojson, .fgb or .gpkg",
                  "unknown-format"};
   }
-  watch.Report("read", 0);
+  watch.Report(Stage::kRead, 0);
   Result<std::unique_ptr<TerrainInput>> source = TerrainInput::Open(dem, options);
   if (!source) return std::move(source.error());
+  watch.Report(Stage::kRead, 1);
   Result<Horizon> horizon = FindHorizon((*source)->terrain(),
                                         {.threads = options.threads,
                                          .engine = engine,
@@ -30,8 +31,11 @@ Status WriteHorizonEdges(const std::filesystem::path& dem, const std::filesystem
   Result<std::vector<HorizonFeature>> features =
       (*source)->Features(*horizon, {}, options.threads, watch);
   if (!features) return std::move(features.error());
-  if (ending == ".geojson") return WriteFile(out, WriteHorizonGeoJson(*features));
-  return WriteHorizonVector(*features, out);
+  watch.Report(Stage::kWrite, 0);
+  Status written = ending == ".geojson" ? WriteFile(out, WriteHorizonGeoJson(*features))
+                                        : WriteHorizonVector(*features, out);
+  watch.Report(Stage::kWrite, 1);
+  return written;
 }
 
 }  // namespace farhorizon

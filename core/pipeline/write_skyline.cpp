@@ -108,6 +108,7 @@ Result<SkylineOfDirection> Find(const TerrainInput& source, double azimuth,
   Result<std::vector<LinesOfSight>> sights =
       FindLinesOfSight(source.terrain(), *horizon, options.threads, watch);
   if (!sights) return std::move(sights.error());
+  watch.Report(Stage::kWrite, 0);
   const ViewDirection view = DirectionOf(azimuth, step->front());
   const ViewFrame frame(view, step->front(), middle);
   const DirectionalSkylines skylines(source.terrain(), *horizon, *sights);
@@ -154,14 +155,18 @@ Result<std::string> SkylineOfDem(const std::filesystem::path& dem, double azimut
     return Error{ErrorCode::kInvalidArgument,
                  "an azimuth is in degrees clockwise from north, from -360 to 360", "bad-azimuth"};
   }
-  watch.Report("read", 0);
+  watch.Report(Stage::kRead, 0);
   Result<std::unique_ptr<TerrainInput>> source = TerrainInput::Open(dem, options);
   if (!source) return std::move(source.error());
+  watch.Report(Stage::kRead, 1);
   Result<SkylineOfDirection> skyline = Find(**source, azimuth, options, watch);
   if (!skyline) return std::move(skyline.error());
-  if (format == SkylineFormat::kGeoJson) return WriteSkylineGeoJson(*skyline);
-  return DrawSkyline(*skyline,
-                     dem.filename().string() + " towards " + Rounded(azimuth, 6) + " degrees");
+  std::string text = format == SkylineFormat::kGeoJson
+                         ? WriteSkylineGeoJson(*skyline)
+                         : DrawSkyline(*skyline, dem.filename().string() + " towards " +
+                                                     Rounded(azimuth, 6) + " degrees");
+  watch.Report(Stage::kWrite, 1);
+  return text;
 }
 
 }  // namespace farhorizon

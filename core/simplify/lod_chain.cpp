@@ -94,17 +94,20 @@ class ChainBuilder {
 Result<std::vector<Lod>> BuildLodChain(const Terrain& terrain, const Horizon& horizon,
                                        const std::vector<LevelBudget>& budgets,
                                        const Watch& watch) {
+  watch.Report(Stage::kSimplify, 0);
   ChainBuilder builder(terrain, horizon);
   std::vector<Lod> levels;
   const auto count = static_cast<double>(budgets.size());
   for (const LevelBudget& budget : budgets) {
     const auto done = static_cast<double>(levels.size());
-    const auto report = [&](double share) { watch.Report("simplify", (done + share) / count); };
+    const auto report = [&](double share) {
+      watch.Report(Stage::kSimplify, (done + share) / count);
+    };
     Status status = builder.BuildLevel(budget, watch, report);
     if (!status) return std::move(status.error());
     levels.push_back(builder.Level());
   }
-  watch.Report("simplify", 1.0);
+  watch.Report(Stage::kSimplify, 1.0);
   return levels;
 }
 

@@ -152,6 +152,7 @@ std::vector<GridSegment> SidesOf(const GridMesh& mesh) {
 Result<MeshError> MeasureMeshError(const Terrain& terrain, const Horizon& horizon,
                                    const GridMesh& mesh, const std::vector<VertexId>& posts,
                                    double asked_m, const Watch& watch) {
+  watch.Report(Stage::kMeasure, 0);
   Result<Displacement> displacement = MeasureDisplacement(terrain, mesh, posts);
   if (!displacement) return std::move(displacement.error());
   Result<std::vector<Triangle>> triangles = TrianglesOverPosts(terrain, mesh, posts);
@@ -171,10 +172,10 @@ Result<MeshError> MeasureMeshError(const Terrain& terrain, const Horizon& horizo
   MeshError error;
   error.displacement = displacement->greatest;
   error.vertical = VerticalError(terrain, mesh);
-  watch.Report("measure", 0.2);
+  watch.Report(Stage::kMeasure, 0.05);
   error.silhouette.rms_m = RmsOverLines(SkylineOf(terrain, horizon), SidesOf(mesh),
                                         terrain.dem().columns, terrain.dem().rows);
-  watch.Report("measure", 0.4);
+  watch.Report(Stage::kMeasure, 0.45);
   const double quantum = terrain.dem().quantum_m;
   // A point of the mesh is at most `by_column`, `by_row` in plan and `greatest_m` in height away from
   // its place on the mesh over posts, whose height changes by no more than its slopes on the way.
@@ -183,7 +184,7 @@ Result<MeshError> MeasureMeshError(const Terrain& terrain, const Horizon& horizo
       SilhouetteBound(terrain, horizon, *edges, (asked_m - lost_m) / quantum, watch);
   if (!bound) return std::move(bound.error());
   error.silhouette.max_m = *bound * quantum + lost_m;
-  watch.Report("measure", 1.0);
+  watch.Report(Stage::kMeasure, 1.0);
   return error;
 }
 

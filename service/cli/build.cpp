@@ -37,7 +37,8 @@ int Run(const Call& call) {
   const StopOnSignal signals;
   Reporter reporter(call.reporter);
   StageTimer timer;
-  const Watch watch{timer.Listen(reporter.progress()), signals.token(), reporter.notice()};
+  const Watch watch{timer.Listen(reporter.progress(Workflow::kBuild)), signals.token(),
+                    reporter.notice()};
   Status built = BuildArtifacts(call.dem, call.directory, *options, watch);
   if (built && !call.timings.empty()) built = WriteTimings(call.timings, timer);
   reporter.Clear();

@@ -28,12 +28,17 @@ Engine EngineOf(const std::string& name) {
   return name == "adaptive" ? Engine::kAdaptive : Engine::kAuto;
 }
 
+Workflow WorkflowOf(const Call& call) {
+  if (call.trace_level_m) return Workflow::kTrace;
+  return EngineOf(call.engine) == Engine::kKinetic ? Workflow::kKineticHorizon : Workflow::kHorizon;
+}
+
 int Run(const Call& call) {
   Result<BuildOptions> options = call.wishes.Options();
   if (!options) return Complain(options.error());
   const StopOnSignal signals;
   Reporter reporter(call.reporter);
-  const Watch watch{reporter.progress(), signals.token(), reporter.notice()};
+  const Watch watch{reporter.progress(WorkflowOf(call)), signals.token(), reporter.notice()};
   Status written =
       call.trace_level_m
           ? WriteSweepPicture(call.dem, call.file, *call.trace_level_m, *options, watch)

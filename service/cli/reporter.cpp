@@ -6,8 +6,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "service/overall_progress.h"
-
 namespace farhorizon {
 
 namespace {
@@ -28,9 +26,12 @@ Reporter::Reporter(const ReporterOptions& options)
 
 Reporter::~Reporter() { Clear(); }
 
-Progress Reporter::progress() {
+Progress Reporter::progress(Workflow workflow) {
   if (!bar_ && !json_) return {};
-  return [this](const char* stage, double done) { Show(stage, done, OverallPercent(stage, done)); };
+  overall_.emplace(workflow);
+  return [this](Stage stage, double done) {
+    Show(StageName(stage), done, overall_->Percent(stage, done));
+  };
 }
 
 Notice Reporter::notice() {

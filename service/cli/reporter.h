@@ -1,11 +1,13 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include <CLI/CLI.hpp>
 
 #include "core/base/progress.h"
+#include "core/pipeline/progress_plan.h"
 
 namespace farhorizon {
 
@@ -24,8 +26,8 @@ class Reporter {
   Reporter(const Reporter&) = delete;
   Reporter& operator=(const Reporter&) = delete;
 
-  /// Requires: this outlives it.
-  Progress progress();
+  /// For one run. Requires: this outlives it.
+  Progress progress(Workflow workflow);
   /// A line of its own, in every form. Requires: as above.
   Notice notice();
   /// The same with the overall percentage known already.
@@ -38,6 +40,7 @@ class Reporter {
   bool json_ = false;
   bool drawn_ = false;
   std::string last_;
+  std::optional<OverallProgress> overall_;
 };
 
 }  // namespace farhorizon

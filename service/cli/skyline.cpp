@@ -36,9 +36,9 @@ int Run(const Call& call) {
   if (!format) return Complain(format.error());
   const StopOnSignal signals;
   Reporter reporter(call.reporter);
-  Result<std::string> skyline =
-      SkylineOfDem(call.dem, call.azimuth, *format, *options,
-                   Watch{reporter.progress(), signals.token(), reporter.notice()});
+  Result<std::string> skyline = SkylineOfDem(
+      call.dem, call.azimuth, *format, *options,
+      Watch{reporter.progress(Workflow::kSkyline), signals.token(), reporter.notice()});
   reporter.Clear();
   if (!skyline) return Complain(skyline.error());
   Status written = call.file.empty() ? Print(*skyline) : WriteFile(call.file, *skyline);

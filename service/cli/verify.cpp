@@ -24,8 +24,9 @@ int Run(const Call& call) {
   if (!options) return Complain(options.error());
   const StopOnSignal signals;
   Reporter reporter(call.reporter);
-  Result<std::vector<ClaimCheck>> checks = VerifyArtifacts(
-      call.dem, call.directory, *options, Watch{reporter.progress(), signals.token()});
+  Result<std::vector<ClaimCheck>> checks =
+      VerifyArtifacts(call.dem, call.directory, *options,
+                      Watch{reporter.progress(Workflow::kVerify), signals.token()});
   reporter.Clear();
   if (!checks) return Complain(checks.error());
   std::size_t broken = 0;

@@ -37,11 +37,8 @@ void AddBuildWishes(CLI::App& command, Wishes& wishes) {
       "before (an eighth of the cell size)");
   Add(command, wishes, "--silhouette-error", "silhouetteError", "M",
       "silhouette error that level 0 may have, metres; 0 keeps every horizon edge (0)");
-  Add(command, wishes, "--triangles", "triangles", "A,B,...",
-      "instead of the three above: a level for each number, with at most that many triangles");
   Add(command, wishes, "--formats", "formats", "a,b,...",
-      "of 3dtiles, drc, quantized-mesh, geojson, flatgeobuf (3dtiles,drc,geojson)");
-  Add(command, wishes, "--skirt", "skirt", "M", "depth of a skirt at the border, metres (none)");
+      "of 3dtiles, drc, geojson, flatgeobuf (3dtiles,drc,geojson)");
   AddReadWishes(command, wishes);
   AddWorkWishes(command, wishes);
 }

@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <chrono>
 #include <fstream>
+#include <memory>
 #include <optional>
 #include <system_error>
 
+#include "core/pipeline/progress_plan.h"
 #include "service/clock.h"
 #include "service/jobs/collect_artifacts.h"
 #include "service/log.h"
-#include "service/overall_progress.h"
 #include "service/worker/message.h"
 
 namespace farhorizon {
@@ -152,15 +153,20 @@ Status JobEngine::Prepare(const Job& job, const fs::path& directory) {
 
 Progress JobEngine::Reporting(const Job& job) {
   using Clock = std::chrono::steady_clock;
-  return [this, id = job.id, attempt = job.attempt, last = Clock::time_point(),
-          shown = std::string()](const char* stage, double done) mutable {
+  struct Shown {
+    OverallProgress overall{Workflow::kBuild};
+    std::optional<Stage> stage;
+    Clock::time_point at;
+  };
+  return [this, id = job.id, attempt = job.attempt, shown = std::make_shared<Shown>()](
+             Stage stage, double done) {
+    const int percent = shown->overall.Percent(stage, done);
     const Clock::time_point now = Clock::now();
-    if (shown == stage && now - last < kBetweenReports) return;
-    if (shown != stage && now - last < kBetweenReports / 5) return;
-    shown = stage;
-    last = now;
-    Result<bool> told =
-        jobs_.ReportProgress(id, attempt, OverallPercent(stage, done), stage, NowMs());
+    if (shown->stage == stage && now - shown->at < kBetweenReports) return;
+    if (shown->stage != stage && now - shown->at < kBetweenReports / 5) return;
+    shown->stage = stage;
+    shown->at = now;
+    Result<bool> told = jobs_.ReportProgress(id, attempt, percent, StageName(stage), NowMs());
     if (!told) Log(LogLevel::kWarning, "progress lost", {{"error", told.error().message}});
   };
 }

@@ -45,10 +45,10 @@ std::optional<WorkerMessage> ReadError(const json& error) {
 }
 
 std::optional<WorkerMessage> ReadDone(const json& timings) {
-  if (!timings.is_object() || timings.size() > 100) return std::nullopt;
+  if (!timings.is_object()) return std::nullopt;
   WorkerDone done;
   for (const auto& [stage, seconds] : timings.items()) {
-    if (!seconds.is_number() || stage.size() > kLongestText) return std::nullopt;
+    if (!seconds.is_number() || !StageFromName(stage)) return std::nullopt;
     done.timings[stage] = seconds.get<double>();
   }
   return done;
@@ -81,7 +81,7 @@ Result<WorkerTask> ReadTask(const std::string& text) {
 
 std::string WriteMessage(const WorkerMessage& message) {
   if (const auto* progress = std::get_if<WorkerProgress>(&message)) {
-    return Line({{"stage", progress->stage}, {"done", progress->done}});
+    return Line({{"stage", StageName(progress->stage)}, {"done", progress->done}});
   }
   if (const auto* done = std::get_if<WorkerDone>(&message)) {
     return Line({{"timings", done->timings}});
@@ -102,7 +102,9 @@ std::optional<WorkerMessage> ReadMessage(std::string_view line) {
   if (done == object.end() || !done->is_number()) return std::nullopt;
   const double share = done->get<double>();
   if (!(share >= 0 && share <= 1)) return std::nullopt;
-  return WorkerProgress{TextOf(object, "stage"), share};
+  const std::optional<Stage> stage = StageFromName(TextOf(object, "stage"));
+  if (!stage) return std::nullopt;
+  return WorkerProgress{*stage, share};
 }
 
 }  // namespace farhorizon

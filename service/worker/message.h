@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "core/base/result.h"
+#include "core/base/stage.h"
 #include "service/percent.h"
 
 namespace farhorizon {
@@ -27,7 +28,7 @@ Result<WorkerTask> ReadTask(const std::string& text);
 /// What a worker says, a JSON object a line on its descriptor 3: how far it is, and once at its end
 /// that it is done or why not.
 struct WorkerProgress {
-  std::string stage;
+  Stage stage = Stage::kRead;
   double done = 0;
 };
 struct WorkerDone {

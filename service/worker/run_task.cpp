@@ -3,7 +3,9 @@
 #include <chrono>
 #include <cstdio>
 #include <exception>
+#include <memory>
 #include <new>
+#include <optional>
 #include <string>
 #include <unistd.h>
 
@@ -30,14 +32,16 @@ void Say(const WorkerMessage& message) {
   }
 }
 
-/// Tells at once of a new stage, and of steps in it now and then.
+/// Tells at once of a new stage and of a stage's end, and of steps between them now and then.
 Progress Telling() {
-  return [stage = std::string(), last = std::chrono::steady_clock::time_point()](
-             const char* name, double done) mutable {
+  struct Told {
+    std::optional<Stage> stage;
+    std::chrono::steady_clock::time_point at;
+  };
+  return [last = std::make_shared<Told>()](Stage stage, double done) {
     const auto now = std::chrono::steady_clock::now();
-    if (stage == name && now - last < kBetweenReports) return;
-    stage = name;
-    last = now;
+    if (last->stage == stage && done < 1 && now - last->at < kBetweenReports) return;
+    *last = {stage, now};
     Say(WorkerProgress{stage, done});
   };
 }

@@ -43,7 +43,7 @@ class Listener {
     std::optional<WorkerMessage> message = ReadMessage(line);
     if (!message || last_word_) return false;
     if (const auto* step = std::get_if<WorkerProgress>(&*message)) {
-      if (progress_) progress_(step->stage.c_str(), step->done);
+      if (progress_) progress_(step->stage, step->done);
     } else {
       last_word_ = std::move(message);
     }

@@ -61,10 +61,15 @@ class ServiceE2e : public testing::Test {
   std::string WaitFor(const std::string& path, const std::set<std::string>& states,
                       std::chrono::seconds most = std::chrono::seconds(120)) {
     const auto deadline = std::chrono::steady_clock::now() + most;
+    const json shape = json::parse(
+        SlurpFile(std::string(FARHORIZON_SOURCE_DIR) + "/proto/schemas/status-info.schema.json"));
     std::string state;
     while (std::chrono::steady_clock::now() < deadline) {
       const json info = StatusOf(path);
       state = info.is_object() ? info.value("status", "") : "none";
+      if (info.is_object()) {
+        EXPECT_THAT(SchemaOffences(info, shape), testing::IsEmpty()) << info;
+      }
       if (states.count(state) != 0) break;
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }

@@ -9,10 +9,13 @@
 namespace farhorizon {
 
 /// Where a value breaks a schema. Knows what proto/schemas use: type, required, properties,
-/// additionalProperties, items, enum, const, bounds; $ref and oneOf are left out.
+/// additionalProperties, propertyNames, items, enum, const, bounds, if and else; $ref and oneOf are
+/// left out.
 class SchemaCheck {
  public:
-  void Look(const nlohmann::json& value, const nlohmann::json& schema, const std::string& path) {
+  /// closed: whether a property that the schema does not name is an offence.
+  void Look(const nlohmann::json& value, const nlohmann::json& schema, const std::string& path,
+            bool closed = true) {
     const std::string type = schema.value("type", "");
     if (!IsA(value, type)) {
       Offend(path, "is no " + type);
@@ -27,7 +30,12 @@ class SchemaCheck {
                               (schema.contains("maximum") && value > schema["maximum"]))) {
       Offend(path, "out of bounds");
     }
-    if (value.is_object()) LookIntoObject(value, schema, path);
+    if (schema.contains("if") && schema.contains("else")) {
+      SchemaCheck condition;
+      condition.Look(value, schema["if"], path, false);
+      if (!condition.offences().empty()) Look(value, schema["else"], path, false);
+    }
+    if (value.is_object()) LookIntoObject(value, schema, path, closed);
     if (value.is_array()) LookIntoArray(value, schema, path);
   }
   [[nodiscard]] const std::vector<std::string>& offences() const { return offences_; }
@@ -42,7 +50,7 @@ class SchemaCheck {
   }
 
   void LookIntoObject(const nlohmann::json& value, const nlohmann::json& schema,
-                      const std::string& path) {
+                      const std::string& path, bool closed) {
     for (const auto& name : schema.value("required", nlohmann::json::array())) {
       if (!value.contains(name)) Offend(path, "lacks " + name.get<std::string>());
     }
@@ -50,11 +58,12 @@ class SchemaCheck {
     for (const auto& [name, member] : value.items()) {
       std::string deeper = path;
       deeper.append(".").append(name);
+      if (schema.contains("propertyNames")) Look(name, schema["propertyNames"], deeper);
       if (properties.contains(name)) {
         Look(member, properties[name], deeper);
       } else if (schema.contains("additionalProperties")) {
         Look(member, schema["additionalProperties"], deeper);
-      } else if (!properties.empty()) {
+      } else if (closed && !properties.empty()) {
         Offend(deeper, "the schema does not know it");
       }
     }

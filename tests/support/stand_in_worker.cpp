@@ -61,7 +61,7 @@ int Misbehave(const WorkerTask& task) {
   }
   if (Named(task, "slow")) {
     for (int i = 0; i < 20; ++i) {
-      Say(WriteMessage(WorkerProgress{"sweep", i / 20.0}));
+      Say(WriteMessage(WorkerProgress{Stage::kSweep, i / 20.0}));
       std::this_thread::sleep_for(std::chrono::milliseconds(100));
     }
   }

@@ -37,7 +37,6 @@ declare -A may=(
   [service/jobs]="core/base core/io core/pipeline service service/worker"
   [service/handlers]="core/base core/io core/pipeline service service/jobs"
   [service/http]="core/base service service/handlers"
-  [service/viewer]=""
   [service/cli]="core/base core/io core/pipeline service service/worker service/jobs service/handlers service/http core/pipeline/verify core/horizon core/horizon/search"
   [service/main.cpp]="core/base service service/cli"
 )
@@ -52,15 +51,14 @@ foreign=(
   'boost/multiprecision/ @ ^core/exact/'
   'boost/ @ ^service/asio\.h$ ^service/(http|worker|cli)/'
   'sqlite3 @ ^service/jobs/[a-z_0-9]+\.cpp$'
-  'libpq @ ^service/jobs/[a-z_0-9]+\.cpp$'
   'nlohmann/ @ ^core/(io|pipeline)/[^/]+\.cpp$ ^service/[a-z_0-9]+\.(h|cpp)$ ^service/(handlers|jobs|worker|cli)/'
   'openssl/ @ ^core/io/[^/]+\.cpp$'
   'CLI/ @ ^service/(main\.cpp$|cli/)'
   # The system's own: files in core/io, processes and sockets in service.
   '((sys|netinet|arpa|linux)/)?[a-z_0-9]+\.h$ @ ^core/io/[^/]+\.cpp$ ^service/'
 )
-# Databases hide behind one interface: each is seen by one file alone.
-single=('sqlite3' 'libpq')
+# A database hides behind one interface: it is seen by one file alone.
+single=('sqlite3')
 
 bad=0
 offence() {

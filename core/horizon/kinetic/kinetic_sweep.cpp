@@ -82,13 +82,14 @@ Status KineticSweep::Run(std::int64_t last) {
 // Down to depth `last`, its own events included. False where the watch said stop or the budget was
 // spent.
 bool KineticSweep::SinkPast(std::int64_t last) {
+  watch_.Report(Stage::kKineticSweep, 0);
   std::size_t next = 0;
   while (next < order_.size() && DepthOf(order_[next]) <= last) {
     const std::int64_t s = DepthOf(order_[next]);
     if (!SinkTo(s) || !MayGoOn()) return false;
     std::size_t end = next + 1;
     while (end < order_.size() && DepthOf(order_[end]) == s) ++end;
-    watch_.Report("sweep", static_cast<double>(end) / static_cast<double>(order_.size()));
+    Report(static_cast<double>(end) / static_cast<double>(order_.size()));
     LookAtLevelEdges(next, end, s);
     scene_.Advance(Moment::At(s));
     PassPosts(next, end, s);
@@ -97,11 +98,20 @@ bool KineticSweep::SinkPast(std::int64_t last) {
         events_.queue_max, scene_.queue_size() + static_cast<std::int64_t>(order_.size() - end));
     next = end;
   }
-  if (last == kNever) return true;
-  if (!SinkTo(last)) return false;
-  scene_.Advance(Moment::At(last));
-  Settle();
+  if (last != kNever) {
+    if (!SinkTo(last)) return false;
+    scene_.Advance(Moment::At(last));
+    Settle();
+  }
+  watch_.Report(Stage::kKineticSweep, 1);
   return true;
+}
+
+// Every height is an event; a report a percent is enough.
+void KineticSweep::Report(double done) {
+  if (done < reported_ + 0.01) return;
+  reported_ = done;
+  watch_.Report(Stage::kKineticSweep, done);
 }
 
 KineticHorizon KineticSweep::Take() {

@@ -40,6 +40,7 @@ class KineticSweep {
   bool SinkTo(std::int64_t s);
   bool SinkPast(std::int64_t last);
   bool MayGoOn();
+  void Report(double done);
   void Settle();
   void LookAtLevelEdges(std::size_t next, std::size_t end, std::int64_t s);
   void PassPosts(std::size_t next, std::size_t end, std::int64_t s);
@@ -49,6 +50,7 @@ class KineticSweep {
 
   const Terrain& terrain_;
   const Watch& watch_;
+  double reported_ = 0;
   std::int64_t work_budget_;
   bool checks_;
   Scene scene_;

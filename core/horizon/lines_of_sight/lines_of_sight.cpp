@@ -44,6 +44,7 @@ LinesOfSight SightsOf(const VisibleRegion& region, const TargetSegment& edge, bo
 
 Result<std::vector<LinesOfSight>> FindLinesOfSight(const Terrain& terrain, const Horizon& horizon,
                                                    int threads, const Watch& watch) {
+  watch.Report(Stage::kLinesOfSight, 0);
   SegmentIndex index(terrain.dem().columns, terrain.dem().rows);
   for (const HorizonEdge& e : horizon.edges) {
     index.Insert({terrain.Point(e.edge.a), terrain.Point(e.edge.b)});
@@ -65,7 +66,8 @@ Result<std::vector<LinesOfSight>> FindLinesOfSight(const Terrain& terrain, const
   const auto look_at_all = [&](std::size_t begin, std::size_t end, std::size_t /*thread*/) {
     for (std::size_t i = begin; i < end; ++i) look(i);
   };
-  if (!ParallelForBatches(sights.size(), kBatch, threads, "sights", watch, look_at_all)) {
+  if (!ParallelForBatches(sights.size(), kBatch, threads, Stage::kLinesOfSight, watch,
+                          look_at_all)) {
     return Error{ErrorCode::kCancelled, "stopped while finding lines of sight"};
   }
   return sights;

@@ -158,6 +158,8 @@ class CandidateSearch {
 Result<Candidates> FindCandidates(const Terrain& terrain, const HullSweep& sweep, int threads,
                                   const Watch& watch) {
   constexpr std::size_t kRows = 32;
+  constexpr double kSurvivors = 0.15;  // their share of the stage's time
+  watch.Report(Stage::kCandidates, 0);
   const CandidateSearch search(terrain, sweep);
   const auto rows = static_cast<std::size_t>(terrain.dem().rows);
   std::vector<std::vector<std::vector<Survivor>>> bands((rows + kRows - 1) / kRows);
@@ -175,8 +177,10 @@ Result<Candidates> FindCandidates(const Terrain& terrain, const HullSweep& sweep
       parts[i] = search.CandidatesOf(i, survivors);
     }
   };
-  if (!ParallelForBatches(rows, kRows, threads, "candidates", watch, survive) ||
-      !ParallelForBatches(parts.size(), 1, threads, "candidates", watch, look)) {
+  if (!ParallelForBatches(rows, kRows, threads, Stage::kCandidates, watch.Between(0, kSurvivors),
+                          survive) ||
+      !ParallelForBatches(parts.size(), 1, threads, Stage::kCandidates,
+                          watch.Between(kSurvivors, 1), look)) {
     return Error{ErrorCode::kCancelled, "stopped while looking for candidates"};
   }
   Candidates all;

@@ -206,9 +206,12 @@ Result<HullSweep> SweepHulls(const Terrain& terrain, int threads, const Watch& w
   // Few enough for their scenes to be small beside the terrain, many enough to keep all threads busy.
   constexpr std::size_t kLandmarks = 64;
   constexpr std::size_t kAhead = 16;
+  constexpr double kOrder = 0.1;  // the share of the stage's time that finding the order takes
   const Error stopped{ErrorCode::kCancelled, "stopped during the sweep"};
-  const std::optional<SweepOrder> order = OrderOfSweep(terrain, threads, watch);
+  watch.Report(Stage::kSweep, 0);
+  const std::optional<SweepOrder> order = OrderOfSweep(terrain, threads, watch.Between(0, kOrder));
   if (!order) return stopped;
+  const Watch inserting = watch.Between(kOrder, 1);
   const std::vector<VertexId>& vertices = order->vertices;
   const std::size_t stride = (vertices.size() + kLandmarks - 1) / kLandmarks;
   HullSweep sweep;
@@ -216,12 +219,14 @@ Result<HullSweep> SweepHulls(const Terrain& terrain, int threads, const Watch& w
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     if (i % stride == 0) {
       if (watch.StopRequested()) return stopped;
-      watch.Report("sweep", static_cast<double>(i) / static_cast<double>(vertices.size()));
+      inserting.Report(Stage::kSweep,
+                       static_cast<double>(i) / static_cast<double>(vertices.size()));
       sweep.checkpoints.push_back({vertices[i], sweep.changes.size(), sweeper.scene()});
     }
     if (i + kAhead < vertices.size()) sweeper.Expect(vertices[i + kAhead]);
     sweeper.Insert(vertices[i]);
   }
+  watch.Report(Stage::kSweep, 1);
   return sweep;
 }
 

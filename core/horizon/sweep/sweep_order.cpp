@@ -75,8 +75,8 @@ std::optional<SweepOrder> OrderOfSweep(const Terrain& terrain, int threads, cons
     }
   };
   constexpr std::size_t kRows = 32;
-  if (!ParallelForBatches(static_cast<std::size_t>(terrain.dem().rows), kRows, threads, "sweep",
-                          watch, look)) {
+  if (!ParallelForBatches(static_cast<std::size_t>(terrain.dem().rows), kRows, threads,
+                          Stage::kSweep, watch, look)) {
     return std::nullopt;
   }
   order.vertices = FromSummitDown(terrain.dem().heights, order.around);

@@ -154,9 +154,12 @@ void VerifyLevels(const TerrainInput& source, const Horizon& horizon, const fs::
   if (published) kept.assign(published->edges.size(), -1);
   double finer_error_m = 0;
   for (std::size_t level = 0; level < report.levels.size(); ++level) {
-    watch.Report("verify", static_cast<double>(level) / static_cast<double>(report.levels.size()));
+    const Watch level_watch = LevelWatch(watch, level, report.levels.size());
+    LevelWatch(watch.Between(kVerifiedWithSights, 1), level, report.levels.size())
+        .Report(Stage::kVerify, 0);
     const LevelReport& claimed = report.levels[level];
-    const std::vector<Edge> edges = VerifyLevel(context, directory, claimed, claims);
+    const std::vector<Edge> edges =
+        VerifyLevel(context.With(level_watch), directory, claimed, claims);
     claims.Add(
         claimed.geometric_error_m >= finer_error_m,
         "lod" + std::to_string(level) + " has no smaller geometric error than a finer level");
@@ -224,15 +227,16 @@ bool Has(const std::vector<LevelReport>& levels, std::int64_t LevelReport::*byte
 Result<std::vector<ClaimCheck>> VerifyArtifacts(const fs::path& dem, const fs::path& directory,
                                                 const BuildOptions& options, const Watch& watch) {
   Claims claims;
+  watch.Report(Stage::kRead, 0);
   Status manifest = VerifyManifest(directory, claims);
   if (!manifest) return std::move(manifest.error());
   Result<std::string> text = ReadFile(directory / "report.json");
   if (!text) return std::move(text.error());
   Result<Report> report = ReadReport(*text);
   if (!report) return std::move(report.error());
-  watch.Report("read", 0);
   Result<std::unique_ptr<TerrainInput>> source = TerrainInput::Open(dem, options);
   if (!source) return std::move(source.error());
+  watch.Report(Stage::kRead, 1);
   VerifyDem(report->dem, (*source)->report(), claims);
   if (report->dem.columns != (*source)->dem().columns ||
       report->dem.rows != (*source)->dem().rows) {
@@ -245,6 +249,7 @@ Result<std::vector<ClaimCheck>> VerifyArtifacts(const fs::path& dem, const fs::p
   claims.Same("horizon edges", report->horizon_edges,
               static_cast<std::int64_t>(horizon->edges.size()));
 
+  watch.Report(Stage::kVerify, 0);
   std::optional<PublishedEdges> published;
   if (fs::exists(directory / "horizon.geojson")) {
     Result<std::string> geojson = ReadFile(directory / "horizon.geojson");
@@ -259,13 +264,18 @@ Result<std::vector<ClaimCheck>> VerifyArtifacts(const fs::path& dem, const fs::p
                 published->undecided);
     Status sights = VerifyEdges(**source, *horizon, *features, options.threads, watch, claims);
     if (!sights) return std::move(sights.error());
+  } else {  // no edge's lines of sight are there to be compared
+    watch.Report(Stage::kLinesOfSight, 1);
+    watch.Report(Stage::kEdgeMeasures, 1);
   }
+  watch.Report(Stage::kVerify, kVerifiedWithSights);
   Result<PostNormals> normals = FindPostNormals((*source)->terrain(), (*source)->georeference());
   if (!normals) return std::move(normals.error());
   VerifyLevels(**source, *horizon, directory, *report, published, *normals, watch, claims);
   if (Has(report->levels, &LevelReport::glb_bytes)) {
     VerifyTileset(**source, directory, *report, claims);
   }
+  watch.Report(Stage::kVerify, 1);
   return std::move(claims).Take();
 }
 

@@ -224,6 +224,7 @@ Status VerifyEdges(const TerrainInput& source, const Horizon& horizon,
   Result<std::vector<EdgeMeasures>> views =
       MeasureEdges(terrain, horizon, source.georeference(), threads, watch);
   if (!views) return std::move(views.error());
+  watch.Report(Stage::kVerify, kVerifiedBeforeSights);
   std::vector<Interval> middles;
   middles.reserve(features.size());
   for (const HorizonFeature& f : features) {

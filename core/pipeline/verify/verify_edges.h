@@ -9,6 +9,10 @@
 
 namespace farhorizon {
 
+/// What is done of Stage::kVerify before VerifySights, and with it; the rest is the levels'.
+inline constexpr double kVerifiedBeforeSights = 0.9;
+inline constexpr double kVerifiedWithSights = 0.95;
+
 /// Checks the azimuths, spans and weights of published horizon edges: against those found again, and
 /// by lines of sight. Random lines find their skyline nowhere outside them; from within an edge's
 /// widest azimuth it is seen, from within the widest gap between them it is not.

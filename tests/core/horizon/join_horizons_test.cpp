@@ -141,7 +141,7 @@ TEST(JoinHorizons, TilesSweptApartGiveTheHorizonOfTheWhole) {
 TEST(JoinHorizons, RealDemsCutIntoTilesToo) {
   for (const char* name : {"gabilan_65.tif", "sthelens_crater_129.tif", "ontario_dted0_121.tif"}) {
     const std::filesystem::path path = std::filesystem::path(FARHORIZON_DEM_DIR) / name;
-    if (!std::filesystem::exists(path)) GTEST_SKIP() << "no " << path;
+    if (!std::filesystem::exists(path)) GTEST_SKIP() << "no " << name << " in FARHORIZON_DEM_DIR";
     const Dem dem = *ReadDem(path, {});
     const Named wanted = HorizonAtOnce(dem);
     EXPECT_EQ(HorizonByTiles(dem, 2), wanted) << name;

@@ -384,7 +384,7 @@ TEST_F(DemReader, RefusesAnEnviRasterThatIsCutShort) {
 
 TEST_F(DemReader, RefusesADtedFileThatIsCutShort) {
   const std::filesystem::path whole = std::filesystem::path(FARHORIZON_DEM_DIR) / "ontario_n43.dt0";
-  if (!std::filesystem::exists(whole)) GTEST_SKIP() << "no real DEM " << whole;
+  if (!std::filesystem::exists(whole)) GTEST_SKIP() << "no ontario_n43.dt0 in FARHORIZON_DEM_DIR";
   const std::string bytes = SlurpFile(whole);
   EXPECT_THAT(KindOfText("n43.dt0", bytes.substr(0, bytes.size() - 100)),
               ::testing::AnyOf("truncated", "not-a-raster"));

@@ -31,7 +31,8 @@ class RealDems : public ::testing::TestWithParam<RealDem> {};
 TEST_P(RealDems, IsReadAsItsListSays) {
   const RealDem& expected = GetParam();
   const std::filesystem::path path = std::filesystem::path(FARHORIZON_DEM_DIR) / expected.name;
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << "no real DEM " << path;
+  if (!std::filesystem::exists(path))
+    GTEST_SKIP() << "no " << expected.name << " in FARHORIZON_DEM_DIR";
   Result<Dem> dem = ReadDem(path, {});
   ASSERT_TRUE(dem) << dem.error().message;
   EXPECT_EQ(dem->columns, expected.columns);
@@ -57,7 +58,8 @@ TEST_P(RealDems, IsReadAsItsListSays) {
 
 TEST_P(RealDems, LiesOnTheGlobeAndComesBack) {
   const std::filesystem::path path = std::filesystem::path(FARHORIZON_DEM_DIR) / GetParam().name;
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << "no real DEM " << path;
+  if (!std::filesystem::exists(path))
+    GTEST_SKIP() << "no " << GetParam().name << " in FARHORIZON_DEM_DIR";
   Result<Dem> dem = ReadDem(path, {});
   ASSERT_TRUE(dem) << dem.error().message;
   std::vector<MapPoint> corners;

@@ -55,19 +55,10 @@ INSTANTIATE_TEST_SUITE_P(
                     BadParameter{"levels", "99999999999"}, BadParameter{"maxError", "0"},
                     BadParameter{"maxError", "-1"}, BadParameter{"maxError", "nan"},
                     BadParameter{"maxError", "inf"}, BadParameter{"maxError", "3m"},
-                    BadParameter{"silhouetteError", "-0.5"}, BadParameter{"skirt", "-1"},
-                    BadParameter{"formats", ""}, BadParameter{"formats", "stl"},
-                    BadParameter{"nodata", "inf"}, BadParameter{"workBudget", "0"},
-                    BadParameter{"workBudget", "1e9"}, BadParameter{"approximate", "1"}));
-
-TEST(ParseOptions, SaysOfWhatIsNotBuiltThatItIsNot) {
-  for (const auto& [name, value] : std::map<std::string, std::string>{
-           {"triangles", "1000"}, {"skirt", "5"}, {"formats", "quantized-mesh"}}) {
-    Result<BuildOptions> options = ParseOptions({{name, value}});
-    ASSERT_FALSE(options) << name;
-    EXPECT_EQ(options.error().kind, "not-available");
-  }
-}
+                    BadParameter{"silhouetteError", "-0.5"}, BadParameter{"formats", ""},
+                    BadParameter{"formats", "stl"}, BadParameter{"nodata", "inf"},
+                    BadParameter{"workBudget", "0"}, BadParameter{"workBudget", "1e9"},
+                    BadParameter{"approximate", "1"}));
 
 }  // namespace
 }  // namespace farhorizon

@@ -158,7 +158,7 @@ TEST(LodChain, ALevelKeepsOnlyHorizonEdgesThatTheFinerOneKeepsAndHasThem) {
 
 TEST(LodChain, KeepsTheSkylineOfRealHillsWithLessThanHalfTheTriangles) {
   const std::filesystem::path path = std::filesystem::path(FARHORIZON_DEM_DIR) / "gabilan_65.tif";
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << "no " << path;
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << "no gabilan_65.tif in FARHORIZON_DEM_DIR";
   const Dem dem = *ReadDem(path, {});
   const Chain chain = Build(dem, {{0.125, 0, 0, 0}, {0.5, 0.0625, 0, 0}});
   const double quantum = dem.quantum_m;
