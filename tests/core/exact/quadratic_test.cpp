@@ -85,7 +85,8 @@ TEST(Between, FindsTheCoarsestDyadicNumber) {
   EXPECT_FALSE(Between(third, third));
 }
 
-// sqrt(1/2) and a rational number next to it, of a convergent of Pell's equation: apart by some 2^-202.
+// sqrt(1/2) and a rational number next to it, from a convergent of Pell's equation: apart by some
+// 2^-202.
 TEST(CompareRoots, TellsApartNumbersThatAgreeInTwoHundredBits) {
   Int128 p = 1;
   Int128 q = 1;  // p / q to sqrt(2)
@@ -130,18 +131,18 @@ TEST(SignAt, IsTheSameForANumberOfEitherKind) {
 
 TEST(NonNegativeAround, EndsWhereThePolynomialTurnsNegative) {
   // (t - 1/4)(3/4 - t) * 16
-  const NonNegativeRange hill = NonNegativeAround({-3, 16, -16}, {1, 1});
+  const NonNegativeRange hill = NonNegativeAround({-3, 16, -16}, Dyadic{1, 1});
   ASSERT_TRUE(hill.from && hill.to);
   EXPECT_EQ(Compare(*hill.from, Dyadic{1, 2}), 0);
   EXPECT_EQ(Compare(*hill.to, Dyadic{3, 2}), 0);
   // Its opposite, left of the lower root.
-  const NonNegativeRange valley = NonNegativeAround({3, -16, 16}, {1, 3});
+  const NonNegativeRange valley = NonNegativeAround({3, -16, 16}, Dyadic{1, 3});
   EXPECT_FALSE(valley.from);
   ASSERT_TRUE(valley.to);
   EXPECT_EQ(Compare(*valley.to, Dyadic{1, 2}), 0);
   // -(2 t - 1)^2 is not negative at 1/2 alone; its opposite never is.
-  EXPECT_TRUE(NonNegativeAround({-1, 4, -4}, {1, 1}).point);
-  const NonNegativeRange everywhere = NonNegativeAround({1, -4, 4}, {1, 1});
+  EXPECT_TRUE(NonNegativeAround({-1, 4, -4}, Dyadic{1, 1}).point);
+  const NonNegativeRange everywhere = NonNegativeAround({1, -4, 4}, Dyadic{1, 1});
   EXPECT_FALSE(everywhere.point || everywhere.from || everywhere.to);
 }
 
