@@ -4,7 +4,6 @@
 #include <functional>
 #include <numeric>
 
-#include "core/geometry/plan.h"
 #include "core/horizon/visibility/occluder_set.h"
 #include "core/simplify/skyline_guard.h"
 
@@ -70,12 +69,6 @@ bool IsTerrainEdge(const Terrain& terrain, Edge edge) {
 
 }  // namespace
 
-bool MayCarrySkyline(const Terrain& terrain, const MeshEdge& e) {
-  if (!e.left || !e.right) return true;
-  return RidgeSign(terrain.Point(e.edge.a), terrain.Point(e.edge.b), terrain.Point(*e.left),
-                   terrain.Point(*e.right)) > 0;
-}
-
 Result<double> SilhouetteBound(const Terrain& terrain, const Horizon& horizon,
                                const std::vector<MeshEdge>& edges, double asked,
                                const Watch& watch) {
@@ -87,7 +80,7 @@ Result<double> SilhouetteBound(const Terrain& terrain, const Horizon& horizon,
   OccluderSet occluders(terrain.dem().columns, terrain.dem().rows);
   std::vector<Edge> young;
   for (const MeshEdge& e : edges) {
-    if (!MayCarrySkyline(terrain, e)) continue;
+    if (!terrain.IsRidgeOrBorder(e.edge, {e.left, e.right})) continue;
     occluders.Insert({scale.Scale(terrain.Point(e.edge.a)), scale.Scale(terrain.Point(e.edge.b))});
     if (!IsTerrainEdge(terrain, e.edge)) young.push_back(e.edge);
   }

@@ -22,7 +22,4 @@ Result<double> SilhouetteBound(const Terrain& terrain, const Horizon& horizon,
                                const std::vector<MeshEdge>& edges, double asked,
                                const Watch& watch);
 
-/// Whether `e` may carry the skyline of its mesh: a ridge between its faces, or at the rim.
-bool MayCarrySkyline(const Terrain& terrain, const MeshEdge& e);
-
 }  // namespace farhorizon
