@@ -52,26 +52,29 @@ class [[nodiscard]] Result {
   [[nodiscard]] bool has_value() const { return std::holds_alternative<T>(state_); }
   explicit operator bool() const { return has_value(); }
 
-  T& operator*() & { return ValueOf(state_); }
-  const T& operator*() const& { return ValueOf(state_); }
-  T&& operator*() && { return std::move(ValueOf(state_)); }
-  T* operator->() { return &ValueOf(state_); }
-  const T* operator->() const { return &ValueOf(state_); }
+  T& operator*() & { return Value(); }
+  const T& operator*() const& { return Value(); }
+  T&& operator*() && { return std::move(Value()); }
+  T* operator->() { return &Value(); }
+  const T* operator->() const { return &Value(); }
 
-  [[nodiscard]] Error& error() { return ErrorOf(state_); }
-  [[nodiscard]] const Error& error() const { return ErrorOf(state_); }
+  [[nodiscard]] Error& error() {
+    Check(!has_value(), "error() of a success");
+    return std::get<Error>(state_);
+  }
+  [[nodiscard]] const Error& error() const {
+    Check(!has_value(), "error() of a success");
+    return std::get<Error>(state_);
+  }
 
  private:
-  // State: the variant, const or not; the reference that is returned is alike.
-  template <typename State>
-  static auto& ValueOf(State& state) {
-    Check(std::holds_alternative<T>(state), "value of a failure");
-    return std::get<T>(state);
+  T& Value() {
+    Check(has_value(), "value of a failure");
+    return std::get<T>(state_);
   }
-  template <typename State>
-  static auto& ErrorOf(State& state) {
-    Check(std::holds_alternative<Error>(state), "error() of a success");
-    return std::get<Error>(state);
+  const T& Value() const {
+    Check(has_value(), "value of a failure");
+    return std::get<T>(state_);
   }
 
   std::variant<T, Error> state_;
