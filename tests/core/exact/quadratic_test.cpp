@@ -9,7 +9,7 @@
 namespace farhorizon {
 namespace {
 
-// Roots by the schoolbook formula in long double: good enough to place them where they are apart.
+// Roots by the formula in long double: good enough to order roots that are apart.
 std::vector<long double> RootsByFormula(const Quadratic& q) {
   const auto a = static_cast<long double>(q.c2);
   const auto b = static_cast<long double>(q.c1);
@@ -73,6 +73,35 @@ TEST(CompareRoots, OneNumberFromDifferentPolynomialsIsEqual) {
   const QuadraticRoot third_too{{7, -22, 3}, false};
   EXPECT_EQ(Compare(third, third_too), 0);
   EXPECT_LT(Compare(third, half_root), 0);
+}
+
+TEST(ApproximateRoot, IsWithinItsErrorWhereItIsReliable) {
+  std::mt19937_64 random(4);
+  int reliable = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Quadratic p = RandomQuadratic(random, i % 2 == 0 ? 20 : 1'000'000);
+    const std::vector<long double> roots = RootsByFormula(p);
+    for (std::size_t j = 0; j < roots.size(); ++j) {
+      const RootEstimate estimate = ApproximateRoot({p, j == 1});
+      if (!estimate.reliable) continue;
+      ++reliable;
+      const long double most = kRootEstimateError * std::max(1.0L, std::abs(roots[j]));
+      ASSERT_LE(std::abs(estimate.value - roots[j]), most);
+    }
+  }
+  EXPECT_GT(reliable, 10000);
+  // (t - 1)^2 - 2^-80: nothing of the discriminant is left in doubles.
+  const Int128 one = Int128{1} << 80;
+  EXPECT_FALSE(ApproximateRoot({{one - 1, -2 * one, one}, true}).reliable);
+  EXPECT_EQ(DiscriminantSign({one - 1, -2 * one, one}), 1);
+}
+
+TEST(Proportional, IsAMultipleOfEitherSign) {
+  EXPECT_TRUE(Proportional({1, -2, 3}, {-2, 4, -6}));
+  EXPECT_TRUE(Proportional({0, 5, 0}, {0, -1, 0}));
+  EXPECT_FALSE(Proportional({1, -2, 3}, {1, -2, 4}));
+  const Int128 large = Int128{1} << 103;
+  EXPECT_FALSE(Proportional({large, large, large}, {large, large, large - 1}));
 }
 
 TEST(Between, FindsTheCoarsestDyadicNumber) {
