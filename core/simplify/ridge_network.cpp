@@ -221,13 +221,4 @@ void RidgeNetwork::PruneLeaves(const Watch& watch) {
   }
 }
 
-std::vector<Edge> RidgeNetwork::Edges() const {
-  std::vector<Edge> edges;
-  for (const Ridge& ridge : ridges_) {
-    if (ridge.in_network) edges.push_back(ridge.edge);
-  }
-  std::sort(edges.begin(), edges.end());
-  return edges;
-}
-
 }  // namespace farhorizon

@@ -40,15 +40,11 @@ class RidgeNetwork {
   /// Cost: one visibility query for each dependent of a ridge tried.
   void PruneLeaves(const Watch& watch);
 
-  [[nodiscard]] bool Has(VertexId v) const { return ridges_of_.count(v) > 0; }
   /// Whether a post may be moved onto its neighbour: one on no ridge may, another along a ridge.
   [[nodiscard]] bool MayMove(VertexId v, VertexId b) const;
   /// Replaces the ridges at `v` by ridges at `b`. False, and nothing is changed, where a horizon
   /// edge would become visible. Requires: MayMove(v, b).
   bool Move(VertexId v, VertexId b);
-
-  /// The ridges in the network.
-  [[nodiscard]] std::vector<Edge> Edges() const;
 
  private:
   using RidgeId = std::int32_t;

@@ -52,7 +52,6 @@ class Star {
 
   void Gather(const Surface& surface, const PostsByTriangle& posts, VertexId v);
 
-  [[nodiscard]] VertexId centre() const { return centre_; }
   [[nodiscard]] const std::vector<StarTriangle>& triangles() const { return triangles_; }
   /// The neighbours of the centre, each once.
   [[nodiscard]] const std::vector<VertexId>& neighbours() const { return neighbours_; }
