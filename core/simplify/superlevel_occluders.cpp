@@ -12,8 +12,8 @@
 namespace farhorizon {
 namespace {
 
-// Any counts are sound, as every segment is a virtual occluder. With more heights there is one closer
-// below each target; short segments occlude little and slow every query.
+// Any counts are sound, as every segment is a virtual occluder. With more heights there is one
+// closer below each target; short segments occlude little and slow every query.
 constexpr std::size_t kHeights = 64;
 constexpr std::int32_t kLeastExtent = 5;  // columns or rows
 
