@@ -7,6 +7,7 @@
 #include <vector>
 
 namespace farhorizon {
+
 bool ParallelForBatches(std::size_t count, std::size_t size, int threads, Stage stage,
                         const Watch& watch,
                         const std::function<void(std::size_t, std::size_t, std::size_t)>& work) {

@@ -8,13 +8,13 @@
 
 namespace farhorizon {
 
-/// Why something could not be done, by who can do something about it.
+/// Why something could not be done, by where the remedy lies.
 enum class ErrorCode {
   kInvalidArgument,    ///< the call is at fault
-  kNotFound,           ///< what it names does not exist
+  kNotFound,           ///< the call names something that does not exist
   kUnsupportedData,    ///< the data is at fault
   kResourceExhausted,  ///< over a stated limit, or out of memory or disk
-  kCancelled,          ///< somebody asked to stop
+  kCancelled,          ///< a stop was requested
   kIo,                 ///< a file, a driver or a socket failed
 };
 
@@ -31,7 +31,7 @@ struct Error {
   [[nodiscard]] Error Within(const std::string& where) &&;
 };
 
-/// Thrown where an invariant of our own is broken: always a bug of ours, never of the data.
+/// Thrown where an invariant of this program is broken: a bug of the program, whatever the data.
 class InternalError : public std::logic_error {
  public:
   using std::logic_error::logic_error;
@@ -41,7 +41,8 @@ class InternalError : public std::logic_error {
 void Check(bool holds, const char* what,
            std::source_location where = std::source_location::current());
 
-/// A value or the Error that kept it from being made. A subset of std::expected (C++23).
+/// A value, or the Error on account of which there is none. A subset of std::expected (C++23).
+/// Reading the one that is not there throws InternalError.
 template <typename T>
 class [[nodiscard]] Result {
  public:
@@ -52,12 +53,16 @@ class [[nodiscard]] Result {
   explicit operator bool() const { return has_value(); }
 
   T& operator*() & { return Value(); }
-  const T& operator*() const& { return const_cast<Result*>(this)->Value(); }
+  const T& operator*() const& { return Value(); }
   T&& operator*() && { return std::move(Value()); }
   T* operator->() { return &Value(); }
-  const T* operator->() const { return &const_cast<Result*>(this)->Value(); }
+  const T* operator->() const { return &Value(); }
 
   [[nodiscard]] Error& error() {
+    Check(!has_value(), "error() of a success");
+    return std::get<Error>(state_);
+  }
+  [[nodiscard]] const Error& error() const {
     Check(!has_value(), "error() of a success");
     return std::get<Error>(state_);
   }
@@ -67,11 +72,15 @@ class [[nodiscard]] Result {
     Check(has_value(), "value of a failure");
     return std::get<T>(state_);
   }
+  const T& Value() const {
+    Check(has_value(), "value of a failure");
+    return std::get<T>(state_);
+  }
 
   std::variant<T, Error> state_;
 };
 
-/// The result of work that leaves nothing behind but its success.
+/// The result of work that returns no value.
 struct Done {};
 using Status = Result<Done>;
 

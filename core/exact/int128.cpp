@@ -12,6 +12,8 @@ struct Product {
   int sign;
 };
 
+// By halves of 64 bits: x y = x1 y1 2^128 + (x1 y0 + x0 y1) 2^64 + x0 y0. Requires: neither is
+// -2^127.
 Product Multiply(Int128 a, Int128 b) {
   const Uint128 x = a < 0 ? -static_cast<Uint128>(a) : static_cast<Uint128>(a);
   const Uint128 y = b < 0 ? -static_cast<Uint128>(b) : static_cast<Uint128>(b);
@@ -21,7 +23,7 @@ Product Multiply(Int128 a, Int128 b) {
   const Uint128 y0 = y & mask;
   const Uint128 y1 = y >> 64U;
   const Uint128 low = x0 * y0;
-  const Uint128 cross = x1 * y0 + (low >> 64U);  // < 2^128: x1 < 2^63
+  const Uint128 cross = x1 * y0 + (low >> 64U);  // x1 <= 2^63: no overflow
   const Uint128 middle = x0 * y1 + (cross & mask);
   return {(middle << 64U) | (low & mask), x1 * y1 + (cross >> 64U) + (middle >> 64U),
           SignOf(a) * SignOf(b)};

@@ -1,3 +1,7 @@
+// Roots with brackets. A bracket is one cell of the grid of multiples of 2^-kBracketBits; it is
+// found from the root in floating point, verified by exact comparisons with the cell's two ends,
+// and by bisection where the guess was wrong. Brackets that do not touch order their roots without
+// further arithmetic. Cost: a few comparisons of quadratic.h a root.
 #include "core/exact/isolated_root.h"
 
 #include <algorithm>
@@ -8,32 +12,23 @@
 namespace farhorizon {
 namespace {
 
-// The root in plain floating point; wrong by much only where two roots nearly coincide.
-double Estimate(const QuadraticRoot& root) {
-  const auto c0 = static_cast<double>(root.q.c0);
-  const auto c1 = static_cast<double>(root.q.c1);
-  const auto c2 = static_cast<double>(root.q.c2);
-  if (root.q.c2 == 0) return -c0 / c1;
-  const double width = std::sqrt(std::max(c1 * c1 - 4 * c2 * c0, 0.0));
-  // The sum without cancellation is twice c2 times one root; their product is c0 / c2.
-  const double sum = -(c1 + std::copysign(width, c1)) / 2;
-  const bool sum_is_upper = (sum > -c1 / 2) == (c2 > 0);
-  if (width == 0 || sum_is_upper == root.upper) return sum / c2;
-  return sum == 0 ? 0 : c0 / sum;
-}
-
+// n / 2^bits.
 Dyadic Grid(std::int64_t n, int bits) { return {Int128{n}, bits}; }
 
-// The n for which the root lies in [n, n + 1] / 2^bits.
-std::int64_t CellOf(const QuadraticRoot& root, double estimate, int bits) {
+// The n for which the root lies in [n, n + 1] / 2^bits, 0 <= n < 2^bits. Requires: the root is in
+// [0, 1].
+std::int64_t CellOf(const QuadraticRoot& root, double guess, int bits) {
   const std::int64_t end = std::int64_t{1} << bits;
-  const double scaled = std::ldexp(estimate, bits);
+  const double scaled = std::ldexp(guess, bits);
   if (scaled > 0 && scaled < static_cast<double>(end)) {
-    const auto near = static_cast<std::int64_t>(scaled);
-    const int side = Compare(root, Grid(near, bits));
-    if (side == 0) return std::min(near, end - 1);
-    const std::int64_t n = side > 0 ? near : near - 1;
-    if (n >= 0 && n < end && Compare(root, Grid(side > 0 ? n + 1 : n, bits)) * side <= 0) return n;
+    const auto nearest = static_cast<std::int64_t>(scaled);
+    const int side = Compare(root, Grid(nearest, bits));
+    if (side == 0) return std::min(nearest, end - 1);
+    // The root is in the cell above or below `nearest` if the far end of that cell is beyond the
+    // root.
+    const std::int64_t n = side > 0 ? nearest : nearest - 1;
+    const std::int64_t far_end = side > 0 ? n + 1 : n;
+    if (n >= 0 && n < end && Compare(root, Grid(far_end, bits)) * side <= 0) return n;
   }
   std::int64_t low = 0;
   std::int64_t high = end;
@@ -44,8 +39,8 @@ std::int64_t CellOf(const QuadraticRoot& root, double estimate, int bits) {
   return low;
 }
 
-IsolatedRoot Place(const QuadraticRoot& root) {
-  const std::int64_t n = CellOf(root, Estimate(root), kBracketBits);
+IsolatedRoot Isolate(const QuadraticRoot& root) {
+  const std::int64_t n = CellOf(root, ApproximateRoot(root).value, kBracketBits);
   return {root, std::ldexp(static_cast<double>(n), -kBracketBits),
           std::ldexp(static_cast<double>(n + 1), -kBracketBits)};
 }
@@ -54,8 +49,10 @@ IsolatedRoot Place(const QuadraticRoot& root) {
 
 double IsolatedRoot::ToDouble() const {
   if (lo == hi) return lo;
+  // Where two roots nearly coincide the estimate can be far off. Its distance from the root is at
+  // most 2^-48 after it has been moved into the cell of that width in which the root lies.
   constexpr int kBits = 48;
-  const double estimate = std::clamp(Estimate(root), lo, hi);
+  const double estimate = std::clamp(ApproximateRoot(root).value, lo, hi);
   const std::int64_t n = CellOf(root, estimate, kBits);
   const double from = std::ldexp(static_cast<double>(n), -kBits);
   const double to = std::ldexp(static_cast<double>(n + 1), -kBits);
@@ -78,37 +75,41 @@ int Compare(const IsolatedRoot& r, const IsolatedRoot& s) {
   return Compare(r.root, s.root);
 }
 
+// By the signs of q at 0 and at 1 and by the way the parabola opens. A root at 0 or 1 itself is not
+// strictly between; the other root is then rational and compared with 0 and 1 by its coefficients.
 std::vector<IsolatedRoot> SignChanges(const Quadratic& q) {
   const int at0 = SignOf(q.c0);
   const int at1 = SignOf(q.c0 + q.c1 + q.c2);
   const int opening = SignOf(q.c2);
   if (opening == 0) {
-    if (at0 * at1 < 0) return {Place({q, false})};
+    if (at0 * at1 < 0) return {Isolate({q, false})};
     return {};
   }
   if (at0 == 0 && at1 == 0) return {};
   if (at0 == 0) {
     // The other root is -c1 / c2.
     if (SignOf(q.c1) * opening < 0 && (opening > 0 ? -q.c1 < q.c2 : -q.c1 > q.c2)) {
-      return {Place({q, true})};
+      return {Isolate({q, true})};
     }
     return {};
   }
   if (at1 == 0) {
     // The other root is c0 / c2.
-    if (at0 == opening && (opening > 0 ? q.c0 < q.c2 : q.c0 > q.c2)) return {Place({q, false})};
+    if (at0 == opening && (opening > 0 ? q.c0 < q.c2 : q.c0 > q.c2)) return {Isolate({q, false})};
     return {};
   }
-  if (at0 != at1) return {Place({q, at0 != opening})};
-  // None or two: the vertex of the parabola lies between, on the other side of the axis.
+  if (at0 != at1) return {Isolate({q, at0 != opening})};
+  // None or two. Two, if the vertex of the parabola lies strictly between 0 and 1, which the slopes
+  // at both tell, and beyond the axis, which the discriminant tells.
   const Int128 slope1 = q.c1 + 2 * q.c2;
   if (at0 != opening || SignOf(q.c1) != -opening || SignOf(slope1) != opening) return {};
-  if (CompareProducts(q.c1, q.c1, 4 * q.c2, q.c0) <= 0) return {};
-  return {Place({q, false}), Place({q, true})};
+  if (DiscriminantSign(q) <= 0) return {};
+  return {Isolate({q, false}), Isolate({q, true})};
 }
 
 SamplePoint PointBetween(const IsolatedRoot& r, const IsolatedRoot& s) {
   if (r.hi < s.lo) {
+    // The coarsest number between the brackets, a multiple of 2^-(kBracketBits + 1) at the finest.
     double scale = 2;
     for (int bits = 1; bits <= kBracketBits + 1; ++bits, scale *= 2) {
       const double n = std::floor(r.hi * scale) + 1;

@@ -7,8 +7,8 @@
 
 namespace farhorizon {
 
-/// A root in [0, 1] with a bracket that tells it from most others at once: lo <= root <= hi, both
-/// multiples of 2^-kBracketBits, next to each other or the same.
+/// A root in [0, 1] with a bracket, lo <= root <= hi, which orders it against most others without
+/// further arithmetic. lo and hi are multiples of 2^-kBracketBits, neighbours or equal.
 struct IsolatedRoot {
   QuadraticRoot root;
   double lo = 0;
@@ -20,26 +20,30 @@ struct IsolatedRoot {
   /// Within 2^-47 of the root.
   [[nodiscard]] double ToDouble() const;
 };
+/// Any count up to 52 is sound: brackets are then exact doubles. 30 tell apart what two doubles of
+/// ApproximateRoot tell apart, kRootEstimateError being 2^-28.
 inline constexpr int kBracketBits = 30;
 
 /// The sign of r - s, exactly.
 int Compare(const IsolatedRoot& r, const IsolatedRoot& s);
 
-/// The roots strictly between 0 and 1 at which q changes its sign, rising.
+/// The roots strictly between 0 and 1 at which q changes its sign, in ascending order.
 std::vector<IsolatedRoot> SignChanges(const Quadratic& q);
 
-/// A dyadic number to evaluate polynomials at; wide only where 128 bits cannot say it.
+/// A dyadic number at which polynomials are evaluated. `wide` is set only where 128 bits do not
+/// hold it; it counts in place of `t` then.
 struct SamplePoint {
   Dyadic t;
   std::optional<WideDyadic> wide;
 
-  /// The sign of q between its sign changes on either side, exactly: that here, or that around where q
-  /// only touches zero here; 0 where q is zero everywhere. Requires: q does not change its sign here.
+  /// The sign that q has between its nearest sign changes on either side of the point, exactly.
+  /// Where q touches zero at the point, that is the sign around it; 0 where q is zero everywhere.
+  /// Requires: q does not change its sign at the point.
   [[nodiscard]] int Sign(const Quadratic& q) const {
     const int sign = wide ? SignAt(q, *wide) : SignAt(q, t);
     return sign != 0 ? sign : SignOf(q.c2);
   }
-  /// Rounded: within 2^-53 of it.
+  /// Within 2^-52 of it.
   [[nodiscard]] double ToDouble() const { return wide ? wide->ToDouble() : t.ToDouble(); }
 };
 

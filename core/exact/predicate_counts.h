@@ -4,11 +4,11 @@
 
 namespace farhorizon {
 
-/// Counts of exact decisions, by the rung that made them.
+/// Counts of exact comparisons by the arithmetic that decided them.
 struct PredicateCounts {
-  std::int64_t filtered = 0;
-  std::int64_t exact = 0;
-  std::int64_t tied = 0;
+  std::int64_t filtered = 0;  ///< floating point, with an error bound
+  std::int64_t exact = 0;     ///< integers: the two sides differ
+  std::int64_t tied = 0;      ///< integers: the two sides are equal
 
   [[nodiscard]] std::int64_t Sum() const { return filtered + exact + tied; }
 };

@@ -15,22 +15,28 @@ struct BasicDyadic {
   Int n{};
   int k = 0;
 
+  /// Within 2^-52 of the number; exact where n has at most 53 bits.
   [[nodiscard]] double ToDouble() const { return std::ldexp(static_cast<double>(n), -k); }
 };
 
-/// k <= kMaxDyadicBits: nearly all that are ever asked for.
+/// k <= kMaxDyadicBits: enough for nearly all points that are evaluated.
 using Dyadic = BasicDyadic<Int128>;
 inline constexpr int kMaxDyadicBits = 70;
 
-/// The few bits that most points need.
+/// For the few bits that most points need.
 using ShortDyadic = BasicDyadic<std::int64_t>;
 
-/// k <= kMaxWideDyadicBits: one of these is between any two different roots in [0, 1]. For two roots
-/// a and b of polynomials p and q without a common one, with the other roots a' and b', the resultant
-/// p2^2 q2^2 (a - b)(a - b')(a' - b)(a' - b') is an integer, not 0. |p2 a'| = |p1 + p2 a| < 2^105,
-/// so |p2 (a' - b)| and |q2 (a - b')| are below 2^106, |p2 q2 (a' - b')| below 2^210, and |a - b| is
-/// above 2^-422. Roots of polynomials that share one are rational, or of one polynomial, and further
-/// apart.
+/// k <= kMaxWideDyadicBits.
+///
+/// One of these numbers lies between any two different roots a, b in [0, 1] of Quadratics p, q.
+/// Where p and q have no root in common, let a' and b' be their other roots. The resultant
+///   p2^2 q2^2 (a - b)(a - b')(a' - b)(a' - b')
+/// is an integer other than 0, and a - b is its only factor that can be small:
+///   |p2 a'| = |p1 + p2 a| < 2^105, and |q2 b'| < 2^105 alike, so
+///   |p2 (a' - b)| < 2^106, |q2 (a - b')| < 2^106, |p2 q2 (a' - b')| < 2^210.
+/// The product of these three is below 2^422, so |a - b| > 2^-422. Different roots of Quadratics
+/// that have a root in common are further apart: both are rational with denominators below 2^104,
+/// or both are roots of one Quadratic.
 using WideDyadic = BasicDyadic<Int1280>;
 inline constexpr int kMaxWideDyadicBits = 424;
 
@@ -51,10 +57,17 @@ struct Quadratic {
 int SignAt(const Quadratic& q, Dyadic t);
 int SignAt(const Quadratic& q, const WideDyadic& t);
 
-/// True only if q >= 0 on all of [0, 1] (its Bernstein coefficients are). Cheap; misses some.
+/// True only if q >= 0 on all of [0, 1]: its Bernstein coefficients are not negative, and q is a
+/// combination of them with weights >= 0. False where that test does not tell.
 inline bool BernsteinNonNegative(const Quadratic& q) {
   return q.c0 >= 0 && 2 * q.c0 + q.c1 >= 0 && q.c0 + q.c1 + q.c2 >= 0;
 }
+
+/// Whether one polynomial is a multiple of the other. Exact, for coefficients of any size.
+bool Proportional(const Quadratic& p, const Quadratic& q);
+
+/// The sign of c1^2 - 4 c2 c0, exactly. Requires: |c2| < 2^124; c0, c1 of any size.
+int DiscriminantSign(const Quadratic& q);
 
 /// A real root of a polynomial that is not constant: the lower or the upper of two, or the only
 /// one.
@@ -62,28 +75,39 @@ struct QuadraticRoot {
   Quadratic q;
   bool upper = false;
 
-  /// The number itself, as the root of 2^k t - n. Requires: k <= 103; so it is for every number at
-  /// which a Quadratic is 0 that is not so everywhere: 2^k divides one of its coefficients.
+  /// The number itself, as the root of 2^k t - n. Requires: k <= 103. That holds for every number
+  /// at which a Quadratic is 0 without being 0 everywhere: 2^k divides one of its coefficients.
   static QuadraticRoot At(Dyadic t);
   static QuadraticRoot At(const WideDyadic& t);
 };
+
+/// The sign of root - x, from the signs at x of root.q (`value`) and of its derivative (`slope`).
+int SideOf(const QuadraticRoot& root, int value, int slope);
+
+/// A root in floating point.
+struct RootEstimate {
+  double value = 0;
+  /// `value` is within kRootEstimateError * max(1, |root|) of the root. False where the
+  /// discriminant loses too many digits for that; `value` is then no more than a first guess.
+  bool reliable = false;
+};
+inline constexpr double kRootEstimateError = 0x1p-28;
+RootEstimate ApproximateRoot(const QuadraticRoot& root);
 
 /// The sign of root - t, exactly. Requires: the root is real.
 int Compare(const QuadraticRoot& root, Dyadic t);
 int Compare(const QuadraticRoot& root, const WideDyadic& t);
 
-/// The sign of r - s, exactly: by doubles, by bisection, and where that does not part them by the
-/// resultant.
-/// Requires: both in [0, 1].
+/// The sign of r - s, exactly: by doubles; then by bisection; then, where bisection leaves the two
+/// together, by the resultant. Requires: both in [0, 1].
 int Compare(const QuadraticRoot& r, const QuadraticRoot& s);
 
 /// The coarsest dyadic number strictly between; nullopt where lo >= hi. Requires: both in [0, 1].
 std::optional<WideDyadic> Between(const QuadraticRoot& lo, const QuadraticRoot& hi);
 
-/// The largest closed interval around t on which q >= 0; an end that is missing is at infinity.
-/// point: the interval is t alone.
+/// The largest closed interval around t on which q >= 0. An end that is missing is at infinity.
 struct NonNegativeRange {
-  bool point = false;
+  bool point = false;  ///< the interval is t alone; no ends are given
   std::optional<QuadraticRoot> from;
   std::optional<QuadraticRoot> to;
 };

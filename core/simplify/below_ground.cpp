@@ -1,3 +1,9 @@
+// The segment is taken apart where it crosses grid lines: cell by cell, or from post to post where
+// it runs along edges of the grid. A piece is below the ground if it is so at every terrain edge of
+// the cell that it crosses, as both are straight between; exactly, in 128-bit integers. Otherwise
+// it is occluded if the whole cell is inside one merged hull at a height that the piece does not
+// exceed.
+// Cost: constant for each cell crossed.
 #include "core/simplify/below_ground.h"
 
 #include <algorithm>
@@ -27,13 +33,14 @@ class Walk {
     q_.z -= steps;
   }
 
-  [[nodiscard]] bool Covered() const {
+  [[nodiscard]] bool IsBelow() const {
     const std::int32_t dx = q_.x - p_.x;
     const std::int32_t dy = q_.y - p_.y;
-    // Along edges of the grid there are posts to compare with, and no cells to cross.
-    if (dx == 0 || dy == 0 || dx == dy) return PostsCover(std::gcd(dx, dy));
+    // Along edges of the grid the segment passes from post to post and crosses no cell.
+    if (dx == 0 || dy == 0 || dx == dy) return IsBelowFromPostToPost(std::gcd(dx, dy));
     for (std::int32_t c = p_.x; c < q_.x; ++c) {
-      // Rows at the strip's two columns, as floor and ceiling of quotients.
+      // The rows that the segment passes between columns c and c + 1: floor and ceiling of
+      // quotients.
       const std::int64_t at_left = std::int64_t{dy} * (c - p_.x);
       const std::int64_t at_right = at_left + dy;
       const std::int64_t top = std::min(at_left, at_right);
@@ -41,7 +48,7 @@ class Walk {
       const auto first = static_cast<std::int32_t>(p_.y + FloorDivide(top, dx));
       const auto last = static_cast<std::int32_t>(p_.y - FloorDivide(-bottom, dx)) - 1;
       for (std::int32_t r = first; r <= last; ++r) {
-        if (!CellCovers(c, r)) return false;
+        if (!IsBelowInCell(c, r)) return false;
       }
     }
     return true;
@@ -55,35 +62,35 @@ class Walk {
     return row * terrain_.dem().columns + column;
   }
 
-  // A level in quanta that is not below the segment at the share t of its way.
-  [[nodiscard]] std::int32_t LevelAt(double t) const {
+  // A height in whole quanta that the segment does not exceed at the share t of its length.
+  [[nodiscard]] std::int32_t HeightAt(double t) const {
     const double z = p_.z + t * (static_cast<double>(q_.z) - p_.z);
     // Doubles are right to 2^-20 here; a whole step up is more than that.
     return scale_.middle +
            static_cast<std::int32_t>(std::ceil((z + 1) / std::ldexp(1.0, scale_.shift)));
   }
 
-  [[nodiscard]] bool PostsCover(std::int32_t n) const {
+  [[nodiscard]] bool IsBelowFromPostToPost(std::int32_t n) const {
     const std::int32_t step_x = (q_.x - p_.x) / n;
     const std::int32_t step_y = (q_.y - p_.y) / n;
-    const auto ground_at = [&](std::int32_t i) {
+    const auto is_below_post = [&](std::int32_t i) {
       const VertexId v = PostAt(p_.x + i * step_x, p_.y + i * step_y);
       if (!terrain_.dem().HasData(v)) return false;
       const std::int64_t z = scale_.Scale(terrain_.Point(v)).z;
       return (z - p_.z) * n >= (std::int64_t{q_.z} - p_.z) * i;
     };
     for (std::int32_t i = 0; i < n; ++i) {
-      if (ground_at(i) && ground_at(i + 1)) continue;
-      const std::int32_t level =
-          std::max(LevelAt(static_cast<double>(i) / n), LevelAt(static_cast<double>(i + 1) / n));
+      if (is_below_post(i) && is_below_post(i + 1)) continue;
+      const std::int32_t height =
+          std::max(HeightAt(static_cast<double>(i) / n), HeightAt(static_cast<double>(i + 1) / n));
       const VertexId u = PostAt(p_.x + i * step_x, p_.y + i * step_y);
       const VertexId w = PostAt(p_.x + (i + 1) * step_x, p_.y + (i + 1) * step_y);
-      if (!hulls_.Hides(u, w, level)) return false;
+      if (!hulls_.Hides(u, w, height)) return false;
     }
     return true;
   }
 
-  [[nodiscard]] bool CellCovers(std::int32_t c, std::int32_t r) const {
+  [[nodiscard]] bool IsBelowInCell(std::int32_t c, std::int32_t r) const {
     const VertexId nw = PostAt(c, r);
     const VertexId ne = nw + 1;
     const VertexId sw = nw + terrain_.dem().columns;
@@ -91,19 +98,18 @@ class Walk {
     for (const VertexId v : {nw, ne, sw, se}) {
       if (!terrain_.dem().HasData(v)) return false;
     }
-    return GroundCovers(nw, ne) && GroundCovers(sw, se) && GroundCovers(nw, sw) &&
-                   GroundCovers(ne, se) && GroundCovers(nw, se)
-               ? true
-               : HullCovers(c, r, {nw, ne, sw, se});
+    const bool below_edges = IsBelowEdge(nw, ne) && IsBelowEdge(sw, se) && IsBelowEdge(nw, sw) &&
+                             IsBelowEdge(ne, se) && IsBelowEdge(nw, se);
+    return below_edges || IsBelowHull(c, r, {nw, ne, sw, se});
   }
 
-  // Whether the ground's edge u, w is at or above the segment where they cross, if they do.
-  [[nodiscard]] bool GroundCovers(VertexId u, VertexId w) const {
+  // Whether the segment is at or below the terrain edge u, w where they cross; true if they do not.
+  [[nodiscard]] bool IsBelowEdge(VertexId u, VertexId w) const {
     const Point3i at_u = scale_.Scale(terrain_.Point(u));
     const Point3i at_w = scale_.Scale(terrain_.Point(w));
     std::int64_t of_w = TwiceArea(p_, q_, at_u);
     std::int64_t of_u = -TwiceArea(p_, q_, at_w);
-    if ((of_u > 0 && of_w < 0) || (of_u < 0 && of_w > 0)) return true;  // on one side of it
+    if ((of_u > 0 && of_w < 0) || (of_u < 0 && of_w > 0)) return true;  // no crossing
     of_u = std::abs(of_u);
     of_w = std::abs(of_w);
     const std::int64_t of_q = std::abs(TwiceArea(at_u, at_w, p_));
@@ -113,19 +119,19 @@ class Walk {
     return ground * (of_p + of_q) >= target * (of_u + of_w);
   }
 
-  // Whether the cell lies in one merged hull at a level that the segment does not exceed in it.
-  [[nodiscard]] bool HullCovers(std::int32_t c, std::int32_t r,
-                                const std::array<VertexId, 4>& corners) const {
+  // Whether the cell is inside one merged hull at a height that the segment does not exceed in it.
+  [[nodiscard]] bool IsBelowHull(std::int32_t c, std::int32_t r,
+                                 const std::array<VertexId, 4>& corners) const {
     const double dx = q_.x - p_.x;
     const double dy = q_.y - p_.y;
     const double by_row_from = (r + (dy < 0 ? 1 : 0) - p_.y) / dy;
     const double by_row_to = (r + (dy < 0 ? 0 : 1) - p_.y) / dy;
     const double from = std::max((c - p_.x) / dx, by_row_from);
     const double to = std::min((c + 1 - p_.x) / dx, by_row_to);
-    const std::int32_t level = std::max(LevelAt(from), LevelAt(to));
-    return hulls_.Hides(corners[0], corners[1], level) &&
-           hulls_.Hides(corners[0], corners[2], level) &&
-           hulls_.Hides(corners[0], corners[3], level);
+    const std::int32_t height = std::max(HeightAt(from), HeightAt(to));
+    return hulls_.Hides(corners[0], corners[1], height) &&
+           hulls_.Hides(corners[0], corners[2], height) &&
+           hulls_.Hides(corners[0], corners[3], height);
   }
 
   const Terrain& terrain_;
@@ -139,7 +145,7 @@ class Walk {
 
 bool GroundCovers(const Terrain& terrain, const HullMergeTree& hulls, const HeightScale& scale,
                   VertexId p, VertexId q, std::int32_t steps) {
-  return Walk(terrain, hulls, scale, p, q, steps).Covered();
+  return Walk(terrain, hulls, scale, p, q, steps).IsBelow();
 }
 
 }  // namespace farhorizon

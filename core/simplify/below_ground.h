@@ -8,9 +8,9 @@
 
 namespace farhorizon {
 
-/// True only if the segment between posts p and q, lowered by `steps`, is at every point at or below
-/// the ground there, or below a merged hull of the ground: either way below the DEM's visual hull, so
-/// that it is hidden from every side. Cell by cell; false: not known.
+/// True only if the segment between posts p and q, lowered by `steps`, is at every point at or
+/// below the ground, or inside a merged hull of ground at least as high. Either way it is below the
+/// DEM's visual hull, so it is occluded in every direction. False: not known.
 ///
 /// Requires: the segment lies in the terrain's domain. Cost: the cells that it crosses.
 bool GroundCovers(const Terrain& terrain, const HullMergeTree& hulls, const HeightScale& scale,

@@ -30,7 +30,7 @@ bool RunsAlongOutline(const Terrain& terrain, Edge edge) {
   VertexId v = edge.a;
   for (std::int32_t i = 0; i < steps; ++i) {
     const VertexId next = v + row_step * dem.columns + column_step;
-    // a < b, so the step keeps the sense of the whole, and left stays left.
+    // a < b, so v < next, and left of the step is left of the whole segment.
     const Terrain::Faces faces = terrain.FacesOf(MakeEdge(v, next));
     lefts += static_cast<int>(faces.left.has_value());
     rights += static_cast<int>(faces.right.has_value());

@@ -6,11 +6,12 @@
 
 namespace farhorizon {
 
-/// The posts at the rim of the terrain: ends of an edge with a triangle on one side only.
+/// Per post, whether it is on the outline of the terrain: an end of an edge with a triangle on one
+/// side only.
 std::vector<bool> OutlinePosts(const Terrain& terrain);
 
-/// Whether the segment from a to b in plan is made of edges of the terrain with a triangle on one side
-/// only, the same side all along.
+/// Whether the segment from a to b, in plan, consists of edges of the terrain with a triangle on
+/// one side only, the same side for all.
 bool RunsAlongOutline(const Terrain& terrain, Edge edge);
 
 /// Whether `v` lies on one of the tile's four sides.

@@ -1,3 +1,6 @@
+// The queue holds at most one entry for each vertex: its cheapest collapse. A collapse makes the
+// costs of the neighbours stale; a stale entry is rated again when it comes first. So entries are
+// cheap to keep, and the order is that of costs except where a stale cost was too high.
 #include "core/simplify/collapse.h"
 
 #include <algorithm>
@@ -5,8 +8,9 @@
 namespace farhorizon {
 namespace {
 
-// No star grows past this: the cost of a collapse grows with the square of its sides.
-constexpr std::int32_t kMostSides = 48;
+// No vertex gets more triangles than these. Any count is sound; rating a collapse costs about the
+// square of it.
+constexpr std::int32_t kMostTriangles = 48;
 constexpr std::int64_t kStepsBetweenChecks = 512;
 
 std::uint64_t Pair(VertexId p, VertexId q) {
@@ -20,7 +24,7 @@ std::uint64_t UnorderedPair(VertexId p, VertexId q) { return p < q ? Pair(p, q) 
 Collapser::Collapser(const Terrain& terrain)
     : terrain_(&terrain),
       surface_(terrain),
-      coverage_(terrain.post_count(), surface_.triangle_id_end()),
+      posts_by_triangle_(terrain.post_count(), surface_.triangle_id_end()),
       star_(terrain) {
   const auto posts = static_cast<std::size_t>(terrain.post_count());
   pinched_.assign(posts, false);
@@ -30,9 +34,10 @@ Collapser::Collapser(const Terrain& terrain)
   target_.assign(posts, -1);
   for (VertexId v = 0; v < terrain.post_count(); ++v) {
     if (!surface_.IsVertex(v)) continue;
-    star_.Gather(surface_, coverage_, v);
+    star_.Gather(surface_, posts_by_triangle_, v);
     // One fan has as many neighbours as triangles, or one more at the border.
-    pinched_[static_cast<std::size_t>(v)] = star_.neighbours().size() > star_.sides().size() + 1;
+    pinched_[static_cast<std::size_t>(v)] =
+        star_.neighbours().size() > star_.triangles().size() + 1;
   }
 }
 
@@ -58,7 +63,7 @@ void Collapser::Start(const CollapseRules& rules) {
   refused_moves_.clear();
   for (VertexId v = 0; v < terrain_->post_count(); ++v) {
     const auto at = static_cast<std::size_t>(v);
-    if (surface_.IsVertex(v) && rules.may_leave[at] && !pinched_[at]) Rate(rules, v);
+    if (surface_.IsVertex(v) && rules.removable[at] && !pinched_[at]) Rate(rules, v);
   }
 }
 
@@ -79,15 +84,15 @@ bool Collapser::Refused(VertexId v, VertexId b) const {
 
 void Collapser::Rate(const CollapseRules& rules, VertexId v) {
   stale_[static_cast<std::size_t>(v)] = false;
-  star_.Gather(surface_, coverage_, v);
-  const auto sides = static_cast<std::int32_t>(star_.sides().size());
+  star_.Gather(surface_, posts_by_triangle_, v);
+  const auto triangles = static_cast<std::int32_t>(star_.triangles().size());
   double best = Star::kNever;
   for (const VertexId b : star_.neighbours()) {
     if (rules.may_move && !rules.may_move(v, b)) continue;
     if (Refused(v, b)) continue;
     const double cost = star_.CostOfCollapse(b, rules.limits, best);
     if (cost >= best) continue;
-    if (surface_.CountTrianglesOf(b) + sides > kMostSides) continue;
+    if (surface_.CountTrianglesOf(b) + triangles > kMostTriangles) continue;
     best = cost;
     target_[static_cast<std::size_t>(v)] = b;
   }
@@ -96,13 +101,13 @@ void Collapser::Rate(const CollapseRules& rules, VertexId v) {
 
 bool Collapser::TryCollapse(const CollapseRules& rules, VertexId v) {
   const VertexId b = target_[static_cast<std::size_t>(v)];
-  star_.Gather(surface_, coverage_, v);
+  star_.Gather(surface_, posts_by_triangle_, v);
   others_.clear();
   star_.NewNeighbours(b, others_);
-  if (rules.may_stand) {
+  if (rules.may_add_edge) {
     bool all = true;
     for (const VertexId n : others_) {
-      if (star_.Covers(b, n) || rules.may_stand(b, n)) continue;
+      if (star_.IsBelowSurface(b, n) || rules.may_add_edge(b, n)) continue;
       Refuse(refused_edges_, b, n);
       all = false;
     }
@@ -114,23 +119,24 @@ bool Collapser::TryCollapse(const CollapseRules& rules, VertexId v) {
     Refuse(refused_moves_, v, b);
     return false;
   }
-  star_.HandOver(b, coverage_);
+  star_.DistributePosts(b, posts_by_triangle_);
   surface_.Collapse(v, b);
   return true;
 }
 
-void Collapser::TouchAround() {
+void Collapser::MarkNeighboursStale() {
   for (const VertexId n : star_.neighbours()) {
     stale_[static_cast<std::size_t>(n)] = true;
-    // What was not allowed may be now; its turn is no earlier than what has just been done.
-    if (!queued_[static_cast<std::size_t>(n)]) Enqueue(floor_, n);
+    // A collapse that was not allowed may be so now. It is rated before anything that costs more
+    // than the collapse just done.
+    if (!queued_[static_cast<std::size_t>(n)]) Enqueue(last_cost_, n);
   }
 }
 
 Status Collapser::Run(const CollapseRules& rules, const Watch& watch,
                       const std::function<void(double)>& report) {
   Start(rules);
-  floor_ = 0;
+  last_cost_ = 0;
   const std::int64_t triangles_before = surface_.triangle_count();
   std::int64_t steps = 0;
   while (!queue_.empty()) {
@@ -143,13 +149,13 @@ Status Collapser::Run(const CollapseRules& rules, const Watch& watch,
     }
     const Entry entry = Dequeue();
     const auto at = static_cast<std::size_t>(entry.v);
-    if (!rules.may_leave[at] || pinched_[at]) continue;
+    if (!rules.removable[at] || pinched_[at]) continue;
     if (stale_[at] || !TryCollapse(rules, entry.v)) {
       Rate(rules, entry.v);
       continue;
     }
-    floor_ = entry.cost;
-    TouchAround();
+    last_cost_ = entry.cost;
+    MarkNeighboursStale();
   }
   return Done{};
 }

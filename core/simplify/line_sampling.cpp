@@ -1,3 +1,7 @@
+// Each direction has a pencil of parallel lines at equal distances. A segment crosses a run of
+// successive lines of a pencil, and its height over them changes by the same step from one to the
+// next. So the greatest heights of a set over a pencil take one pass over its segments.
+// Cost: for each direction and set, the lines that each segment crosses.
 #include "core/simplify/line_sampling.h"
 
 #include <algorithm>
@@ -8,24 +12,27 @@
 namespace farhorizon {
 namespace {
 
+// The result is a sample, so any counts are sound: twice the directions or lines, twice the time.
 constexpr int kDirections = 192;
 constexpr double kLinesPerCell = 2;
+
 constexpr double kMissed = -std::numeric_limits<double>::infinity();
 
-/// Parallel lines: the points with cosine * row - sine * column = first + i / kLinesPerCell.
+// Parallel lines: the points with cosine * row - sine * column = first + i / kLinesPerCell.
 struct Pencil {
   double sine;
   double cosine;
   double first;
   std::size_t count;
 
-  [[nodiscard]] double Place(const GridPoint& p) const {
+  // The i of the line through p, with a fraction between lines.
+  [[nodiscard]] double IndexOf(const GridPoint& p) const {
     return (cosine * p.row - sine * p.column - first) * kLinesPerCell;
   }
 };
 
 Pencil PencilOf(int direction, std::int32_t columns, std::int32_t rows) {
-  // Off the grid's own directions, in which whole rows of posts would lie on one line.
+  // The half keeps off the grid's own directions, in which a line would pass along a row of posts.
   const double theta = std::numbers::pi * (direction + 0.5) / kDirections;
   const double sine = std::sin(theta);
   const double cosine = std::cos(theta);
@@ -37,12 +44,13 @@ Pencil PencilOf(int direction, std::int32_t columns, std::int32_t rows) {
   return {sine, cosine, least + 0.25 / kLinesPerCell, count};
 }
 
+// Per line of the pencil, the greatest height of the segments; kMissed where none crosses it.
 void GreatestHeights(const std::vector<GridSegment>& segments, const Pencil& pencil,
                      std::vector<double>& heights) {
   heights.assign(pencil.count, kMissed);
   for (const GridSegment& segment : segments) {
-    double from = pencil.Place(segment.a);
-    double to = pencil.Place(segment.b);
+    double from = pencil.IndexOf(segment.a);
+    double to = pencil.IndexOf(segment.b);
     double at_from = segment.a.height_m;
     double at_to = segment.b.height_m;
     if (from > to) {

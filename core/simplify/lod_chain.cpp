@@ -1,6 +1,7 @@
-// The chain of levels: each collapses the one before it further, under three promises that are kept
-// collapse by collapse: the vertical error at every post (Star), nothing above the DEM's skyline
-// (SkylineGuard), nothing of that skyline lost (RidgeNetwork). Proofs: horizon.md, section 7.
+// The chain of levels. Each level collapses the one before it further. Every collapse keeps to
+// three conditions: the vertical error at every post (Star), no edge above the DEM's skyline
+// (SkylineGuard), no part of that skyline lost (RidgeNetwork). Proofs: core/simplify/README.md,
+// sections 2 and 3.
 #include "core/simplify/lod_chain.h"
 
 #include <algorithm>
@@ -14,8 +15,9 @@
 namespace farhorizon {
 namespace {
 
-// No triangle of a level is steeper than the DEM's own: what rounding a vertex's place does to heights
-// then stays what it would be on the DEM, and slivers do not stand on end.
+// No triangle of a level may be steeper than the DEM's steepest. So the error in height that comes
+// from rounding a vertex's coordinates is no greater than it would be on the DEM, and no sliver is
+// upright.
 Slope SteepestSlope(const Terrain& terrain) {
   Slope steepest;
   for (const Triangle& t : terrain.Triangles()) {
@@ -46,8 +48,10 @@ class ChainBuilder {
     CollapseRules rules;
     rules.limits = {budget.vertical_error_m / quantum, budget.longest_edge, budget.least_altitude,
                     steepest_};
-    rules.may_leave = PostsThatMayLeave(steps);
-    rules.may_stand = [this, steps](VertexId p, VertexId q) { return guard_.Hides(p, q, steps); };
+    rules.removable = RemovablePosts(steps);
+    rules.may_add_edge = [this, steps](VertexId p, VertexId q) {
+      return guard_.IsOccluded(p, q, steps);
+    };
     rules.may_move = [this](VertexId v, VertexId b) { return ridges_.MayMove(v, b); };
     rules.move_ridges = [this](VertexId v, VertexId b) { return ridges_.Move(v, b); };
     return collapser_.Run(rules, watch, report);
@@ -57,7 +61,7 @@ class ChainBuilder {
     const Surface& surface = collapser_.surface();
     Lod lod{{surface.Triangles()}, {}};
     for (std::size_t e = 0; e < horizon_.edges.size(); ++e) {
-      // An edge whose posts both still stand is still an edge: see Surface.
+      // While both posts of an edge are vertices it is an edge: see Surface.
       const Edge& edge = horizon_.edges[e].edge;
       if (surface.IsVertex(edge.a) && surface.IsVertex(edge.b)) {
         lod.kept.push_back(static_cast<std::int32_t>(e));
@@ -67,17 +71,18 @@ class ChainBuilder {
   }
 
  private:
-  // Sides of the tile keep all their posts at every level. A rule that removes some must see the side's
-  // heights alone, for the neighbour's sake; but whether they can go within the budgets depends on
-  // what lies behind them, in either tile: measured, one removal in ten is refused by one of the two.
-  // Other rims stay whole where nothing is allowed, and with them each of their horizon edges.
-  [[nodiscard]] std::vector<bool> PostsThatMayLeave(std::int32_t steps) const {
-    std::vector<bool> may_leave(outline_.size());
+  // The sides of the tile keep all their posts at every level. A rule that removed some of them
+  // would have to depend on the side's heights alone, so that the neighbouring tile removes the
+  // same; but whether a removal is within the budgets depends on the ground behind the side, in
+  // either tile. Measured: one removal in ten is not allowed in one of the two tiles. Other borders
+  // keep their posts where the allowance is 0, and so each of their horizon edges.
+  [[nodiscard]] std::vector<bool> RemovablePosts(std::int32_t steps) const {
+    std::vector<bool> removable(outline_.size());
     for (VertexId v = 0; v < terrain_.post_count(); ++v) {
       const auto at = static_cast<std::size_t>(v);
-      may_leave[at] = !OnSide(terrain_.dem(), v) && (steps > 0 || !outline_[at]);
+      removable[at] = !OnSide(terrain_.dem(), v) && (steps > 0 || !outline_[at]);
     }
-    return may_leave;
+    return removable;
   }
 
   const Terrain& terrain_;

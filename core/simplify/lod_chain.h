@@ -11,7 +11,7 @@
 
 namespace farhorizon {
 
-/// What one level may differ from the DEM by.
+/// By how much one level may differ from the DEM.
 struct LevelBudget {
   double vertical_error_m = 0;    ///< at every post
   double silhouette_error_m = 0;  ///< over every plan line, up and down
@@ -19,20 +19,21 @@ struct LevelBudget {
   double least_altitude = 0;      ///< of a triangle in plan, in columns or rows
 };
 
-/// One level of detail and what it keeps of the horizon.
+/// One level of detail and the horizon edges that it keeps.
 struct Lod {
   PostMesh mesh;
-  std::vector<std::int32_t> kept;  ///< indices into horizon.edges, rising: edges of this mesh
+  std::vector<std::int32_t> kept;  ///< indices into horizon.edges, ascending: edges of this mesh
 };
 
-/// A chain of meshes of falling detail, level 0 the finest; one for each budget.
+/// A chain of meshes, level 0 the finest, one for each budget.
 ///
-/// Vertices are posts of the DEM. The tile's four sides keep all their posts, so that neighbours which
-/// are built apart meet without a crack; other rims (of holes, of slanted outlines) keep their shape in
-/// plan. No triangle is steeper along either axis of the grid than the DEM's steepest.
-/// Each level keeps only horizon edges that the finer one keeps. Where the silhouette budget is 0
-/// it keeps all of them and H is exactly the DEM's; elsewhere H is within the budget, exactly. A budget
-/// below HeightScale's step counts as 0.
+/// (1) Vertices are posts of the DEM. The tile's four sides keep all their posts, so that
+///     neighbours that are built apart meet without a crack; other borders (of holes, of slanted
+///     outlines) keep their shape in plan.
+/// (2) No triangle is steeper along either axis of the grid than the DEM's steepest.
+/// (3) Each level keeps only horizon edges that the finer one keeps.
+/// (4) H is within the silhouette budget, exactly. Where the budget is 0, or below a step of
+///     HeightScale, the level keeps all horizon edges and H is exactly the DEM's.
 /// Requires: budgets do not fall from level to level.
 /// Errors: kCancelled.
 Result<std::vector<Lod>> BuildLodChain(const Terrain& terrain, const Horizon& horizon,

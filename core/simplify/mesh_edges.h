@@ -7,14 +7,15 @@
 
 namespace farhorizon {
 
-/// A side of triangles over posts, and the third posts of those on either side of it.
+/// An edge of a mesh over posts, and the third posts of the triangles on either side of it.
 struct MeshEdge {
   Edge edge;
   std::optional<VertexId> left;  ///< of a -> b
   std::optional<VertexId> right;
 };
 
-/// Every edge of `triangles` once, by rising (a, b); nullopt where a directed side stands twice.
+/// Every edge of `triangles` once, in ascending order of (a, b); nullopt where two triangles lie on
+/// the same side of one edge.
 /// Cost: O(n log n).
 std::optional<std::vector<MeshEdge>> EdgesOf(const std::vector<Triangle>& triangles);
 

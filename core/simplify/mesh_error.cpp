@@ -1,3 +1,8 @@
+// Three steps. The mesh is checked: its points are near their posts, its triangles over the posts
+// cover the terrain's domain once and end where the terrain ends. Its vertical error and the rms of
+// its silhouette error are measured on the mesh as it is. The silhouette bound is proven for the
+// mesh over the posts, and what the vertices' displacement can add is added.
+// Cost: that of VerticalError, RmsOverLines and SilhouetteBound; the rest is O(n log n).
 #include "core/simplify/mesh_error.h"
 
 #include <algorithm>
@@ -14,19 +19,19 @@
 namespace farhorizon {
 namespace {
 
-constexpr double kMostDisplacement =
-    0.5;  // columns or rows: past it a vertex is nearer another post
+// Columns or rows. A vertex further from its post may be nearer to another one.
+constexpr double kMostDisplacement = 0.5;
 
 Error BadMesh(const std::string& what, const char* kind) {
   return Error{ErrorCode::kUnsupportedData, what, kind};
 }
 
-/// What moving the vertices from their posts has done.
+// The greatest distances of vertices from their posts.
 struct Displacement {
-  double greatest = 0;   ///< in plan, columns or rows
-  double by_column = 0;  ///< along each axis, columns or rows
+  double greatest = 0;   // in plan, columns or rows
+  double by_column = 0;  // along each axis, columns or rows
   double by_row = 0;
-  double greatest_m = 0;  ///< in height
+  double greatest_m = 0;  // in height
 };
 
 Result<Displacement> MeasureDisplacement(const Terrain& terrain, const GridMesh& mesh,
@@ -61,7 +66,9 @@ Result<Displacement> MeasureDisplacement(const Terrain& terrain, const GridMesh&
   return displacement;
 }
 
-/// The mesh's triangles over posts, or what keeps it from covering the terrain's domain.
+// The mesh's triangles over posts, or the reason why they do not cover the terrain's domain.
+// Triangles that all turn counter-clockwise cover it once if their areas add up to the domain's and
+// their outline is on the domain's (MeasureMeshError checks that).
 Result<std::vector<Triangle>> TrianglesOverPosts(const Terrain& terrain, const GridMesh& mesh,
                                                  const std::vector<VertexId>& posts) {
   std::vector<Triangle> triangles;
@@ -102,10 +109,10 @@ Result<std::vector<Triangle>> TrianglesOverPosts(const Terrain& terrain, const G
   return triangles;
 }
 
-/// What moving the vertices along the grid does to the height over a fixed place, metres: the most on
-/// any triangle over posts.
-double HeightLost(const Terrain& terrain, const std::vector<Triangle>& triangles,
-                  const Displacement& displacement) {
+// The greatest change of height over a fixed point of the plan that moving the vertices within the
+// plan can cause, metres: over all triangles over posts, slope times displacement, axis by axis.
+double HeightChange(const Terrain& terrain, const std::vector<Triangle>& triangles,
+                    const Displacement& displacement) {
   double most = 0;
   for (const Triangle& t : triangles) {
     const Slope slope = SlopeOf(terrain.Point(t[0]), terrain.Point(t[1]), terrain.Point(t[2]));
@@ -129,7 +136,8 @@ std::vector<GridSegment> SkylineOf(const Terrain& terrain, const Horizon& horizo
   return segments;
 }
 
-/// Every side of the mesh once: which of them are ridges may have changed with the vertices.
+// Every edge of the mesh once, not its ridges only: an edge may have become a ridge when vertices
+// moved.
 std::vector<GridSegment> SidesOf(const GridMesh& mesh) {
   std::vector<std::pair<std::int32_t, std::int32_t>> sides;
   sides.reserve(mesh.triangles.size() * 3);
@@ -177,9 +185,10 @@ Result<MeshError> MeasureMeshError(const Terrain& terrain, const Horizon& horizo
                                         terrain.dem().columns, terrain.dem().rows);
   watch.Report(Stage::kMeasure, 0.45);
   const double quantum = terrain.dem().quantum_m;
-  // A point of the mesh is at most `by_column`, `by_row` in plan and `greatest_m` in height away from
-  // its place on the mesh over posts, whose height changes by no more than its slopes on the way.
-  const double lost_m = displacement->greatest_m + HeightLost(terrain, *triangles, *displacement);
+  // A point of the mesh is at most `by_column`, `by_row` in plan and `greatest_m` in height away
+  // from its counterpart on the mesh over posts. On the way in plan the height of that mesh changes
+  // by no more than slope times distance.
+  const double lost_m = displacement->greatest_m + HeightChange(terrain, *triangles, *displacement);
   Result<double> bound =
       SilhouetteBound(terrain, horizon, *edges, (asked_m - lost_m) / quantum, watch);
   if (!bound) return std::move(bound.error());

@@ -8,12 +8,14 @@
 
 namespace farhorizon {
 
-/// Which posts that are no vertices any more lie under which triangle: each post under one; a post
-/// on an edge under either of its two triangles, whose heights agree there. Memory: 4 bytes a post,
-/// 12 a triangle.
-class Coverage {
+/// For each triangle of a surface, the posts under it that are no vertices any more, as linked
+/// lists.
+///
+/// Each such post is in one list. A post on an edge is in that of either triangle beside the edge:
+/// their heights agree there. Memory: 4 bytes a post, 12 a triangle.
+class PostsByTriangle {
  public:
-  Coverage(VertexId posts, TriangleId triangles)
+  PostsByTriangle(VertexId posts, TriangleId triangles)
       : first_post_(static_cast<std::size_t>(triangles), kNone),
         squares_(static_cast<std::size_t>(triangles), 0.0),
         next_post_(static_cast<std::size_t>(posts), kNone) {}

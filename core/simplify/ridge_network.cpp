@@ -1,3 +1,8 @@
+// Certificates: a horizon edge that is in the network occludes itself. Any other is asked of a few
+// ridges near it, as virtual occluders over an empty set: only those ridges then occlude it, and
+// they become its certificate. A change first inserts and removes ridges, then proves all
+// dependents of the removed ones, and undoes itself if one proof fails. Cost of a change: one
+// visibility query with at most kMostNearby occluders for each dependent.
 #include "core/simplify/ridge_network.h"
 
 #include <algorithm>
@@ -9,8 +14,8 @@
 namespace farhorizon {
 namespace {
 
-// So many ridges beside an edge are tried before all: certificates stay small, and so does the number
-// of edges that have to be proven anew when a ridge goes.
+// A certificate has at most so many ridges, the nearest. Any count is sound: a proof with fewer
+// ridges fails more often, one with more takes longer and gives each ridge more dependents.
 constexpr std::size_t kMostNearby = 16;
 
 std::size_t Index(std::int32_t id) { return static_cast<std::size_t>(id); }
@@ -26,10 +31,10 @@ RidgeNetwork::RidgeNetwork(const Terrain& terrain, const Horizon& horizon, Heigh
   certificates_.resize(horizon.edges.size());
   for (std::size_t e = 0; e < horizon.edges.size(); ++e) {
     const RidgeId ridge = Add(horizon.edges[e].edge);
-    Stand(ridge);
-    // Ridge and horizon edge have the same number: what stands hides itself.
+    Insert(ridge);
+    // Ridge and horizon edge have the same number; the edge occludes itself.
     certificates_[e] = {ridge};
-    ridges_[Index(ridge)].leaning = {static_cast<std::int32_t>(e)};
+    ridges_[Index(ridge)].dependents = {static_cast<std::int32_t>(e)};
   }
 }
 
@@ -44,16 +49,16 @@ RidgeNetwork::RidgeId RidgeNetwork::Add(Edge edge) {
   return static_cast<RidgeId>(ridges_.size()) - 1;
 }
 
-void RidgeNetwork::Stand(RidgeId r) {
+void RidgeNetwork::Insert(RidgeId r) {
   Ridge& ridge = ridges_[Index(r)];
-  ridge.stands = true;
+  ridge.in_network = true;
   ridges_of_[ridge.edge.a].push_back(r);
   ridges_of_[ridge.edge.b].push_back(r);
 }
 
-void RidgeNetwork::Fall(RidgeId r) {
+void RidgeNetwork::Remove(RidgeId r) {
   Ridge& ridge = ridges_[Index(r)];
-  ridge.stands = false;
+  ridge.in_network = false;
   for (const VertexId v : {ridge.edge.a, ridge.edge.b}) {
     std::vector<RidgeId>& around = ridges_of_[v];
     std::erase(around, r);
@@ -84,41 +89,41 @@ bool RidgeNetwork::Move(VertexId v, VertexId b) {
   const auto around = ridges_of_.find(v);
   if (around == ridges_of_.end()) return true;
   const std::vector<RidgeId> old = around->second;
-  std::vector<Edge> young;
+  std::vector<Edge> replacements;
   for (const RidgeId r : old) {
     const VertexId other = OtherEnd(r, v);
-    if (other != b && !HasRidge(MakeEdge(other, b))) young.push_back(MakeEdge(other, b));
+    if (other != b && !HasRidge(MakeEdge(other, b))) replacements.push_back(MakeEdge(other, b));
   }
-  return Replace(old, young);
+  return Replace(old, replacements);
 }
 
-std::vector<std::int32_t> RidgeNetwork::LeaningOn(std::span<const RidgeId> ridges) const {
-  std::vector<std::int32_t> leaning;
+std::vector<std::int32_t> RidgeNetwork::DependentsOf(std::span<const RidgeId> ridges) const {
+  std::vector<std::int32_t> dependents;
   for (const RidgeId r : ridges) {
-    for (const std::int32_t e : ridges_[Index(r)].leaning) {
+    for (const std::int32_t e : ridges_[Index(r)].dependents) {
       const std::vector<RidgeId>& certificate = certificates_[Index(e)];
-      if (std::binary_search(certificate.begin(), certificate.end(), r)) leaning.push_back(e);
+      if (std::binary_search(certificate.begin(), certificate.end(), r)) dependents.push_back(e);
     }
   }
-  std::sort(leaning.begin(), leaning.end());
-  leaning.erase(std::unique(leaning.begin(), leaning.end()), leaning.end());
-  return leaning;
+  std::sort(dependents.begin(), dependents.end());
+  dependents.erase(std::unique(dependents.begin(), dependents.end()), dependents.end());
+  return dependents;
 }
 
 bool RidgeNetwork::ProveNearby(std::int32_t e, const Segment& lowered,
-                               std::span<const RidgeId> young) {
-  std::vector<RidgeId> nearby(young.begin(), young.end());
+                               std::span<const RidgeId> replacements) {
+  std::vector<RidgeId> nearby(replacements.begin(), replacements.end());
   const auto add_around = [&](VertexId v) {
     const auto around = ridges_of_.find(v);
     if (around == ridges_of_.end()) return;
     nearby.insert(nearby.end(), around->second.begin(), around->second.end());
   };
-  for (const RidgeId r : young) {
+  for (const RidgeId r : replacements) {
     add_around(ridges_[Index(r)].edge.a);
     add_around(ridges_[Index(r)].edge.b);
   }
   for (const RidgeId r : certificates_[Index(e)]) {
-    if (ridges_[Index(r)].stands) nearby.push_back(r);
+    if (ridges_[Index(r)].in_network) nearby.push_back(r);
   }
   std::sort(nearby.begin(), nearby.end());
   nearby.erase(std::unique(nearby.begin(), nearby.end()), nearby.end());
@@ -149,63 +154,63 @@ bool RidgeNetwork::ProveNearby(std::int32_t e, const Segment& lowered,
   return true;
 }
 
-bool RidgeNetwork::Prove(std::int32_t e, std::span<const RidgeId> young) {
+bool RidgeNetwork::Prove(std::int32_t e, std::span<const RidgeId> replacements) {
   std::vector<RidgeId>& certificate = certificates_[Index(e)];
-  if (ridges_[Index(e)].stands) {
+  if (ridges_[Index(e)].in_network) {
     certificate = {e};
     return true;
   }
   const Segment lowered = Lowered(Scaled(horizon_->edges[Index(e)].edge), allowance_);
-  return ProveNearby(e, lowered, young);
+  return ProveNearby(e, lowered, replacements);
 }
 
-bool RidgeNetwork::Replace(std::span<const RidgeId> old, const std::vector<Edge>& young) {
-  const std::vector<std::int32_t> leaning = LeaningOn(old);
+bool RidgeNetwork::Replace(std::span<const RidgeId> old, const std::vector<Edge>& replacements) {
+  const std::vector<std::int32_t> dependents = DependentsOf(old);
   std::vector<std::vector<RidgeId>> before;
-  before.reserve(leaning.size());
-  const std::size_t first_young = ridges_.size();
-  std::vector<RidgeId> young_ids;
-  for (const Edge& edge : young) {
-    young_ids.push_back(Add(edge));
-    Stand(young_ids.back());
+  before.reserve(dependents.size());
+  const std::size_t first_inserted = ridges_.size();
+  std::vector<RidgeId> inserted;
+  for (const Edge& edge : replacements) {
+    inserted.push_back(Add(edge));
+    Insert(inserted.back());
   }
-  for (const RidgeId r : old) Fall(r);
-  for (const std::int32_t e : leaning) {
+  for (const RidgeId r : old) Remove(r);
+  for (const std::int32_t e : dependents) {
     before.push_back(certificates_[Index(e)]);
-    if (Prove(e, young_ids)) continue;
-    // Back to where we were.
+    if (Prove(e, inserted)) continue;
+    // Undo.
     for (std::size_t i = 0; i < before.size(); ++i) {
-      certificates_[Index(leaning[i])] = std::move(before[i]);
+      certificates_[Index(dependents[i])] = std::move(before[i]);
     }
-    for (const RidgeId r : young_ids) Fall(r);
-    ridges_.resize(first_young);
-    for (const RidgeId r : old) Stand(r);
+    for (const RidgeId r : inserted) Remove(r);
+    ridges_.resize(first_inserted);
+    for (const RidgeId r : old) Insert(r);
     return false;
   }
-  for (const std::int32_t e : leaning) {
-    for (const RidgeId r : certificates_[Index(e)]) ridges_[Index(r)].leaning.push_back(e);
+  for (const std::int32_t e : dependents) {
+    for (const RidgeId r : certificates_[Index(e)]) ridges_[Index(r)].dependents.push_back(e);
   }
-  for (const RidgeId r : old) ridges_[Index(r)].leaning = {};
+  for (const RidgeId r : old) ridges_[Index(r)].dependents = {};
   return true;
 }
 
 void RidgeNetwork::PruneLeaves(const Watch& watch) {
   if (allowance_ == 0) return;
-  // By the height of the ridge's upper end: what is low is hidden soonest.
-  using Loose = std::tuple<std::int32_t, RidgeId>;
-  std::priority_queue<Loose, std::vector<Loose>, std::greater<>> loose;
+  // In ascending order of the ridge's upper end: low ridges are the likeliest to be occluded.
+  using Leaf = std::tuple<std::int32_t, RidgeId>;
+  std::priority_queue<Leaf, std::vector<Leaf>, std::greater<>> leaves;
   const auto consider = [&](RidgeId r) {
     const Edge& edge = ridges_[Index(r)].edge;
     if (ridges_of_[edge.a].size() > 1 && ridges_of_[edge.b].size() > 1) return;
-    loose.emplace(std::max(terrain_->Point(edge.a).z, terrain_->Point(edge.b).z), r);
+    leaves.emplace(std::max(terrain_->Point(edge.a).z, terrain_->Point(edge.b).z), r);
   };
   for (RidgeId r = 0; r < static_cast<RidgeId>(ridges_.size()); ++r) {
-    if (ridges_[Index(r)].stands) consider(r);
+    if (ridges_[Index(r)].in_network) consider(r);
   }
-  while (!loose.empty() && !watch.StopRequested()) {
-    const RidgeId r = std::get<1>(loose.top());
-    loose.pop();
-    if (!ridges_[Index(r)].stands) continue;
+  while (!leaves.empty() && !watch.StopRequested()) {
+    const RidgeId r = std::get<1>(leaves.top());
+    leaves.pop();
+    if (!ridges_[Index(r)].in_network) continue;
     const Edge edge = ridges_[Index(r)].edge;
     if (!Replace(std::span(&r, 1), {})) continue;
     for (const VertexId v : {edge.a, edge.b}) {
@@ -214,15 +219,6 @@ void RidgeNetwork::PruneLeaves(const Watch& watch) {
       consider(around->second.front());
     }
   }
-}
-
-std::vector<Edge> RidgeNetwork::Edges() const {
-  std::vector<Edge> edges;
-  for (const Ridge& ridge : ridges_) {
-    if (ridge.stands) edges.push_back(ridge.edge);
-  }
-  std::sort(edges.begin(), edges.end());
-  return edges;
 }
 
 }  // namespace farhorizon

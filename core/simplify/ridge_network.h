@@ -13,59 +13,62 @@
 
 namespace farhorizon {
 
-/// The edges of a mesh that hold its skyline up: at first all horizon edges, later chords of ridges.
+/// Edges of a mesh, called ridges, that keep its skyline from sinking: at first all horizon edges
+/// of the DEM, later also edges that replace several of them.
 ///
-/// Invariant: every horizon edge of the DEM, lowered by the allowance, is hidden behind the network;
-/// so H of any mesh that has the network's edges is at most the allowance below H of the DEM. Each
-/// horizon edge keeps the ridges that hide it, its certificate, and is proven anew when one goes, by
-/// ridges nearby. (Far ones could hide more, but such a proof takes some thirty times as long and leans
-/// on a hundred ridges.)
+/// Invariant: every horizon edge of the DEM, lowered by the allowance, is occluded by the network.
+/// So H of any mesh that has the network's edges is at most the allowance below H of the DEM
+/// (core/simplify/README.md, theorem S4 with the roles exchanged). For each horizon edge the
+/// network keeps a certificate: ridges that occlude it. When a ridge of a certificate is removed,
+/// the horizon edge is proven to be occluded again, by ridges nearby. (Ridges far away would prove
+/// more, but such a proof takes some thirty times as long and its certificate has a hundred
+/// ridges.)
+///
+///      p ----- v ----- q        Moving v onto b removes the ridges pv, vq and vb and inserts pb
+///              |                and bq. Horizon edges with one of the three in their certificate,
+///              b                their dependents, need a new one.
 class RidgeNetwork {
  public:
-  /// Requires: both outlive the network. The allowance is 0: nothing may go.
+  /// The allowance is 0 at first: no ridge may be removed. Requires: both outlive the network.
   RidgeNetwork(const Terrain& terrain, const Horizon& horizon, HeightScale scale);
 
   /// Requires: no less than before, so that what is proven stays proven.
   void Allow(std::int32_t steps) { allowance_ = steps; }
 
-  /// Drops ridges from their loose ends, lowest first, as far as the allowance goes.
-  /// Leaves off where the watch says stop.
-  /// Cost: a sight for each horizon edge that leaned on a ridge tried.
+  /// Removes ridges one end of which meets no other ridge, lowest first, while the invariant holds.
+  /// Ends early, with the invariant intact, if the watch requests a stop.
+  /// Cost: one visibility query for each dependent of a ridge tried.
   void PruneLeaves(const Watch& watch);
 
-  [[nodiscard]] bool Has(VertexId v) const { return ridges_of_.count(v) > 0; }
-  /// Whether a post may move onto its neighbour: any that is on no ridge, others along a ridge.
+  /// Whether a post may be moved onto its neighbour: one on no ridge may, another along a ridge.
   [[nodiscard]] bool MayMove(VertexId v, VertexId b) const;
-  /// Takes the ridges of `v` along to `b`; false, and nothing changed, where a horizon edge would
-  /// come into sight. Requires: MayMove(v, b).
+  /// Replaces the ridges at `v` by ridges at `b`. False, and nothing is changed, where a horizon
+  /// edge would become visible. Requires: MayMove(v, b).
   bool Move(VertexId v, VertexId b);
-
-  /// The ridges as they stand.
-  [[nodiscard]] std::vector<Edge> Edges() const;
 
  private:
   using RidgeId = std::int32_t;
   struct Ridge {
     Edge edge;
-    bool stands = false;
-    std::vector<std::int32_t>
-        leaning;  // horizon edges with this ridge in their certificate, or once
+    bool in_network = false;
+    // Horizon edges that have this ridge in their certificate, or had it.
+    std::vector<std::int32_t> dependents;
   };
 
   RidgeId Add(Edge edge);
-  void Stand(RidgeId ridge);
-  void Fall(RidgeId ridge);
+  void Insert(RidgeId ridge);
+  void Remove(RidgeId ridge);
   [[nodiscard]] bool HasRidge(Edge edge) const;
   [[nodiscard]] VertexId OtherEnd(RidgeId ridge, VertexId v) const;
-  // Puts `young` in the place of `old` if all that leaned on the old can be proven without them.
-  bool Replace(std::span<const RidgeId> old, const std::vector<Edge>& young);
-  // Proves that the horizon edge, lowered by the allowance, is hidden, and notes by which ridges.
-  // young: ridges that have come in the place of some that hid it.
-  bool Prove(std::int32_t horizon_edge, std::span<const RidgeId> young);
+  // Replaces `old` by `replacements` if all dependents of the old can be proven without them.
+  bool Replace(std::span<const RidgeId> old, const std::vector<Edge>& replacements);
+  // Tries to prove that the horizon edge, lowered by the allowance, is occluded, and keeps the
+  // certificate. replacements: ridges inserted for ridges of the old certificate.
+  bool Prove(std::int32_t horizon_edge, std::span<const RidgeId> replacements);
   bool ProveNearby(std::int32_t horizon_edge, const Segment& lowered,
-                   std::span<const RidgeId> young);
+                   std::span<const RidgeId> replacements);
   [[nodiscard]] Segment Scaled(Edge edge) const;
-  [[nodiscard]] std::vector<std::int32_t> LeaningOn(std::span<const RidgeId> ridges) const;
+  [[nodiscard]] std::vector<std::int32_t> DependentsOf(std::span<const RidgeId> ridges) const;
 
   const Terrain* terrain_;
   const Horizon* horizon_;

@@ -1,10 +1,14 @@
+// Theorem S4 of core/simplify/README.md, both ways, with one bound for all edges. It starts at 0.
+// Each edge that is visible when it is lowered by the present bound raises the bound, by doubling
+// and bisection, until the edge is occluded. An edge that is occluded stays so when it is lowered
+// further, so edges before it need not be looked at again.
+// Cost: one visibility query for each edge, and some ten more for each edge that raises the bound.
 #include "core/simplify/silhouette_bound.h"
 
 #include <algorithm>
 #include <functional>
 #include <numeric>
 
-#include "core/geometry/plan.h"
 #include "core/horizon/visibility/occluder_set.h"
 #include "core/simplify/skyline_guard.h"
 
@@ -13,17 +17,19 @@ namespace {
 
 constexpr std::size_t kEdgesBetweenChecks = 64;
 
-/// Whether edge i, lowered by so many steps, is hidden.
-using Hidden = std::function<bool(std::size_t i, std::int32_t steps)>;
+// Whether edge i, lowered by so many steps, is occluded.
+using IsOccluded = std::function<bool(std::size_t i, std::int32_t steps)>;
 
 class BoundSearch {
  public:
+  // asked: the value that is tried first. most: one that suffices for every edge.
   BoundSearch(std::int32_t asked, std::int32_t most)
       : asked_(std::clamp(asked, 1, std::max(most, 1))), most_(most) {}
 
-  /// Raises the bound until it hides each of `count` edges.
-  Status Cover(std::size_t count, const Hidden& hidden, const Watch& watch) {
-    // In scattered order: neighbours need about the same, and the bound settles after few searches.
+  // Raises the bound until each of `count` edges, lowered by it, is occluded.
+  Status Include(std::size_t count, const IsOccluded& occluded, const Watch& watch) {
+    // In scattered order, by steps of five eighths of the whole: neighbouring edges need about the
+    // same bound, so it is near its end after few edges. Any order is sound.
     std::size_t stride = count * 5 / 8 + 1;
     while (std::gcd(stride, count) > 1) ++stride;
     std::size_t i = 0;
@@ -31,7 +37,7 @@ class BoundSearch {
       if (n % kEdgesBetweenChecks == 0 && watch.StopRequested()) {
         return Error{ErrorCode::kCancelled, "stopped while measuring the silhouette"};
       }
-      if (!hidden(i, bound_)) Raise(i, hidden);
+      if (!occluded(i, bound_)) Raise(i, occluded);
     }
     return Done{};
   }
@@ -39,18 +45,24 @@ class BoundSearch {
   [[nodiscard]] std::int32_t bound() const { return bound_; }
 
  private:
-  void Raise(std::size_t i, const Hidden& hidden) {
-    std::int64_t low = bound_;  // not enough
-    // Never past what was asked for where that is enough: a level is seen to keep to its budget.
+  // Throughout, edge i is visible when lowered by `low`, and occluded when lowered by `high` once
+  // the first loop has ended.
+  void Raise(std::size_t i, const IsOccluded& occluded) {
+    std::int64_t low = bound_;
+    // The value that was asked for comes first, so that the bound does not exceed it where it can
+    // be proven. Past it, steps of a sixteenth: what an edge lacks beyond the bound of the others
+    // is mostly little.
     std::int64_t high = low < asked_ ? asked_ : low + low / 16 + 1;
-    while (high < most_ && !hidden(i, static_cast<std::int32_t>(high))) {
+    while (high < most_ && !occluded(i, static_cast<std::int32_t>(high))) {
       low = high;
       high *= 2;
     }
-    high = std::min<std::int64_t>(high, most_);  // hides everything: the whole relief
+    high = std::min<std::int64_t>(high, most_);
+    // Ends with high - low <= high / 24, so high <= low * 24 / 23: less than a twentieth above the
+    // least value that can be proven. Any divisor is sound; a greater one takes more queries.
     while (high - low > std::max<std::int64_t>(high / 24, 1)) {
       const std::int64_t middle = low + (high - low) / 2;
-      (hidden(i, static_cast<std::int32_t>(middle)) ? high : low) = middle;
+      (occluded(i, static_cast<std::int32_t>(middle)) ? high : low) = middle;
     }
     bound_ = static_cast<std::int32_t>(high);
   }
@@ -70,12 +82,6 @@ bool IsTerrainEdge(const Terrain& terrain, Edge edge) {
 
 }  // namespace
 
-bool MayCarrySkyline(const Terrain& terrain, const MeshEdge& e) {
-  if (!e.left || !e.right) return true;
-  return RidgeSign(terrain.Point(e.edge.a), terrain.Point(e.edge.b), terrain.Point(*e.left),
-                   terrain.Point(*e.right)) > 0;
-}
-
 Result<double> SilhouetteBound(const Terrain& terrain, const Horizon& horizon,
                                const std::vector<MeshEdge>& edges, double asked,
                                const Watch& watch) {
@@ -83,21 +89,25 @@ Result<double> SilhouetteBound(const Terrain& terrain, const Horizon& horizon,
   const HeightScale& scale = guard.scale();
   BoundSearch search(scale.Steps(asked), scale.most_steps);
 
-  // Above: what the DEM itself has as an edge cannot rise above it.
+  // H of the mesh is not above that of the DEM. An edge of the mesh that is an edge of the DEM has
+  // nothing to prove.
   OccluderSet occluders(terrain.dem().columns, terrain.dem().rows);
-  std::vector<Edge> young;
+  std::vector<Edge> added;
   for (const MeshEdge& e : edges) {
-    if (!MayCarrySkyline(terrain, e)) continue;
+    if (!terrain.IsRidgeOrBorder(e.edge, {e.left, e.right})) continue;
     occluders.Insert({scale.Scale(terrain.Point(e.edge.a)), scale.Scale(terrain.Point(e.edge.b))});
-    if (!IsTerrainEdge(terrain, e.edge)) young.push_back(e.edge);
+    if (!IsTerrainEdge(terrain, e.edge)) added.push_back(e.edge);
   }
-  Status above = search.Cover(
-      young.size(),
-      [&](std::size_t i, std::int32_t steps) { return guard.Hides(young[i].a, young[i].b, steps); },
+  Status above = search.Include(
+      added.size(),
+      [&](std::size_t i, std::int32_t steps) {
+        return guard.IsOccluded(added[i].a, added[i].b, steps);
+      },
       watch);
   if (!above) return std::move(above.error());
 
-  // Below: a horizon edge that the mesh has as an edge is not lost.
+  // H of the mesh is not below that of the DEM. A horizon edge that is an edge of the mesh has
+  // nothing to prove.
   std::vector<Segment> lost;
   for (const HorizonEdge& h : horizon.edges) {
     const auto found =
@@ -106,7 +116,7 @@ Result<double> SilhouetteBound(const Terrain& terrain, const Horizon& horizon,
     if (found != edges.end() && found->edge == h.edge) continue;
     lost.push_back({scale.Scale(terrain.Point(h.edge.a)), scale.Scale(terrain.Point(h.edge.b))});
   }
-  Status below = search.Cover(
+  Status below = search.Include(
       lost.size(),
       [&](std::size_t i, std::int32_t steps) {
         return !occluders.FindLineOfSight(Lowered(lost[i], steps), Ties::kBlock).has_value();

@@ -13,16 +13,15 @@ namespace farhorizon {
 /// A bound on |H_dem - H_mesh| for a mesh over posts, quanta: at most about a twentieth above the
 /// least one, or a step of HeightScale where that is more.
 ///
-/// Proven edge by edge: no ridge of the mesh, lowered by it, is in sight over the DEM's horizon edges,
-/// and no horizon edge, lowered by it, is in sight over the mesh. 0 says that the silhouettes are equal.
-/// asked: where the search begins that follows an edge which 0 is not enough for, quanta.
+/// Proven edge by edge: every ridge of the mesh, lowered by the bound, is occluded by the DEM's
+/// horizon edges, and every horizon edge, lowered by the bound, is occluded by the mesh
+/// (core/simplify/README.md, theorem S4). 0 means that the silhouettes are equal.
+/// asked: the value that is tried first for an edge that needs more than 0, quanta. The bound does
+/// not exceed it if it can be proven.
 /// Requires: the mesh covers the terrain's domain, no triangle flipped.
-/// Errors: kCancelled. Cost: a sight for each edge that simpler proofs leave open.
+/// Errors: kCancelled. Cost: a visibility query for each edge that simpler proofs do not settle.
 Result<double> SilhouetteBound(const Terrain& terrain, const Horizon& horizon,
                                const std::vector<MeshEdge>& edges, double asked,
                                const Watch& watch);
-
-/// Whether `e` may carry the skyline of its mesh: a ridge between its faces, or at the rim.
-bool MayCarrySkyline(const Terrain& terrain, const MeshEdge& e);
 
 }  // namespace farhorizon

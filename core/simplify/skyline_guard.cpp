@@ -20,12 +20,12 @@ SkylineGuard::SkylineGuard(const Terrain& terrain, const Horizon& horizon)
     occluders_.Insert(
         {scale_.Scale(terrain.Point(h.edge.a)), scale_.Scale(terrain.Point(h.edge.b))});
   }
-  for (const Segment& chord : SuperlevelOccluders(terrain, std::move(heights))) {
-    occluders_.Insert({scale_.Scale(chord.a), scale_.Scale(chord.b)});
+  for (const Segment& occluder : SuperlevelOccluders(terrain, std::move(heights))) {
+    occluders_.Insert({scale_.Scale(occluder.a), scale_.Scale(occluder.b)});
   }
 }
 
-bool SkylineGuard::Hides(VertexId p, VertexId q, std::int32_t steps_lower) const {
+bool SkylineGuard::IsOccluded(VertexId p, VertexId q, std::int32_t steps_lower) const {
   const Point3i at_p = terrain_->Point(p);
   const Point3i at_q = terrain_->Point(q);
   // Whole quanta only, rounded towards the safe side: what hides the higher hides the lower.

@@ -9,18 +9,19 @@
 
 namespace farhorizon {
 
-/// Keeps a mesh from rising above the DEM's skyline: says of an edge whether, lowered by an
-/// allowance, it is hidden from every distant horizontal direction behind the DEM.
+/// Keeps a mesh from rising above the DEM's skyline: finds whether an edge, lowered by an
+/// allowance, is occluded by the DEM in every direction (core/simplify/README.md, theorem S4).
 ///
-/// Asks the DEM's horizon edges only, because they generate H (horizon.md's second conclusion), and
-/// chords across the ground that hide much at once.
+/// The occluders are the DEM's horizon edges only, because they generate H (core/horizon/README.md,
+/// corollary 2a), and virtual occluders across the ground, for speed.
 class SkylineGuard {
  public:
   /// Requires: both outlive the guard.
   SkylineGuard(const Terrain& terrain, const Horizon& horizon);
 
-  /// Exact. Cost: constant for most edges; for the others about the segments in sight.
-  [[nodiscard]] bool Hides(VertexId p, VertexId q, std::int32_t steps_lower) const;
+  /// Whether the edge p, q, lowered by so many steps of scale(), is occluded. Exact.
+  /// Cost: constant for most edges; for the others about the occluders that are visible from them.
+  [[nodiscard]] bool IsOccluded(VertexId p, VertexId q, std::int32_t steps_lower) const;
 
   [[nodiscard]] const HeightScale& scale() const { return scale_; }
 

@@ -11,7 +11,7 @@
 
 namespace farhorizon {
 
-/// What a triangle of a level may look like and how far it may be from the posts under it.
+/// Limits on the triangles of a level: their error at posts, and their shape.
 struct TriangleLimits {
   double vertical_error = 0;  ///< at every post, quanta
   double longest_edge = 0;    ///< in plan, columns or rows; 0: any
@@ -19,17 +19,29 @@ struct TriangleLimits {
   Slope steepest = kAnySlope;
 };
 
-/// The triangles around one vertex with the posts under them, laid out for trying collapses.
+/// The triangles around one vertex, its centre, and the posts under them, for trying collapses.
+///
+/// The centre v is moved onto its neighbour b. The two triangles with the edge vb vanish; each of
+/// the others, (v, w, x), becomes (b, w, x). These are the fan. It covers the star exactly if all
+/// of its triangles turn counter-clockwise and their areas add up to the star's.
+///
+///         n4 ---- n3                n4 ---- n3
+///        /  \    /  \              /     _/  \        the fan: (b, n1, n2), (b, n2, n3),
+///       /    \  /    \            /    _/     \                (b, n3, n4), (b, n4, n5)
+///     n5 ---- v ---- n2   ==>   n5   _/  ___- n2
+///       \    /  \    /           |  / __--    /
+///        \  /    \  /            | /__-      /
+///         b ---- n1              b -------- n1
 ///
 /// One object serves a whole run: Gather fills it anew and allocates only while it grows.
 class Star {
  public:
-  /// Stands for "not allowed".
+  /// The cost of a collapse that is not allowed.
   static constexpr double kNever = std::numeric_limits<double>::infinity();
 
-  /// A side of the star's outline, seen from the vertex: the triangle (v, w, x).
-  struct Side {
-    TriangleId triangle;
+  /// A triangle (v, w, x) of the star, v being the centre.
+  struct StarTriangle {
+    TriangleId id;
     VertexId w;
     VertexId x;
     Point3i w_at;
@@ -38,47 +50,48 @@ class Star {
 
   explicit Star(const Terrain& terrain) : terrain_(&terrain) {}
 
-  void Gather(const Surface& surface, const Coverage& coverage, VertexId v);
+  void Gather(const Surface& surface, const PostsByTriangle& posts, VertexId v);
 
-  [[nodiscard]] VertexId centre() const { return centre_; }
-  [[nodiscard]] const std::vector<Side>& sides() const { return sides_; }
-  /// The neighbours of the centre, each once, in the order in which they were met.
+  [[nodiscard]] const std::vector<StarTriangle>& triangles() const { return triangles_; }
+  /// The neighbours of the centre, each once.
   [[nodiscard]] const std::vector<VertexId>& neighbours() const { return neighbours_; }
 
-  /// What moving the centre onto its neighbour `b` adds to the sum of squared vertical errors;
-  /// kNever where a triangle would flip, vanish, or be outside `limits`, where the outline of the
-  /// star would change, or where it costs `bound` or more. Errors at posts are right to one
-  /// rounding of a double. Cost: O(sides x posts).
+  /// The increase of the sum of squared vertical errors if the centre is moved onto its neighbour
+  /// `b`. kNever where a triangle would flip, vanish, or be outside `limits`, where the outline of
+  /// the surface would change, or where the increase is `bound` or more. The error at a post is
+  /// within one rounding of a double. Cost: O(triangles x posts).
   double CostOfCollapse(VertexId b, const TriangleLimits& limits, double bound);
 
-  /// The posts under the star and its centre, handed out to the triangles that `b` takes over.
-  /// Requires: CostOfCollapse(b, …) was not kNever; the surface has not yet collapsed.
-  void HandOver(VertexId b, Coverage& coverage) const;
+  /// Assigns the posts under the star and its centre to the triangles of the fan around `b`.
+  /// Requires: the last call was CostOfCollapse(b, …) and gave a cost; the surface has not yet
+  /// collapsed.
+  void DistributePosts(VertexId b, PostsByTriangle& posts) const;
 
-  /// Whether the surface as it stands is nowhere below the edge that would join two neighbours: then
-  /// the edge hides nothing new. Exact. Requires: the edge lies within the star.
-  [[nodiscard]] bool Covers(VertexId b, VertexId n) const;
+  /// Whether the edge that would join the neighbours b and n is nowhere above the present surface;
+  /// it then occludes nothing that is visible now. Exact. Requires: the edge lies within the star.
+  [[nodiscard]] bool IsBelowSurface(VertexId b, VertexId n) const;
 
-  /// Appends the neighbours that an edge to `b` would be new for.
+  /// Appends the neighbours to which an edge from `b` would be new.
   void NewNeighbours(VertexId b, std::vector<VertexId>& others) const;
 
  private:
-  // A triangle (b, w, x) of the fan that would take the star's place, relative to b.
+  // A triangle (b, w, x) of the fan; w and x relative to b.
   struct FanTriangle {
     std::int64_t wx, wy, wz;
     std::int64_t xx, xy, xz;
     std::int64_t twice_area;
-    TriangleId triangle;
+    TriangleId id;  // that of (v, w, x)
   };
   [[nodiscard]] bool BuildFan(VertexId b, const TriangleLimits& limits);
-  // Whether the outline would run elsewhere: a centre on the outline may only move along it.
-  [[nodiscard]] bool LeavesOutline(VertexId b) const;
-  [[nodiscard]] static bool WithinShape(const Side& side, Point3i b, std::int64_t twice_area,
-                                        const TriangleLimits& limits);
-  // Error at a post under the fan, and the blade it lies under.
+  // Whether the outline of the surface would change: a centre on it may be moved along it only.
+  [[nodiscard]] bool ChangesOutline(VertexId b) const;
+  [[nodiscard]] static bool WithinShape(const StarTriangle& triangle, Point3i b,
+                                        std::int64_t twice_area, const TriangleLimits& limits);
+  // The error at a post under the fan, and the triangle of the fan over it; kNever and null where
+  // there is none.
   struct Fit {
     double error;
-    const FanTriangle* blade;
+    const FanTriangle* triangle;
   };
   [[nodiscard]] Fit FitPost(Point3i post) const;
 
@@ -89,14 +102,14 @@ class Star {
 
   const Terrain* terrain_;
   VertexId centre_ = -1;
-  std::vector<Side> sides_;
+  std::vector<StarTriangle> triangles_;
   std::vector<VertexId> neighbours_;
-  std::vector<Post> posts_;  // under the star, the centre among them
+  std::vector<Post> posts_;  // under the star, its centre among them
   std::int64_t twice_area_ = 0;
-  double squares_ = 0;  // of the errors under the star as it stands
+  double squares_ = 0;  // sum of the squared errors under the present triangles
 
   std::vector<FanTriangle> fan_;
-  Point3i hub_;  // where b is
+  Point3i target_;  // the post onto which the centre would be moved, the centre of the fan
 };
 
 }  // namespace farhorizon

@@ -1,3 +1,6 @@
+// Posts are added in descending order of height, and the connected components of the ground that
+// has been added are kept by union and find, each with its extreme posts in eight directions. At
+// each of kHeights heights every component gives up to four segments between opposite extremes.
 #include "core/simplify/superlevel_occluders.h"
 
 #include <algorithm>
@@ -9,15 +12,18 @@
 namespace farhorizon {
 namespace {
 
-constexpr std::size_t kLevels = 64;
-constexpr std::int32_t kLeastExtent = 5;  // columns or rows; what is smaller hides little
+// Any counts are sound, as every segment is a virtual occluder. With more heights there is one
+// closer below each target; short segments occlude little and slow every query.
+constexpr std::size_t kHeights = 64;
+constexpr std::int32_t kLeastExtent = 5;  // columns or rows
 
-/// A connected piece of ground, by its extreme posts: least and greatest x, y, x + y, x - y.
+// The extreme posts of a component: least and greatest x, y, x + y, x - y.
 using Extremes = std::array<VertexId, 8>;
 
-class Pieces {
+// The connected components of the posts that have been added.
+class Components {
  public:
-  explicit Pieces(const Terrain& terrain)
+  explicit Components(const Terrain& terrain)
       : terrain_(terrain),
         parent_(static_cast<std::size_t>(terrain.post_count()), -1),
         extremes_(static_cast<std::size_t>(terrain.post_count())) {}
@@ -31,7 +37,8 @@ class Pieces {
     }
   }
 
-  void AppendChords(std::int32_t level, std::vector<Segment>& chords) {
+  // All posts added so far are at `height` or above.
+  void AppendOccluders(std::int32_t height, std::vector<Segment>& occluders) {
     std::erase_if(roots_, [this](VertexId v) { return parent_[Index(v)] != v; });
     for (const VertexId root : roots_) {
       const Extremes& e = extremes_[Index(root)];
@@ -39,8 +46,8 @@ class Pieces {
         Point3i a = terrain_.Point(e[k]);
         Point3i b = terrain_.Point(e[k + 1]);
         if (std::max(std::abs(a.x - b.x), std::abs(a.y - b.y)) < kLeastExtent) continue;
-        a.z = b.z = level;
-        chords.push_back({a, b});
+        a.z = b.z = height;
+        occluders.push_back({a, b});
       }
     }
   }
@@ -74,17 +81,17 @@ class Pieces {
   }
 
   const Terrain& terrain_;
-  std::vector<VertexId> parent_;  // -1: below the level
+  std::vector<VertexId> parent_;  // -1: not added
   std::vector<Extremes> extremes_;
-  std::vector<VertexId> roots_;  // some are roots no more
+  std::vector<VertexId> roots_;  // some have been joined to others since
 };
 
 }  // namespace
 
 std::vector<Segment> SuperlevelOccluders(const Terrain& terrain,
                                          std::vector<std::int32_t> heights) {
-  std::vector<Segment> chords;
-  if (heights.empty()) return chords;
+  std::vector<Segment> occluders;
+  if (heights.empty()) return occluders;
   std::sort(heights.begin(), heights.end(), std::greater<>());
   std::vector<VertexId> order;
   for (VertexId v = 0; v < terrain.post_count(); ++v) {
@@ -95,17 +102,19 @@ std::vector<Segment> SuperlevelOccluders(const Terrain& terrain,
     const std::int32_t at_q = terrain.Point(q).z;
     return at_p > at_q || (at_p == at_q && p < q);
   });
-  Pieces pieces(terrain);
+  Components components(terrain);
   std::size_t next = 0;
   std::int32_t last = std::numeric_limits<std::int32_t>::max();
-  for (std::size_t i = 0; i < kLevels; ++i) {
-    const std::int32_t level = heights[i * heights.size() / kLevels];
-    if (level == last) continue;
-    last = level;
-    while (next < order.size() && terrain.Point(order[next]).z >= level) pieces.Add(order[next++]);
-    pieces.AppendChords(level, chords);
+  for (std::size_t i = 0; i < kHeights; ++i) {
+    const std::int32_t height = heights[i * heights.size() / kHeights];
+    if (height == last) continue;
+    last = height;
+    while (next < order.size() && terrain.Point(order[next]).z >= height) {
+      components.Add(order[next++]);
+    }
+    components.AppendOccluders(height, occluders);
   }
-  return chords;
+  return occluders;
 }
 
 }  // namespace farhorizon

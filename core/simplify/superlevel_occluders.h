@@ -7,12 +7,15 @@
 
 namespace farhorizon {
 
-/// Long level segments that no line of sight crosses without meeting ground at or above them: chords
-/// across the connected pieces of the ground at or above a level, for some sixty levels.
+/// Long horizontal segments that are virtual occluders: each joins two posts of one connected
+/// component of a superlevel set, at its height, so every line across it meets ground at least as
+/// high. Taken at up to 64 heights.
 ///
-/// They add nothing to a skyline that they are put into, but hide much at once, so that questions are
-/// decided sooner. levels are drawn from `heights`, of which most should be near what will be asked.
-/// Cost: O(n log n), and the pieces at each level.
+/// They do not change what a set of occluders that includes the terrain's horizon edges occludes
+/// (core/horizon/README.md, corollary 2a), but each stands for a whole hill, so queries end sooner.
+/// heights: the heights at which the occluders are taken are quantiles of these. Pass the heights
+/// of the segments that will be queried.
+/// Cost: O(n log n), and the components at each height.
 std::vector<Segment> SuperlevelOccluders(const Terrain& terrain, std::vector<std::int32_t> heights);
 
 }  // namespace farhorizon

@@ -7,15 +7,14 @@
 
 namespace farhorizon {
 
-/// A triangle of a Surface, by its place in the order in which the terrain lists them.
+/// A triangle of a Surface, by its index in Terrain::Triangles().
 using TriangleId = std::int32_t;
 
 /// A triangulated surface over posts that loses vertices by half-edge collapses and gains none.
 ///
-/// The corners of a vertex's triangles are chained through the triangles themselves, so a collapse
-/// allocates nothing and bow-ties (fans that share only a post) need no special case.
-/// An edge ends only where one of its ends is collapsed away, and no post comes back: an edge whose
-/// posts both still stand is still an edge.
+/// The corners of a vertex's triangles form a linked list, so a collapse allocates nothing and fans
+/// that share only a post need no special case. An edge vanishes only with one of its posts, and a
+/// post that is gone does not come back: while both posts of an edge are vertices, it is an edge.
 /// Memory: 4 bytes a post, 24 a triangle of the terrain.
 class Surface {
  public:
@@ -34,17 +33,17 @@ class Surface {
   [[nodiscard]] bool IsVertex(VertexId v) const { return first_corner_[Index(v)] != kNone; }
   [[nodiscard]] std::int32_t CountTrianglesOf(VertexId v) const;
   [[nodiscard]] std::int64_t triangle_count() const { return triangle_count_; }
-  /// Ids run from 0 to here; some stand for triangles that are gone.
+  /// Ids are below this; those of triangles that are gone are not used again.
   [[nodiscard]] TriangleId triangle_id_end() const {
     return static_cast<TriangleId>(corners_.size() / 3);
   }
   [[nodiscard]] Triangle triangle(TriangleId t) const { return {At(t, 0), At(t, 1), At(t, 2)}; }
 
-  /// Moves `v` onto its neighbour `b`: triangles with both end, the others of `v` become `b`'s.
-  /// Requires: the caller has found that nothing flips.
+  /// Moves `v` onto its neighbour `b`: triangles with both vanish, the others of `v` become `b`'s.
+  /// Requires: no triangle flips.
   void Collapse(VertexId v, VertexId b);
 
-  /// The triangles that stand, by rising id.
+  /// The triangles that are left, in ascending order of id.
   [[nodiscard]] std::vector<Triangle> Triangles() const;
 
  private:

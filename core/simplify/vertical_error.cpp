@@ -1,3 +1,8 @@
+// Every triangle is rasterised: its error is computed at each post in it. A post on an edge is in
+// two triangles and keeps the greater error. Posts that are in none, as vertices on the outline
+// have moved inwards, are compared with the nearest point of the outline.
+// Cost: the posts in the bounding boxes of the triangles; the outline's edges for each post
+// outside.
 #include "core/simplify/vertical_error.h"
 
 #include <algorithm>
@@ -40,8 +45,9 @@ class PostHeights {
     return mesh_.points[static_cast<std::size_t>(i)];
   }
 
-  // Twice the area of the points i, j and (x, y), positive where they turn counter-clockwise. Both
-  // triangles at an edge get the same number but for its sign, so no post falls between them.
+  // Twice the area of the points i, j and (x, y) in the plan (column, -row), positive where they
+  // turn counter-clockwise. Computed for i < j alone, so that the two triangles at an edge get
+  // opposite numbers in spite of rounding, and every post beside the edge is in one of them.
   [[nodiscard]] double Turn(std::int32_t i, std::int32_t j, double x, double y) const {
     if (i > j) return -Turn(j, i, x, y);
     const GridPoint& p = Point(i);
@@ -49,6 +55,7 @@ class PostHeights {
     return (q.row - p.row) * (x - p.column) - (q.column - p.column) * (y - p.row);
   }
 
+  // Compares the posts in the triangle; a post on its edges is in it.
   void Rasterise(const Indices& t) {
     const auto [left, right] =
         std::minmax({Point(t[0]).column, Point(t[1]).column, Point(t[2]).column});
@@ -79,6 +86,7 @@ class PostHeights {
     error = std::max(error, std::abs(height - terrain_.dem().HeightM(v)));
   }
 
+  // The directed sides of triangles without an opposite one.
   void FindOutline() {
     std::set<std::pair<std::int32_t, std::int32_t>> sides;
     for (const Indices& t : mesh_.triangles) {
@@ -90,6 +98,7 @@ class PostHeights {
     outline_.assign(sides.begin(), sides.end());
   }
 
+  // The height of the outline at its point nearest to the post, in plan.
   double HeightOfOutline(VertexId v) {
     if (outline_.empty()) FindOutline();
     const double x = terrain_.dem().Column(v);
@@ -115,7 +124,7 @@ class PostHeights {
 
   const Terrain& terrain_;
   const GridMesh& mesh_;
-  std::vector<double> errors_;  // per post; -1 where no triangle has been found over it
+  std::vector<double> errors_;  // per post; -1 where no triangle has it
   std::vector<std::pair<std::int32_t, std::int32_t>> outline_;
 };
 

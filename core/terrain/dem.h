@@ -27,8 +27,8 @@ struct GeoTransform {
 ///
 /// heights: rows x columns, row-major, first row first as the file has it; in quanta, kNoHeight
 /// where there is no data. A post's height is `height_offset_m + heights[id] * quantum_m` metres,
-/// in the raster's vertical datum. Properties: 2 <= columns, rows <= 32768; |heights| < 2^30 (the
-/// exact predicates count on both).
+/// in the raster's vertical datum. Properties: 2 <= columns, rows <= 32768 and |heights| < 2^30.
+/// The exact predicates require both (core/horizon/README.md, section 7).
 struct Dem {
   std::int32_t columns = 0;
   std::int32_t rows = 0;

@@ -8,8 +8,8 @@
 
 namespace farhorizon {
 
-/// A triangle by its three posts, counter-clockwise as the ground is seen from above with columns
-/// to the right and rows downwards turned over: in the plan (column, -row).
+/// A triangle by its three posts, counter-clockwise in the plan (column, -row): on the map, with
+/// columns to the right and rows downwards, as the ground is seen from above.
 using Triangle = std::array<VertexId, 3>;
 
 /// An edge by its two posts, a < b.
@@ -19,7 +19,7 @@ struct Edge {
   friend auto operator<=>(const Edge&, const Edge&) = default;
 };
 
-/// The edge between two posts, named in order.
+/// The edge between two posts, in whichever order they are given.
 inline Edge MakeEdge(VertexId p, VertexId q) { return p < q ? Edge{p, q} : Edge{q, p}; }
 
 /// A triangulated surface over posts of a DEM: what a level of detail is before it is encoded.
@@ -34,7 +34,7 @@ struct GridPoint {
   double height_m = 0;
 };
 
-/// Any mesh in the frame of the grid, as it is got back from a decoded artifact.
+/// Any mesh in the frame of the grid, such as that of a decoded artifact.
 /// indices: n_triangles x 3 into `points`, counter-clockwise as in Triangle.
 struct GridMesh {
   std::vector<GridPoint> points;

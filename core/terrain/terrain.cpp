@@ -1,6 +1,12 @@
+// Topology of a triangulated grid, read off from where data is missing. Cell() is the definition:
+// the triangles of one cell. FacesOf and NeighboursOf have a shortcut for a post with data all
+// around and otherwise follow from the triangles of the cells around. Cost: constant for each
+// query.
 #include "core/terrain/terrain.h"
 
 #include <algorithm>
+
+#include "core/geometry/plan.h"
 
 namespace farhorizon {
 namespace {
@@ -10,8 +16,13 @@ struct Offset {
   std::int32_t row;
 };
 
-// Clockwise in the picture (rows downwards), starting east: successive offsets are the corners that
-// a walk around the post's four cells passes.
+// The eight posts around a post, clockwise on the map (rows downwards), starting east. Those with
+// even numbers are joined to the post by a side of a cell, those with odd numbers lie across a cell
+// from it.
+//
+//   5  6  7
+//   4  o  0
+//   3  2  1
 constexpr std::array<Offset, 8> kAround = {
     {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}}};
 
@@ -123,14 +134,16 @@ Terrain::Neighbours Terrain::NeighboursOf(VertexId v) const {
     present[i] = Has(column + kAround[i].column, row + kAround[i].row);
   }
   std::array<bool, 8> joined{};
-  // Each cell around the post has two straight corners and one across. The diagonal from the first
-  // corner to the last runs through the post in the south-east and the north-west cell.
+  // Each cell around the post has two of its straight neighbours as corners, and one post across.
+  // The cell's diagonal runs through the post itself in the south-east (1) and the north-west (5)
+  // cell.
   for (std::size_t straight = 0; straight < 8; straight += 2) {
     const std::size_t across = straight + 1;
     const std::size_t next = (straight + 2) % 8;
     const bool split_here = across == 1 || across == 5;
     if (present[straight] && present[next] && (!present[across] || !split_here)) {
-      // One triangle with both straight corners: the fourth post is missing or cut off.
+      // One triangle has the post and both straight neighbours: the post across is missing or cut
+      // off.
       joined[straight] = joined[next] = true;
     }
     if (!present[across]) continue;
@@ -139,8 +152,8 @@ Terrain::Neighbours Terrain::NeighboursOf(VertexId v) const {
       joined[next] = joined[next] || present[next];
       joined[across] = joined[across] || present[straight] || present[next];
     } else if (present[straight] != present[next]) {
-      // The post, one straight corner and the one across: a triangle only where the other is
-      // missing.
+      // The post, one straight neighbour and the post across: a triangle only where the other
+      // straight neighbour is missing.
       joined[across] = true;
       joined[present[straight] ? straight : next] = true;
     }
@@ -152,6 +165,11 @@ Terrain::Neighbours Terrain::NeighboursOf(VertexId v) const {
     }
   }
   return neighbours;
+}
+
+bool Terrain::IsRidgeOrBorder(Edge edge, const Faces& faces) const {
+  return !faces.left || !faces.right ||
+         RidgeSign(Point(edge.a), Point(edge.b), Point(*faces.left), Point(*faces.right)) > 0;
 }
 
 std::vector<Edge> Terrain::Edges() const {
@@ -184,27 +202,6 @@ std::vector<Triangle> Terrain::Triangles() const {
     }
   }
   return triangles;
-}
-
-int Convexity(Point3i a, Point3i b, Point3i c, Point3i d) {
-  // Heights of c and d over the sloped line field: d is below the plane abc, seen from above with c
-  // on either side, exactly if the determinant and the plan orientation of abc agree.
-  const std::int64_t bx = b.x - a.x;
-  const std::int64_t by = b.y - a.y;
-  const std::int64_t bz = std::int64_t{b.z} - a.z;
-  const std::int64_t cx = c.x - a.x;
-  const std::int64_t cy = c.y - a.y;
-  const std::int64_t cz = std::int64_t{c.z} - a.z;
-  const std::int64_t dx = d.x - a.x;
-  const std::int64_t dy = d.y - a.y;
-  const std::int64_t dz = std::int64_t{d.z} - a.z;
-  const std::int64_t plan = bx * cy - by * cx;
-  // det = plan * (dz - height of the plane abc at d); products stay below 2^63 for neighbouring
-  // posts.
-  const std::int64_t det =
-      dx * (by * cz - bz * cy) - dy * (bx * cz - bz * cx) + dz * (bx * cy - by * cx);
-  if (det == 0 || plan == 0) return 0;
-  return ((det > 0) == (plan > 0)) ? -1 : 1;
 }
 
 }  // namespace farhorizon

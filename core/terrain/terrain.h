@@ -16,8 +16,14 @@ namespace farhorizon {
 ///
 /// Each cell of four posts is split along the diagonal from (column, row) to (column + 1, row + 1);
 /// a cell with one post without data keeps the triangle of its other three; a cell with more has
-/// none. A post that no triangle uses is not part of the terrain. Nothing is stored: every question
-/// is answered from the heights of the cells around.
+/// none. A post that no triangle uses is not part of the terrain. No topology is stored: each query
+/// reads the heights of the cells around.
+///
+///   (c, r) o-----o (c + 1, r)         the plan as a map has it: columns to the right,
+///          | \   |                    rows downwards
+///          |   \ |
+///          o-----o (c + 1, r + 1)
+///
 /// Threads: safe to read from several.
 class Terrain {
  public:
@@ -38,7 +44,7 @@ class Terrain {
   };
   [[nodiscard]] CellTriangles Cell(std::int32_t column, std::int32_t row) const;
 
-  /// Third posts of the triangles on either side of `edge`; nullopt where there is none.
+  /// Third posts of the triangles on either side of an edge; nullopt where there is none.
   /// left: on the left of a -> b in the plan (column, -row). Both empty: no edge of the terrain.
   struct Faces {
     std::optional<VertexId> left;
@@ -46,7 +52,15 @@ class Terrain {
   };
   [[nodiscard]] Faces FacesOf(Edge edge) const;
 
-  /// Every neighbour of `v` along an edge of the terrain; empty for a post that is no vertex.
+  /// Whether `edge` is a border edge, or a ridge: its faces bend downwards. On any line across
+  /// another edge, ground beside that edge is at least as high. Exact.
+  /// faces: those of `edge`, in the terrain or in another triangulation of posts.
+  [[nodiscard]] bool IsRidgeOrBorder(Edge edge, const Faces& faces) const;
+  [[nodiscard]] bool IsRidgeOrBorder(Edge edge) const {
+    return IsRidgeOrBorder(edge, FacesOf(edge));
+  }
+
+  /// Every neighbour of `v` along an edge of the terrain; none for a post that is not a vertex.
   struct Neighbours {
     std::array<VertexId, 8> posts;
     int count = 0;
@@ -56,7 +70,7 @@ class Terrain {
   [[nodiscard]] Neighbours NeighboursOf(VertexId v) const;
   [[nodiscard]] bool IsVertex(VertexId v) const { return NeighboursOf(v).count > 0; }
 
-  /// Every edge once, by rising (a, b). Cost: O(posts).
+  /// Every edge once, in ascending order of (a, b). Cost: O(posts).
   [[nodiscard]] std::vector<Edge> Edges() const;
   [[nodiscard]] std::int64_t CountEdges() const;
 
@@ -66,17 +80,13 @@ class Terrain {
  private:
   explicit Terrain(const Dem& dem) : dem_(&dem) {}
   [[nodiscard]] bool Has(std::int32_t column, std::int32_t row) const;
-  /// FacesOf, by the triangles of the cells around.
+  /// FacesOf, from the triangles of the cells that have both posts: correct everywhere.
   [[nodiscard]] Faces FacesInCells(Edge edge) const;
-  /// Whether the post and all eight around it have data: the usual case, in which all is known at once.
+  /// Whether the post and all eight around it have data: the usual case, in which every cell around
+  /// it has two triangles.
   [[nodiscard]] bool IsSurrounded(std::int32_t column, std::int32_t row) const;
 
   const Dem* dem_;
 };
-
-/// Above the line through the other diagonal (1), in one plane with it (0) or below it (-1):
-/// whether the edge from a to b is a ridge between the faces whose third posts are c and d.
-/// Requires: c and d on opposite sides of ab in plan. Exact.
-int Convexity(Point3i a, Point3i b, Point3i c, Point3i d);
 
 }  // namespace farhorizon

@@ -18,14 +18,6 @@
 namespace farhorizon::kinetic {
 namespace {
 
-// A ridge or a border: nothing else is a corner of a hull.
-bool IsConvex(const Terrain& terrain, Edge edge) {
-  const Terrain::Faces faces = terrain.FacesOf(edge);
-  return !faces.left || !faces.right ||
-         Convexity(terrain.Point(edge.a), terrain.Point(edge.b), terrain.Point(*faces.left),
-                   terrain.Point(*faces.right)) > 0;
-}
-
 Error TooLarge() {
   return {ErrorCode::kUnsupportedData,
           "extent and range of heights are too large for the kinetic engine's numbers; take the "
@@ -160,7 +152,7 @@ void KineticSweep::LookAtLevelEdges(std::size_t next, std::size_t end, std::int6
   for (std::size_t i = next; i < end; ++i) {
     const VertexId v = order_[i];
     for (const VertexId n : terrain_.NeighboursOf(v)) {
-      if (n < v || Height(n) != Height(v) || !IsConvex(terrain_, {v, n})) continue;
+      if (n < v || Height(n) != Height(v) || !terrain_.IsRidgeOrBorder({v, n})) continue;
       if (!sight) sight.emplace(scene_, s);
       if (sight->Sees(terrain_.Point(v), terrain_.Point(n))) result_.edges.push_back({v, n});
     }
@@ -214,7 +206,7 @@ void KineticSweep::Continue(VertexId v, std::int64_t s) {
     const Edge edge = MakeEdge(v, n);
     const Terrain::Faces faces = terrain_.FacesOf(edge);
     border = border || !faces.left || !faces.right;
-    if (DepthOf(n) <= s || !IsConvex(terrain_, edge)) continue;
+    if (DepthOf(n) <= s || !terrain_.IsRidgeOrBorder(edge, faces)) continue;
     const auto tag = static_cast<std::int32_t>(edges_.size());
     edges_.push_back(edge);
     const PointId p = scene_.Add(

@@ -61,15 +61,7 @@ Local At(const Quadratic& q, std::int64_t s) {
 // The sign of root - s.
 int SideOf(const Moment& root, std::int64_t s) {
   const Local at = At(root.q, s);
-  if (root.q.c2 == 0) return -at.value * SignOf(root.q.c1);
-  const int opening = SignOf(root.q.c2);
-  const int above = at.value * opening;
-  const int rising = at.slope * opening;
-  if (above < 0) return root.upper ? 1 : -1;
-  if (above > 0) return -rising;
-  if (rising == 0) return 0;
-  if (rising < 0) return root.upper ? 1 : 0;
-  return root.upper ? 0 : -1;
+  return farhorizon::SideOf({root.q, root.upper}, at.value, at.slope);
 }
 
 Moment RootAt(const Quadratic& q, bool upper, Range where) {
@@ -86,12 +78,6 @@ Moment RootAt(const Quadratic& q, bool upper, Range where) {
     if (SideOf(m, s) == 0) return Moment::At(s);
   }
   return m;
-}
-
-bool Proportional(const Quadratic& p, const Quadratic& q) {
-  return CompareProducts(p.c0, q.c1, p.c1, q.c0) == 0 &&
-         CompareProducts(p.c0, q.c2, p.c2, q.c0) == 0 &&
-         CompareProducts(p.c1, q.c2, p.c2, q.c1) == 0;
 }
 
 // (a + b sqrt(x)) / d, with b in {-1, 0, 1}, x >= 0, d > 0.
@@ -124,8 +110,7 @@ int SignOfSum(const Int1280& a, const Int1280& b, const Int1280& x) {
 // so below 2^210 and the last square below 2^850.
 int CompareRoots(const Moment& a, const Moment& b) {
   if (Proportional(a.q, b.q)) {
-    const bool one = a.q.c2 == 0 || a.upper == b.upper ||
-                     CompareProducts(a.q.c1, a.q.c1, 4 * a.q.c2, a.q.c0) == 0;
+    const bool one = a.q.c2 == 0 || a.upper == b.upper || DiscriminantSign(a.q) == 0;
     if (one) return 0;
     return a.upper ? 1 : -1;
   }
@@ -173,7 +158,7 @@ Roots RootsOf(const Quadratic& q) {
     roots.at[0] = RootAt(q, false, -RangeOf(q.c0) / RangeOf(q.c1));
     return roots;
   }
-  const int discriminant = CompareProducts(q.c1, q.c1, 4 * q.c2, q.c0);
+  const int discriminant = DiscriminantSign(q);
   if (discriminant < 0) return roots;
   const Range c0 = RangeOf(q.c0);
   const Range c1 = RangeOf(q.c1);

@@ -25,8 +25,7 @@ bool IsRidge(const Terrain& terrain, Edge edge) {
     };
     if (rises(faces.left) || rises(faces.right)) return false;
   }
-  return !faces.left || !faces.right ||
-         Convexity(a, b, terrain.Point(*faces.left), terrain.Point(*faces.right)) > 0;
+  return terrain.IsRidgeOrBorder(edge, faces);
 }
 
 // Whether the edge is inside the hull of the ground at or above it. Level edges ask for the hull of

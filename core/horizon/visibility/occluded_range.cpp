@@ -18,7 +18,7 @@ template <typename Point>
 class RangeNarrower {
  public:
   explicit RangeNarrower(const Point& t)
-      : t_(t), range_{QuadraticRoot::At({0, 0}), QuadraticRoot::At({1, 0})} {}
+      : t_(t), range_{QuadraticRoot::At(Dyadic{0, 0}), QuadraticRoot::At(Dyadic{1, 0})} {}
 
   void Keep(const Quadratic& q) {
     if (BernsteinNonNegative(q)) return;

@@ -28,7 +28,7 @@ template <typename Int>
 BasicDyadic<Int> FromFirstEnd(bool from_high, const BasicDyadic<Int>& t) {
   BasicDyadic<Int> where = t;
   if (from_high) where.n = (Int{1} << t.k) - t.n;
-  while (where.k > 0 && static_cast<std::int64_t>(where.n) % 2 == 0) {
+  while (where.k > 0 && (where.n & Int{1}) == 0) {
     where = {where.n >> 1, where.k - 1};
   }
   return where;

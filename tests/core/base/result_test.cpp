@@ -14,6 +14,15 @@ TEST(Result, CarriesEitherTheValueOrTheError) {
   EXPECT_EQ(failure.error().message, "disk gone");
 }
 
+TEST(Result, OfConstIsReadAlike) {
+  const Result<int> value = 7;
+  const Result<int> failure = Error{ErrorCode::kIo, "disk gone"};
+  EXPECT_EQ(*value, 7);
+  EXPECT_EQ(failure.error().message, "disk gone");
+  EXPECT_THROW(*failure, InternalError);
+  EXPECT_THROW((void)value.error(), InternalError);
+}
+
 TEST(Result, ReadingTheValueOfAFailureIsOurBug) {
   Result<int> failure = Error{ErrorCode::kIo, "disk gone"};
   EXPECT_THROW(*failure, InternalError);

@@ -20,19 +20,19 @@ std::vector<int> SignsBetween(const Quadratic& q, const std::vector<IsolatedRoot
   return signs;
 }
 
-// The sign at every 1024th of the way is that of its part, and the parts change in turn.
+// The sign at every multiple of 1/1024 is that of the interval between roots, and signs alternate.
 void ExpectAllSignChanges(const Quadratic& q) {
   const std::vector<IsolatedRoot> roots = SignChanges(q);
-  std::size_t part = 0;
+  std::size_t interval = 0;
   const std::vector<int> signs = SignsBetween(q, roots);
   for (std::size_t i = 0; i + 1 < signs.size(); ++i) ASSERT_EQ(signs[i] * signs[i + 1], -1);
   for (std::int64_t n = 1; n < 1024; ++n) {
-    while (part < roots.size() && Compare(roots[part].root, Dyadic{n, 10}) < 0) ++part;
+    while (interval < roots.size() && Compare(roots[interval].root, Dyadic{n, 10}) < 0) ++interval;
     const int sign = SignAt(q, Dyadic{n, 10});
     // Zero at a root, or where the polynomial touches the axis.
     if (sign == 0) continue;
-    ASSERT_EQ(sign, signs[part]) << static_cast<int>(q.c0) << ' ' << static_cast<int>(q.c1) << ' '
-                                 << static_cast<int>(q.c2) << " at " << n;
+    ASSERT_EQ(sign, signs[interval]) << static_cast<int>(q.c0) << ' ' << static_cast<int>(q.c1)
+                                     << ' ' << static_cast<int>(q.c2) << " at " << n;
   }
 }
 
@@ -57,7 +57,7 @@ TEST(SignChanges, LeaveOutWhereThePolynomialOnlyTouchesZero) {
 
 TEST(IsolatedRoot, HasTheRootInItsBracketAndNearIt) {
   std::mt19937_64 random(1);
-  int placed = 0;
+  int isolated = 0;
   for (int i = 0; i < 4000; ++i) {
     const int bits = 4 + i % 90;
     const auto draw = [&] {
@@ -66,22 +66,22 @@ TEST(IsolatedRoot, HasTheRootInItsBracketAndNearIt) {
       return value >> (104 - bits);
     };
     for (const IsolatedRoot& root : SignChanges({draw(), draw(), draw()})) {
-      ++placed;
+      ++isolated;
       const auto at = [](double t, int k) {
         return Dyadic{Int128{static_cast<std::int64_t>(std::ldexp(t, k))}, k};
       };
       ASSERT_GE(Compare(root.root, at(root.lo, kBracketBits)), 0);
       ASSERT_LE(Compare(root.root, at(root.hi, kBracketBits)), 0);
-      const double near = root.ToDouble();
+      const double value = root.ToDouble();
       const double reach = std::ldexp(1.0, -47);
-      ASSERT_GE(Compare(root.root, at(std::max(near - reach, 0.0), 60)), 0);
-      ASSERT_LE(Compare(root.root, at(std::min(near + reach, 1.0), 60)), 0);
+      ASSERT_GE(Compare(root.root, at(std::max(value - reach, 0.0), 60)), 0);
+      ASSERT_LE(Compare(root.root, at(std::min(value + reach, 1.0), 60)), 0);
     }
   }
-  EXPECT_GT(placed, 1000);
+  EXPECT_GT(isolated, 1000);
 }
 
-TEST(IsolatedRoot, IsPlacedWhereTwoNearlyCoincide) {
+TEST(IsolatedRoot, IsExactWhereTwoNearlyCoincide) {
   // (a t - b)^2 = 1 with a = 2^49, b = a / 3: roots 2^-48 apart.
   const Int128 a = Int128{1} << 49;
   const Int128 b = a / 3;
@@ -92,7 +92,7 @@ TEST(IsolatedRoot, IsPlacedWhereTwoNearlyCoincide) {
   EXPECT_EQ(PointBetween(roots[0], roots[1]).Sign({b * b - 1, -2 * a * b, a * a}), -1);
 }
 
-TEST(CompareRoots, KnowsOneNumberFromTwoPolynomials) {
+TEST(CompareIsolatedRoots, FindsOneNumberFromTwoPolynomialsEqual) {
   const IsolatedRoot third = SignChanges({-1, 3, 0})[0];
   EXPECT_EQ(Compare(third, SignChanges({2, -6, 0})[0]), 0);
   EXPECT_EQ(Compare(third, SignChanges({-2, 5, 3})[0]), 0);  // (3 t - 1)(t + 2)

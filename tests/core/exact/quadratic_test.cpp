@@ -9,7 +9,7 @@
 namespace farhorizon {
 namespace {
 
-// Roots by the schoolbook formula in long double: good enough to place them where they are apart.
+// Roots by the formula in long double: good enough to order roots that are apart.
 std::vector<long double> RootsByFormula(const Quadratic& q) {
   const auto a = static_cast<long double>(q.c2);
   const auto b = static_cast<long double>(q.c1);
@@ -75,6 +75,35 @@ TEST(CompareRoots, OneNumberFromDifferentPolynomialsIsEqual) {
   EXPECT_LT(Compare(third, half_root), 0);
 }
 
+TEST(ApproximateRoot, IsWithinItsErrorWhereItIsReliable) {
+  std::mt19937_64 random(4);
+  int reliable = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Quadratic p = RandomQuadratic(random, i % 2 == 0 ? 20 : 1'000'000);
+    const std::vector<long double> roots = RootsByFormula(p);
+    for (std::size_t j = 0; j < roots.size(); ++j) {
+      const RootEstimate estimate = ApproximateRoot({p, j == 1});
+      if (!estimate.reliable) continue;
+      ++reliable;
+      const long double most = kRootEstimateError * std::max(1.0L, std::abs(roots[j]));
+      ASSERT_LE(std::abs(estimate.value - roots[j]), most);
+    }
+  }
+  EXPECT_GT(reliable, 10000);
+  // (t - 1)^2 - 2^-80: nothing of the discriminant is left in doubles.
+  const Int128 one = Int128{1} << 80;
+  EXPECT_FALSE(ApproximateRoot({{one - 1, -2 * one, one}, true}).reliable);
+  EXPECT_EQ(DiscriminantSign({one - 1, -2 * one, one}), 1);
+}
+
+TEST(Proportional, IsAMultipleOfEitherSign) {
+  EXPECT_TRUE(Proportional({1, -2, 3}, {-2, 4, -6}));
+  EXPECT_TRUE(Proportional({0, 5, 0}, {0, -1, 0}));
+  EXPECT_FALSE(Proportional({1, -2, 3}, {1, -2, 4}));
+  const Int128 large = Int128{1} << 103;
+  EXPECT_FALSE(Proportional({large, large, large}, {large, large, large - 1}));
+}
+
 TEST(Between, FindsTheCoarsestDyadicNumber) {
   const QuadraticRoot third{{-1, 3, 0}, false};
   const QuadraticRoot half_root{{-1, 0, 2}, true};
@@ -85,7 +114,8 @@ TEST(Between, FindsTheCoarsestDyadicNumber) {
   EXPECT_FALSE(Between(third, third));
 }
 
-// sqrt(1/2) and a rational number next to it, of a convergent of Pell's equation: apart by some 2^-202.
+// sqrt(1/2) and a rational number next to it, from a convergent of Pell's equation: apart by some
+// 2^-202.
 TEST(CompareRoots, TellsApartNumbersThatAgreeInTwoHundredBits) {
   Int128 p = 1;
   Int128 q = 1;  // p / q to sqrt(2)
@@ -130,18 +160,18 @@ TEST(SignAt, IsTheSameForANumberOfEitherKind) {
 
 TEST(NonNegativeAround, EndsWhereThePolynomialTurnsNegative) {
   // (t - 1/4)(3/4 - t) * 16
-  const NonNegativeRange hill = NonNegativeAround({-3, 16, -16}, {1, 1});
+  const NonNegativeRange hill = NonNegativeAround({-3, 16, -16}, Dyadic{1, 1});
   ASSERT_TRUE(hill.from && hill.to);
   EXPECT_EQ(Compare(*hill.from, Dyadic{1, 2}), 0);
   EXPECT_EQ(Compare(*hill.to, Dyadic{3, 2}), 0);
   // Its opposite, left of the lower root.
-  const NonNegativeRange valley = NonNegativeAround({3, -16, 16}, {1, 3});
+  const NonNegativeRange valley = NonNegativeAround({3, -16, 16}, Dyadic{1, 3});
   EXPECT_FALSE(valley.from);
   ASSERT_TRUE(valley.to);
   EXPECT_EQ(Compare(*valley.to, Dyadic{1, 2}), 0);
   // -(2 t - 1)^2 is not negative at 1/2 alone; its opposite never is.
-  EXPECT_TRUE(NonNegativeAround({-1, 4, -4}, {1, 1}).point);
-  const NonNegativeRange everywhere = NonNegativeAround({1, -4, 4}, {1, 1});
+  EXPECT_TRUE(NonNegativeAround({-1, 4, -4}, Dyadic{1, 1}).point);
+  const NonNegativeRange everywhere = NonNegativeAround({1, -4, 4}, Dyadic{1, 1});
   EXPECT_FALSE(everywhere.point || everywhere.from || everywhere.to);
 }
 

@@ -11,11 +11,11 @@ namespace {
 CollapseRules Within(const Dem& dem, double vertical_error) {
   CollapseRules rules;
   rules.limits.vertical_error = vertical_error;
-  rules.may_leave.assign(dem.heights.size(), true);
+  rules.removable.assign(dem.heights.size(), true);
   return rules;
 }
 
-TEST(Collapser, LeavesTwoTrianglesOfAPlane) {
+TEST(Collapser, ReducesAPlaneToTwoTriangles) {
   const Dem dem = DemOf(17, 9, [](int c, int r) { return 3 * c - 2 * r; });
   const Terrain terrain = *Terrain::Build(dem);
   Collapser collapser(terrain);
@@ -51,7 +51,7 @@ TEST(Collapser, StaysWithinItsErrorAtEveryPostAndCoversTheDomain) {
   }
 }
 
-TEST(Collapser, KeepsTrianglesInShape) {
+TEST(Collapser, KeepsToTheLimitsOnShape) {
   const Dem dem = FractalDem(5, 3);
   const Terrain terrain = *Terrain::Build(dem);
   CollapseRules rules = Within(dem, 200);
@@ -80,15 +80,15 @@ TEST(Collapser, KeepsTrianglesInShape) {
   EXPECT_GE(least_altitude, 0.5 - 1e-12);
 }
 
-TEST(Collapser, PostsThatMayNotLeaveStayAndSoDoEdgesBetweenThem) {
+TEST(Collapser, KeepsPostsThatAreNotRemovableAndEdgesBetweenThem) {
   const Dem dem = FractalDem(5, 4);
   const Terrain terrain = *Terrain::Build(dem);
   CollapseRules rules = Within(dem, 1000);
   std::vector<Edge> held;
   for (VertexId v = 33 * 16; v < 33 * 17 - 1; ++v) {
     held.push_back({v, v + 1});
-    rules.may_leave[static_cast<std::size_t>(v)] = false;
-    rules.may_leave[static_cast<std::size_t>(v + 1)] = false;
+    rules.removable[static_cast<std::size_t>(v)] = false;
+    rules.removable[static_cast<std::size_t>(v + 1)] = false;
   }
   Collapser collapser(terrain);
   ASSERT_TRUE(collapser.Run(rules, {}, {}));
@@ -99,34 +99,34 @@ TEST(Collapser, PostsThatMayNotLeaveStayAndSoDoEdgesBetweenThem) {
   for (const Edge& edge : held) EXPECT_EQ(edges.count(edge), 1U);
 }
 
-TEST(Collapser, ADomeNeedsNoLeaveForItsChords) {
+TEST(Collapser, AsksForNoEdgeBelowTheSurface) {
   const Dem dem =
       DemOf(17, 17, [](int c, int r) { return -(c - 8) * (c - 8) - (r - 8) * (r - 8); });
   const Terrain terrain = *Terrain::Build(dem);
   CollapseRules rules = Within(dem, 10);
-  rules.may_stand = [](VertexId, VertexId) { return false; };
+  rules.may_add_edge = [](VertexId, VertexId) { return false; };
   Collapser collapser(terrain);
   ASSERT_TRUE(collapser.Run(rules, {}, {}));
   EXPECT_LT(collapser.surface().triangle_count(), 300);
 }
 
-TEST(Collapser, ABowlKeepsAllItsEdgesWhereNoneMayRise) {
+TEST(Collapser, KeepsABowlWhereNoEdgeAboveTheSurfaceIsAllowed) {
   const Dem dem = DemOf(17, 17, [](int c, int r) { return (c - 8) * (c - 8) + (r - 8) * (r - 8); });
   const Terrain terrain = *Terrain::Build(dem);
   CollapseRules rules = Within(dem, 10);
-  rules.may_stand = [](VertexId, VertexId) { return false; };
+  rules.may_add_edge = [](VertexId, VertexId) { return false; };
   Collapser collapser(terrain);
   ASSERT_TRUE(collapser.Run(rules, {}, {}));
   EXPECT_EQ(collapser.surface().triangle_count(), 512);
 }
 
-TEST(Collapser, AskedLeaveIsGivenForEveryEdgeThatRises) {
+TEST(Collapser, AsksForEveryEdgeAboveTheSurface) {
   const Dem dem = FractalDem(4, 5);
   const Terrain terrain = *Terrain::Build(dem);
   CollapseRules rules = Within(dem, 1000);
   std::set<Edge> refused;
-  // Edges may rise between even posts only.
-  rules.may_stand = [&refused](VertexId p, VertexId q) {
+  // Edges above the surface are allowed between even posts only.
+  rules.may_add_edge = [&refused](VertexId p, VertexId q) {
     const bool may = p % 2 == 0 && q % 2 == 0;
     if (!may) refused.insert(MakeEdge(p, q));
     return may;
@@ -137,7 +137,7 @@ TEST(Collapser, AskedLeaveIsGivenForEveryEdgeThatRises) {
   EXPECT_LT(collapser.surface().triangle_count(), std::ssize(terrain.Triangles()));
 }
 
-TEST(Collapser, StopsWhenAskedTo) {
+TEST(Collapser, StopsWhenAStopIsRequested) {
   const Dem dem = FractalDem(4, 6);
   const Terrain terrain = *Terrain::Build(dem);
   std::stop_source source;

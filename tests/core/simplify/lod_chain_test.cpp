@@ -65,7 +65,8 @@ TEST(LodChain, TheFinestLevelHasTheSkylineOfTheDem) {
 }
 
 TEST(LodChain, AValleyBetweenTwoRidgesIsNotFilled) {
-  // The trap: both ridges kept, the valley's floor gone, and a skyline where there was none.
+  // Ridges kept, the posts of the floor removed: triangles from ridge to ridge would be a skyline
+  // that the DEM does not have (core/simplify/README.md, section 2).
   const Dem dem = DemOf(25, 25, [](int c, int r) {
     const int off = std::min(std::abs(r - 8), std::abs(r - 16));
     return 100 - 25 * off + (c % 5 == 0 ? 0 : 1);
@@ -74,7 +75,7 @@ TEST(LodChain, AValleyBetweenTwoRidgesIsNotFilled) {
   EXPECT_LE(GreatestSilhouetteError(chain, chain.levels[0], 4000), kRounding);
 }
 
-TEST(LodChain, ACraterKeepsNothingWithinItsRim) {
+TEST(LodChain, ACraterIsSimplifiedInsideItsRim) {
   const Dem dem = DemOf(33, 33, [](int c, int r) {
     const double off = std::hypot(c - 16, r - 16);
     return static_cast<std::int32_t>(std::lround(100 - 10 * std::abs(off - 10) + (c * 7 + r) % 3));
@@ -168,7 +169,7 @@ TEST(LodChain, KeepsTheSkylineOfRealHillsWithLessThanHalfTheTriangles) {
   EXPECT_LT(chain.levels[0].mesh.triangles.size(), chain.terrain.Triangles().size() / 2);
 }
 
-TEST(LodChain, TheSameTwice) {
+TEST(LodChain, IsTheSameOnASecondRun) {
   const Chain one = Build(FractalDem(5, 40), Budgets(10, 3));
   const Chain two = Build(FractalDem(5, 40), Budgets(10, 3));
   for (std::size_t i = 0; i < one.levels.size(); ++i) {
@@ -206,7 +207,7 @@ TEST(LodChain, TwoNeighboursMeetWithoutACrackAtEveryLevel) {
   }
 }
 
-TEST(RunsAlongOutline, TellsTheOutlineFromWhatIsWithinOrAcross) {
+TEST(RunsAlongOutline, IsFalseInsideTheTerrainAndAcrossAHole) {
   const Dem dem = DrawnDem(R"(
       1 1 1 1 1
       1 1 1 1 1

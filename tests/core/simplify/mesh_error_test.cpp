@@ -22,8 +22,8 @@ Measured OnPosts(const Terrain& terrain, const std::vector<Triangle>& triangles)
   for (const Triangle& t : triangles) {
     std::array<std::int32_t, 3> corners{};
     for (std::size_t k = 0; k < 3; ++k) {
-      const auto [at, young] = index.try_emplace(t[k], std::ssize(measured.posts));
-      if (young) {
+      const auto [at, is_new] = index.try_emplace(t[k], std::ssize(measured.posts));
+      if (is_new) {
         measured.posts.push_back(t[k]);
         measured.mesh.points.push_back({static_cast<double>(terrain.dem().Column(t[k])),
                                         static_cast<double>(terrain.dem().Row(t[k])),
@@ -55,7 +55,7 @@ TEST(MeshError, IsZeroForTheTerrainItself) {
   EXPECT_EQ(error->displacement, 0);
 }
 
-TEST(MeshError, OfAnyLevelIsWithinItsBudgetsAndAboveWhatLinesShow) {
+TEST(MeshError, OfEveryLevelIsWithinItsBudgetsAndNotBelowTheErrorOnAnyLine) {
   const Dem dem = FractalDem(5, 2);
   const Terrain terrain = *Terrain::Build(dem);
   const Horizon horizon = *FindHorizon(terrain, 1, {});
@@ -82,7 +82,7 @@ TEST(MeshError, OfAnyLevelIsWithinItsBudgetsAndAboveWhatLinesShow) {
   }
 }
 
-TEST(MeshError, SeesASummitCutOff) {
+TEST(MeshError, IsTheHeightOfASummitThatIsRemoved) {
   const Dem dem = DemOf(9, 9, [](int c, int r) { return c == 4 && r == 4 ? 100 : 0; });
   const Dem flat = DemOf(9, 9, [](int, int) { return 0; });
   const Terrain terrain = *Terrain::Build(dem);
@@ -96,7 +96,7 @@ TEST(MeshError, SeesASummitCutOff) {
   EXPECT_GT(error->silhouette.rms_m, 0);
 }
 
-TEST(MeshError, CountsWhatMovedVerticesCanDo) {
+TEST(MeshError, IncludesTheEffectOfMovedVertices) {
   const Dem dem = DemOf(9, 9, [](int c, int r) { return 10 * c + r; });
   const Terrain terrain = *Terrain::Build(dem);
   Measured m = OnPosts(terrain, terrain.Triangles());
@@ -114,7 +114,7 @@ TEST(MeshError, CountsWhatMovedVerticesCanDo) {
   EXPECT_GE(error->silhouette.rms_m, 0.3);
 }
 
-TEST(MeshError, RefusesWhatIsNoCoverOfTheDomain) {
+TEST(MeshError, RefusesAMeshThatDoesNotCoverTheDomain) {
   const Dem dem = FractalDem(3, 4);
   const Terrain terrain = *Terrain::Build(dem);
   const std::vector<Triangle> full = terrain.Triangles();

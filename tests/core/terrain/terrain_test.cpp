@@ -1,11 +1,14 @@
 #include "core/terrain/terrain.h"
 
+#include <array>
 #include <map>
 #include <random>
 #include <set>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "core/geometry/plan.h"
 
 namespace farhorizon {
 namespace {
@@ -95,15 +98,53 @@ TEST(Terrain, TrianglesRunCounterClockwiseSeenFromAbove) {
   }
 }
 
-TEST(Convexity, IsThatOfTheHeightsAcrossTheDiagonal) {
+// RidgeSign by the height of d over the plane through a, b, c.
+int RidgeSignByPlane(Point3i a, Point3i b, Point3i c, Point3i d) {
+  const auto minor = [](std::int64_t p, std::int64_t q, std::int64_t r, std::int64_t s) {
+    return p * s - q * r;
+  };
+  const Point3i u{b.x - a.x, b.y - a.y, b.z - a.z};
+  const Point3i v{c.x - a.x, c.y - a.y, c.z - a.z};
+  const Point3i w{d.x - a.x, d.y - a.y, d.z - a.z};
+  const std::int64_t plan = minor(u.x, u.y, v.x, v.y);
+  const std::int64_t above =
+      w.x * minor(u.y, u.z, v.y, v.z) - w.y * minor(u.x, u.z, v.x, v.z) + w.z * plan;  // times plan
+  return above == 0 ? 0 : ((above > 0) == (plan > 0) ? -1 : 1);
+}
+
+TEST(RidgeSign, IsThatOfTheHeightsAcrossTheDiagonal) {
   // Across a parallelogram the test is z_a + z_b against z_c + z_d.
   for (int za = 0; za < 3; ++za) {
     for (int zc = 0; zc < 3; ++zc) {
-      const int sign = Convexity({0, 0, za}, {1, 1, 1}, {1, 0, zc}, {0, 1, 1});
+      const int sign = RidgeSign({0, 0, za}, {1, 1, 1}, {1, 0, zc}, {0, 1, 1});
       const int expected = za + 1 - zc - 1;
       EXPECT_EQ(sign, expected > 0 ? 1 : (expected < 0 ? -1 : 0));
     }
   }
+}
+
+TEST(Terrain, ARidgeIsAnEdgeWhoseFacesBendDownwards) {
+  std::mt19937 random(8);
+  std::array<int, 3> signs{};
+  for (int round = 0; round < 300; ++round) {
+    const Dem dem = RandomDemWithHoles(2 + static_cast<std::int32_t>(random() % 5),
+                                       2 + static_cast<std::int32_t>(random() % 5), random);
+    Result<Terrain> built = Terrain::Build(dem);
+    if (!built) continue;
+    const Terrain& terrain = *built;
+    for (const Edge edge : terrain.Edges()) {
+      const Terrain::Faces faces = terrain.FacesOf(edge);
+      if (!faces.left || !faces.right) {
+        EXPECT_TRUE(terrain.IsRidgeOrBorder(edge));
+        continue;
+      }
+      const int sign = RidgeSignByPlane(terrain.Point(edge.a), terrain.Point(edge.b),
+                                        terrain.Point(*faces.left), terrain.Point(*faces.right));
+      ASSERT_EQ(terrain.IsRidgeOrBorder(edge), sign > 0);
+      ++signs[static_cast<std::size_t>(sign + 1)];
+    }
+  }
+  for (const int count : signs) EXPECT_GT(count, 100);
 }
 
 }  // namespace

@@ -25,20 +25,10 @@ TargetSegment TargetOf(const Segment& s) {
                         : TargetSegment{s.b, s.a, Ties::kPass};
 }
 
-Int1280 ToWideInt(const Wide& value) {
-  const Wide magnitude = value < 0 ? Wide(-value) : value;
-  Int1280 result;
-  for (int shift = 960; shift >= 0; shift -= 60) {
-    const Wide digit = (magnitude >> static_cast<unsigned>(shift)) & ((Wide(1) << 60) - 1);
-    result = (result << 60) + Int1280(static_cast<std::int64_t>(digit));
-  }
-  return value < 0 ? -result : result;
-}
-
 // t as it is counted from the lower end.
 WideDyadic FromLow(const Segment& s, const DyadicNumber& t) {
   const Wide whole = Wide(1) << static_cast<unsigned>(t.exponent);
-  return {ToWideInt(s.a.z <= s.b.z ? t.numerator : Wide(whole - t.numerator)), t.exponent};
+  return {Int1280(s.a.z <= s.b.z ? t.numerator : Wide(whole - t.numerator)), t.exponent};
 }
 
 // The sign of the cross product of a curve's direction at t and `direction`.
@@ -55,7 +45,7 @@ bool Contains(const VisibleRegion& region, const Segment& edge, const DyadicNumb
   const std::int64_t x = std::int64_t{target.high.x} - target.low.x;
   const std::int64_t y = std::int64_t{target.high.y} - target.low.y;
   if (x * direction[1] - y * direction[0] < 0) direction = {-direction[0], -direction[1]};
-  const WideVector v{ToWideInt(direction[0]), ToWideInt(direction[1])};
+  const WideVector v{Int1280(direction[0]), Int1280(direction[1])};
   const WideDyadic at = FromLow(edge, t);
   return std::any_of(region.cells().begin(), region.cells().end(), [&](const StripCell& cell) {
     return Compare(cell.from.root, at) <= 0 && Compare(cell.to.root, at) >= 0 &&
@@ -65,11 +55,7 @@ bool Contains(const VisibleRegion& region, const Segment& edge, const DyadicNumb
 
 DyadicNumber ToOracle(const Segment& s, const SamplePoint& point) {
   const WideDyadic t = point.wide ? *point.wide : Widened(point.t);
-  Wide n = 0;
-  for (int shift = t.k / 60 * 60; shift >= 0; shift -= 60) {
-    const auto digit = static_cast<std::int64_t>(t.n >> shift) & ((std::int64_t{1} << 60) - 1);
-    n = (n << 60) + digit;
-  }
+  const Wide n(t.n);
   const Wide whole = Wide(1) << static_cast<unsigned>(t.k);
   return {s.a.z <= s.b.z ? n : Wide(whole - n), t.k};
 }

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/geometry/direction.h"
+#include "core/geometry/plan.h"
 
 namespace farhorizon {
 namespace {
@@ -86,7 +87,7 @@ TEST(FaceWedge, IsWhatTheFacesDoNotHide) {
     // Without a wedge the contours of both faces have one direction, at most.
     if (!wedge) {
       ASSERT_TRUE(ridge.left && ridge.right);
-      ASSERT_LE(Convexity(ridge.low, ridge.high, *ridge.left, *ridge.right), 0);
+      ASSERT_LE(RidgeSign(ridge.low, ridge.high, *ridge.right, *ridge.left), 0);
     }
     ++(wedge ? wedges : without);
   }
