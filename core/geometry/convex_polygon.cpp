@@ -1,14 +1,12 @@
 #include "core/geometry/convex_polygon.h"
 
 #include <algorithm>
-#include <limits>
+
+#include "core/geometry/plan.h"
+#include "core/geometry/row_span.h"
 
 namespace farhorizon {
 namespace {
-
-std::int64_t Cross(Point2i o, Point2i a, Point2i b) {
-  return std::int64_t{a.x - o.x} * (b.y - o.y) - std::int64_t{a.y - o.y} * (b.x - o.x);
-}
 
 bool OnSegment(Point2i a, Point2i b, Point2i p) {
   return Cross(a, b, p) == 0 && p.x >= std::min(a.x, b.x) && p.x <= std::max(a.x, b.x) &&
@@ -33,10 +31,6 @@ bool ASideParts(const std::vector<Point2i>& a, const std::vector<Point2i>& b) {
     from = to;
   }
   return false;
-}
-
-std::int64_t FloorDivide(std::int64_t a, std::int64_t b) {
-  return a / b - static_cast<std::int64_t>(a % b != 0 && (a < 0) != (b < 0));
 }
 
 }  // namespace
@@ -164,31 +158,18 @@ ConvexPolygon::Silhouette ConvexPolygon::SilhouetteFrom(Point2i eye) const {
 
 void ConvexPolygon::ForEachRow(
     const std::function<void(std::int32_t, std::int32_t, std::int32_t)>& visit) const {
-  struct Span {
-    std::int64_t first = std::numeric_limits<std::int32_t>::max();
-    std::int64_t last = std::numeric_limits<std::int32_t>::min();
-  };
-  std::vector<Span> spans(static_cast<std::size_t>(most_.y - least_.y) + 1);
-  const auto include = [&](std::int32_t row, std::int64_t at_least, std::int64_t at_most) {
-    Span& span = spans[static_cast<std::size_t>(row - least_.y)];
-    span.first = std::min(span.first, at_least);
-    span.last = std::max(span.last, at_most);
-  };
+  std::vector<RowSpan> spans(static_cast<std::size_t>(most_.y - least_.y) + 1);
   for (std::size_t i = 0; i < corners_.size(); ++i) {
-    Point2i a = corners_[i];
-    Point2i b = corners_[(i + 1) % corners_.size()];
-    if (a.y > b.y) std::swap(a, b);
-    include(a.y, a.x, a.x);
-    include(b.y, b.x, b.x);
-    for (std::int32_t row = a.y + 1; row < b.y; ++row) {
-      const std::int64_t run = std::int64_t{b.x - a.x} * (row - a.y);
-      const std::int64_t rise = b.y - a.y;
-      include(row, a.x - FloorDivide(-run, rise), a.x + FloorDivide(run, rise));
+    const Point2i a = corners_[i];
+    const Point2i b = corners_[(i + 1) % corners_.size()];
+    const auto [first, last] = std::minmax(a.y, b.y);
+    for (std::int32_t row = first; row <= last; ++row) {
+      spans[static_cast<std::size_t>(row - least_.y)].Include(a, b, row);
     }
   }
   for (std::int32_t row = least_.y; row <= most_.y; ++row) {
-    const Span& span = spans[static_cast<std::size_t>(row - least_.y)];
-    if (span.first <= span.last) {
+    const RowSpan& span = spans[static_cast<std::size_t>(row - least_.y)];
+    if (!span.IsEmpty()) {
       visit(row, static_cast<std::int32_t>(span.first), static_cast<std::int32_t>(span.last));
     }
   }

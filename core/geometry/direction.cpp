@@ -120,17 +120,17 @@ int DotSign(const ShortVector& a, const ShortVector& b) {
 }
 
 int CrossSign(const Vector& a, const Vector& b) {
-  if (IsNarrow(a) && IsNarrow(b)) return SignOf(a.x * b.y - a.y * b.x);
+  if (IsNarrow(a) && IsNarrow(b)) return SignOf(Cross(a, b));
   return CompareProducts(a.x, b.y, a.y, b.x);
 }
 
 int DotSign(const Vector& a, const Vector& b) {
-  if (IsNarrow(a) && IsNarrow(b)) return SignOf(a.x * b.x + a.y * b.y);
+  if (IsNarrow(a) && IsNarrow(b)) return SignOf(Dot(a, b));
   return CompareProducts(a.x, b.x, -a.y, b.y);
 }
 
-int CrossSign(const WideVector& a, const WideVector& b) { return SignOf(a.x * b.y - a.y * b.x); }
-int DotSign(const WideVector& a, const WideVector& b) { return SignOf(a.x * b.x + a.y * b.y); }
+int CrossSign(const WideVector& a, const WideVector& b) { return SignOf(Cross(a, b)); }
+int DotSign(const WideVector& a, const WideVector& b) { return SignOf(Dot(a, b)); }
 
 ShortDirection MakeDirection(const ShortVector& v) { return DirectionOf(v); }
 Direction MakeDirection(const Vector& v) { return DirectionOf(v); }

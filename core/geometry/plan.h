@@ -6,18 +6,33 @@
 
 #include "core/exact/int128.h"
 #include "core/geometry/point.h"
+#include "core/geometry/vector.h"
 
 namespace farhorizon {
+
+// Signed areas come with two senses. Lines, directions and hulls are reckoned in (column, row), where
+// counter-clockwise is from columns to rows; triangles of a mesh in (column, -row), where it is
+// counter-clockwise as the ground is seen from above.
+//
+//          row ^    b                      o----------> column
+//              |   /                       | ` ` .
+//              |  /    . a                 |  `    ` a
+//              | /  . `                    |   `
+//              o----------> column     row v    b
+//
+//           Cross(o, a, b) > 0         TwiceArea(o, a, b) < 0
+
+/// The cross product of the vectors from o to a and from o to b, columns and rows: positive where a
+/// turn from a to b, less than half a one, is from columns to rows. Exact.
+inline std::int64_t Cross(Point2i o, Point2i a, Point2i b) {
+  return Cross(ShortVector{a.x - o.x, a.y - o.y}, ShortVector{b.x - o.x, b.y - o.y});
+}
 
 /// Twice the signed area of the triangle o, p, q in the plan (column, -row): positive where it runs
 /// counter-clockwise as the ground is seen from above. Exact: grids have at most 2^15 columns and
 /// rows.
 inline std::int64_t TwiceArea(Point3i o, Point3i p, Point3i q) {
-  const std::int64_t px = p.x - o.x;
-  const std::int64_t py = p.y - o.y;
-  const std::int64_t qx = q.x - o.x;
-  const std::int64_t qy = q.y - o.y;
-  return py * qx - px * qy;
+  return -Cross({o.x, o.y}, {p.x, p.y}, {q.x, q.y});
 }
 
 /// Square of the distance in plan, columns and rows.

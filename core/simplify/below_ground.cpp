@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/exact/int128.h"
+#include "core/geometry/floor_divide.h"
 #include "core/geometry/plan.h"
 
 namespace farhorizon {
@@ -38,8 +39,8 @@ class Walk {
       const std::int64_t at_right = at_left + dy;
       const std::int64_t top = std::min(at_left, at_right);
       const std::int64_t bottom = std::max(at_left, at_right);
-      const auto first = static_cast<std::int32_t>(p_.y + FloorDivide(top, dx));
-      const auto last = static_cast<std::int32_t>(p_.y - FloorDivide(-bottom, dx)) - 1;
+      const auto first = static_cast<std::int32_t>(p_.y + FloorDivide<std::int64_t>(top, dx));
+      const auto last = static_cast<std::int32_t>(p_.y - FloorDivide<std::int64_t>(-bottom, dx)) - 1;
       for (std::int32_t r = first; r <= last; ++r) {
         if (!CellCovers(c, r)) return false;
       }
@@ -48,9 +49,6 @@ class Walk {
   }
 
  private:
-  static std::int64_t FloorDivide(std::int64_t a, std::int64_t b) {
-    return a / b - static_cast<std::int64_t>(a % b != 0 && a < 0);
-  }
   [[nodiscard]] VertexId PostAt(std::int32_t column, std::int32_t row) const {
     return row * terrain_.dem().columns + column;
   }

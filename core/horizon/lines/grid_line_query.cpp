@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "core/geometry/grid_lines.h"
+
 namespace farhorizon {
 namespace {
 
@@ -14,14 +16,6 @@ constexpr double kAtPost = 1e-9;
 // block is wide, stays within the block and its neighbours, and so do the posts beside it.
 constexpr int kBlockBits = 3;
 constexpr double kPiece = 1 << kBlockBits;
-
-// A family of parallel grid lines: posts are i steps across and j along.
-struct Family {
-  std::int32_t along_column;
-  std::int32_t along_row;
-  std::int32_t across_column;
-  std::int32_t across_row;
-};
 
 // One line, by its distance from (x, y).
 class Walker {
@@ -55,11 +49,9 @@ class Walker {
   }
 
   void Walk(double from, double to) {
-    Walk({1, 0, 0, 1}, from, to, 0, rows_ - 1);
-    Walk({0, 1, 1, 0}, from, to, 0, columns_ - 1);
-    Walk({1, 1, 1, 0}, from, to, -(rows_ - 1), columns_ - 1);
-    // The other diagonal is an edge beside holes only.
-    if (has_holes_) Walk({-1, 1, 1, 0}, from, to, 0, columns_ + rows_ - 2);
+    const auto families = FamiliesOfGridLines(columns_, rows_);
+    // The other diagonals are edges beside holes only.
+    for (std::size_t k = 0; k < (has_holes_ ? 4 : 3); ++k) Walk(families[k], from, to);
   }
 
  private:
@@ -72,19 +64,15 @@ class Walker {
     to_ = std::min(to_, std::max(at_0, at_end));
   }
 
-  void Walk(const Family& f, double from, double to, std::int32_t first, std::int32_t last) {
-    // (column, row) = i across + j along; the basis has determinant 1 or -1.
-    const double det = f.across_column * f.along_row - f.across_row * f.along_column;
-    const double i0 = (x_ * f.along_row - y_ * f.along_column) * det;
-    const double j0 = (y_ * f.across_column - x_ * f.across_row) * det;
-    const double di = (dx_ * f.along_row - dy_ * f.along_column) * det;
-    const double dj = (dy_ * f.across_column - dx_ * f.across_row) * det;
+  void Walk(const GridLines& f, double from, double to) {
+    const auto [i0, j0] = f.PositionOf(x_, y_);
+    const auto [di, dj] = f.PositionOf(dx_, dy_);
     if (std::abs(di) < 1e-12) return;  // along the family: met by the others
     const double start = std::min(i0 + from * di, i0 + to * di);
     const double end = std::max(i0 + from * di, i0 + to * di);
     // A little more on either side, for what rounding does.
-    const double begin = std::max<double>(first, std::ceil(start - kAtPost));
-    const double past = std::min<double>(last, std::floor(end + kAtPost));
+    const double begin = std::max<double>(f.first, std::ceil(start - kAtPost));
+    const double past = std::min<double>(f.last, std::floor(end + kAtPost));
     const double slope = dj / di;
     const double limit = columns_ + rows_;
     for (auto i = static_cast<std::int32_t>(begin); i <= past; ++i) {
@@ -94,16 +82,15 @@ class Walker {
   }
 
   // j > -1.
-  void AddObstacle(const Family& f, std::int32_t i, double j) {
+  void AddObstacle(const GridLines& f, std::int32_t i, double j) {
     const std::int32_t whole = static_cast<std::int32_t>(j + 1) - 1;
     const double part = j - whole;
     if (part < kAtPost || part > 1 - kAtPost) {
       const std::int32_t at = part < kAtPost ? whole : whole + 1;
-      MeetPost(i * f.across_column + at * f.along_column, i * f.across_row + at * f.along_row);
+      MeetPost(f.Post(i, at));
       return;
     }
-    const std::int32_t column = i * f.across_column + whole * f.along_column;
-    const std::int32_t row = i * f.across_row + whole * f.along_row;
+    const auto [column, row] = f.Post(i, whole);
     if (!Inside(column, row) || !Inside(column + f.along_column, row + f.along_row)) return;
     const VertexId p = row * columns_ + column;
     const VertexId q = p + f.along_row * columns_ + f.along_column;
@@ -117,7 +104,8 @@ class Walker {
     if (faces.left || faces.right) highest_ = {height, edge};
   }
 
-  void MeetPost(std::int32_t column, std::int32_t row) {
+  void MeetPost(Point2i post) {
+    const auto [column, row] = post;
     if (!Inside(column, row)) return;
     const VertexId p = row * columns_ + column;
     if (heights_[p] <= highest_.height || heights_[p] == kNoHeight) return;

@@ -25,8 +25,6 @@ std::optional<int> FilteredSign(const MovingVector& a, const MovingVector& b, do
   return cross > 0 ? 1 : -1;
 }
 
-double CrossOf(const PlanVector& a, const PlanVector& b) { return a.x * b.y - a.y * b.x; }
-
 }  // namespace
 
 int Order(const BoundaryCurve& a, const BoundaryCurve& b, const SamplePoint& point) {
@@ -50,8 +48,8 @@ bool SurelyTurns(const VectorRange& a, const VectorRange& b) {
   // The Bernstein coefficients of their cross product are positive.
   constexpr double kError = 0x1p-47;
   const double margin = kError * a.size * b.size;
-  return CrossOf(a.start, b.start) > margin && CrossOf(a.end, b.end) > margin &&
-         CrossOf(a.start, b.end) + CrossOf(a.end, b.start) > margin;
+  return Cross(a.start, b.start) > margin && Cross(a.end, b.end) > margin &&
+         Cross(a.start, b.end) + Cross(a.end, b.start) > margin;
 }
 
 bool SurelyInOrder(const BoundaryCurve& a, const BoundaryCurve& b, double from, double to) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/exact/isolated_root.h"
+#include "core/geometry/vector.h"
 #include "core/horizon/visibility/point_view.h"
 
 namespace farhorizon {
@@ -38,11 +39,6 @@ struct StripCell {
 /// 1 where b is counter-clockwise of a around the point, -1 where clockwise, 0 where they are one direction
 /// for all t. Exact. Requires: they do not cross at the point, which they may touch at.
 int Order(const BoundaryCurve& a, const BoundaryCurve& b, const SamplePoint& point);
-
-struct PlanVector {
-  double x;
-  double y;
-};
 
 /// A moving vector in plain numbers, at both ends of a range of t.
 struct VectorRange {
