@@ -11,14 +11,14 @@ namespace farhorizon {
 /// falling ends. Cost: O(n log n) to build, O(n) memory, O(log n + found) a question.
 class IntervalTree {
  public:
-  struct Interval {
+  struct Entry {
     double from = 0;
     double to = 0;
     std::int32_t id = 0;
   };
 
   /// Requires: from <= to, no NaN.
-  explicit IntervalTree(std::vector<Interval> intervals);
+  explicit IntervalTree(std::vector<Entry> intervals);
 
   /// The ids of the intervals that hold x, in no particular order.
   [[nodiscard]] std::vector<std::int32_t> Holding(double x) const;
@@ -32,11 +32,11 @@ class IntervalTree {
     std::int32_t lower = kNone;
     std::int32_t upper = kNone;
   };
-  std::int32_t Build(std::vector<Interval> intervals);
+  std::int32_t Build(std::vector<Entry> intervals);
 
   std::vector<Node> nodes_;
-  std::vector<Interval> by_start_;
-  std::vector<Interval> by_end_;
+  std::vector<Entry> by_start_;
+  std::vector<Entry> by_end_;
   std::int32_t root_;
 };
 

@@ -12,10 +12,10 @@
 #include <numbers>
 #include <utility>
 
+#include "core/geometry/interval_set.h"
+
 namespace farhorizon {
 namespace {
-
-using Interval = IntervalTree::Interval;
 
 // What doubles may be wrong by in an angle made of few steps.
 constexpr double kAngleSlack = 1e-12;
@@ -29,14 +29,11 @@ struct Angle {
 };
 
 Angle AngleAt(const PlanMotion& motion, double t, const std::array<double, 2>& along) {
-  const double x = motion.ax + t * motion.bx;
-  const double y = motion.ay + t * motion.by;
+  const auto [x, y] = motion.At(t);
   const double cross = along[0] * y - along[1] * x;
   const double dot = along[0] * x + along[1] * y;
   const double size = std::hypot(motion.ax, motion.ay) + std::hypot(motion.bx, motion.by);
-  // Never -0: the edge's opposite is at pi, not at -pi.
-  return {std::atan2(cross > 0 ? cross : 0.0, dot),
-          kEndSlack * size / std::hypot(x, y) + kAngleSlack};
+  return {HalfTurnAngle(dot, cross), kEndSlack * size / std::hypot(x, y) + kAngleSlack};
 }
 
 // The directions of a patch as angles from `along`, rounded outwards.
@@ -52,36 +49,22 @@ Interval AnglesOf(const LineOfSightCell& patch, const std::array<double, 2>& alo
     to = std::max(to, last.value);
     slack = std::max({slack, first.slack, last.slack});
   }
-  if (!(slack < kUseless)) return {0, std::numbers::pi, 0};
-  return {from - slack, to + slack, 0};
-}
-
-std::vector<Interval> Union(std::vector<Interval> intervals) {
-  std::sort(intervals.begin(), intervals.end(),
-            [](const Interval& a, const Interval& b) { return a.from < b.from; });
-  std::vector<Interval> apart;
-  for (const Interval& next : intervals) {
-    if (apart.empty() || next.from > apart.back().to) {
-      apart.push_back(next);
-    } else {
-      apart.back().to = std::max(apart.back().to, next.to);
-    }
-  }
-  return apart;
+  if (!(slack < kUseless)) return {0, std::numbers::pi};
+  return {from - slack, to + slack};
 }
 
 // Adds [from, to], angles of directions that have no sense, as parts of [0, pi].
 void AppendHalfTurn(double from, double to, std::vector<Interval>& angles) {
   constexpr double kHalf = std::numbers::pi;
   if (to - from >= kHalf) {
-    angles.push_back({0, kHalf, 0});
+    angles.push_back({0, kHalf});
     return;
   }
   const double shift = std::floor(from / kHalf) * kHalf;
   from -= shift;
   to -= shift;
-  angles.push_back({from, std::min(to, kHalf), 0});
-  if (to >= kHalf) angles.push_back({0, to - kHalf, 0});
+  angles.push_back({from, std::min(to, kHalf)});
+  if (to >= kHalf) angles.push_back({0, to - kHalf});
 }
 
 // All directions in which an edge is seen, as disjoint intervals of [0, pi].
@@ -92,9 +75,9 @@ std::vector<Interval> DirectionsOf(const LinesOfSight& sights, const Segment& ed
   std::vector<Interval> angles;
   for (const LineOfSightCell& patch : sights) {
     const Interval turned = AnglesOf(patch, along);
-    AppendHalfTurn(base + turned.from, base + turned.to, angles);
+    AppendHalfTurn(base + turned[0], base + turned[1], angles);
   }
-  return Union(std::move(angles));
+  return UnionOf(std::move(angles));
 }
 
 double AngleOf(const ViewDirection& view) {
@@ -113,7 +96,7 @@ std::vector<Segment> SegmentsOf(const Terrain& terrain, const Horizon& horizon) 
 
 IntervalTree TreeOf(const std::vector<Segment>& edges, const Horizon& horizon,
                     const std::vector<LinesOfSight>& sights) {
-  std::vector<Interval> all;
+  std::vector<IntervalTree::Entry> all;
   for (std::size_t i = 0; i < edges.size(); ++i) {
     const auto id = static_cast<std::int32_t>(i);
     if (horizon.edges[i].undecided) {
@@ -121,7 +104,7 @@ IntervalTree TreeOf(const std::vector<Segment>& edges, const Horizon& horizon,
       continue;
     }
     for (const Interval& angles : DirectionsOf(sights[i], edges[i])) {
-      all.push_back({angles.from, angles.to, id});
+      all.push_back({angles[0], angles[1], id});
     }
   }
   return IntervalTree(std::move(all));

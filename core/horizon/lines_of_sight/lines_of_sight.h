@@ -4,17 +4,10 @@
 
 #include "core/base/progress.h"
 #include "core/base/result.h"
+#include "core/geometry/plan_motion.h"
 #include "core/horizon/horizon.h"
 
 namespace farhorizon {
-
-/// A vector of the plan, columns and rows, that moves with t: (ax, ay) + t (bx, by).
-struct PlanMotion {
-  double ax = 0;
-  double ay = 0;
-  double bx = 0;
-  double by = 0;
-};
 
 /// Lines of sight of an edge: through its point at t, from <= t <= to, 0 at a and 1 at b; at each t in
 /// the directions of `first` counter-clockwise (from columns to rows) to those of `last`. Both lie in the

@@ -10,12 +10,12 @@
 namespace farhorizon {
 namespace {
 
-using Interval = IntervalTree::Interval;
+using Entry = IntervalTree::Entry;
 
 TEST(IntervalTree, FindsTheIntervalsThatALookAtEachOneFinds) {
   std::mt19937 random(1);
   for (int round = 0; round < 300; ++round) {
-    std::vector<Interval> intervals;
+    std::vector<Entry> intervals;
     const auto count = static_cast<std::int32_t>(random() % 60);
     const auto places = static_cast<double>(1 + random() % 40);  // few: many ends are shared
     for (std::int32_t id = 0; id < count; ++id) {
@@ -25,13 +25,13 @@ TEST(IntervalTree, FindsTheIntervalsThatALookAtEachOneFinds) {
     }
     const IntervalTree tree(intervals);
     std::vector<double> questions = {-1, 50, 0, 7.5};
-    for (const Interval& interval : intervals) {
+    for (const Entry& interval : intervals) {
       questions.insert(questions.end(),
                        {interval.from, interval.to, (interval.from + interval.to) / 2});
     }
     for (const double x : questions) {
       std::vector<std::int32_t> holding;
-      for (const Interval& interval : intervals) {
+      for (const Entry& interval : intervals) {
         if (interval.from <= x && x <= interval.to) holding.push_back(interval.id);
       }
       ASSERT_THAT(tree.Holding(x), testing::UnorderedElementsAreArray(holding)) << x;
@@ -40,7 +40,7 @@ TEST(IntervalTree, FindsTheIntervalsThatALookAtEachOneFinds) {
 }
 
 TEST(IntervalTree, TakesOneIntervalAThousandTimes) {
-  const IntervalTree tree(std::vector<Interval>(1000, Interval{1, 2, 7}));
+  const IntervalTree tree(std::vector<Entry>(1000, Entry{1, 2, 7}));
   EXPECT_EQ(tree.Holding(2).size(), 1000U);
   EXPECT_EQ(tree.Holding(2.5).size(), 0U);
 }
