@@ -16,7 +16,7 @@ namespace {
 
 class Walk {
  public:
-  Walk(const Terrain& terrain, const HullMergeTree& hulls, const HeightScale& scale, VertexId p,
+  Walk(const Terrain& terrain, const HullMergeTree& hulls, const FinerHeights& scale, VertexId p,
        VertexId q, std::int32_t steps)
       : terrain_(terrain),
         hulls_(hulls),
@@ -40,7 +40,8 @@ class Walk {
       const std::int64_t top = std::min(at_left, at_right);
       const std::int64_t bottom = std::max(at_left, at_right);
       const auto first = static_cast<std::int32_t>(p_.y + FloorDivide<std::int64_t>(top, dx));
-      const auto last = static_cast<std::int32_t>(p_.y - FloorDivide<std::int64_t>(-bottom, dx)) - 1;
+      const auto last =
+          static_cast<std::int32_t>(p_.y - FloorDivide<std::int64_t>(-bottom, dx)) - 1;
       for (std::int32_t r = first; r <= last; ++r) {
         if (!CellCovers(c, r)) return false;
       }
@@ -57,8 +58,8 @@ class Walk {
   [[nodiscard]] std::int32_t LevelAt(double t) const {
     const double z = p_.z + t * (static_cast<double>(q_.z) - p_.z);
     // Doubles are right to 2^-20 here; a whole step up is more than that.
-    return scale_.middle +
-           static_cast<std::int32_t>(std::ceil((z + 1) / std::ldexp(1.0, scale_.shift)));
+    return scale_.zero +
+           static_cast<std::int32_t>(std::ceil((z + 1) / std::ldexp(1.0, scale_.bits)));
   }
 
   [[nodiscard]] bool PostsCover(std::int32_t n) const {
@@ -128,14 +129,14 @@ class Walk {
 
   const Terrain& terrain_;
   const HullMergeTree& hulls_;
-  const HeightScale& scale_;
+  const FinerHeights& scale_;
   Point3i p_;
   Point3i q_;
 };
 
 }  // namespace
 
-bool GroundCovers(const Terrain& terrain, const HullMergeTree& hulls, const HeightScale& scale,
+bool GroundCovers(const Terrain& terrain, const HullMergeTree& hulls, const FinerHeights& scale,
                   VertexId p, VertexId q, std::int32_t steps) {
   return Walk(terrain, hulls, scale, p, q, steps).Covered();
 }

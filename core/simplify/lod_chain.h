@@ -32,7 +32,7 @@ struct Lod {
 /// plan. No triangle is steeper along either axis of the grid than the DEM's steepest.
 /// Each level keeps only horizon edges that the finer one keeps. Where the silhouette budget is 0
 /// it keeps all of them and H is exactly the DEM's; elsewhere H is within the budget, exactly. A budget
-/// below HeightScale's step counts as 0.
+/// below FinerHeights's step counts as 0.
 /// Requires: budgets do not fall from level to level.
 /// Errors: kCancelled.
 Result<std::vector<Lod>> BuildLodChain(const Terrain& terrain, const Horizon& horizon,

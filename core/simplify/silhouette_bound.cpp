@@ -80,7 +80,7 @@ Result<double> SilhouetteBound(const Terrain& terrain, const Horizon& horizon,
                                const std::vector<MeshEdge>& edges, double asked,
                                const Watch& watch) {
   const SkylineGuard guard(terrain, horizon);
-  const HeightScale& scale = guard.scale();
+  const FinerHeights& scale = guard.scale();
   BoundSearch search(scale.Steps(asked), scale.most_steps);
 
   // Above: what the DEM itself has as an edge cannot rise above it.

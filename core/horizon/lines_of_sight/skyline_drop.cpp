@@ -11,31 +11,14 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
-#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "core/horizon/visibility/point_query.h"
+#include "core/terrain/height_range.h"
 
 namespace farhorizon {
-namespace {
-
-// A lowered segment stays above minus the range of heights: both are within OccluderSet's limits.
-constexpr int kHeightBits = 29;
-
-std::pair<std::int32_t, std::int32_t> RangeOf(const Dem& dem) {
-  std::int32_t lowest = std::numeric_limits<std::int32_t>::max();
-  std::int32_t highest = std::numeric_limits<std::int32_t>::min();
-  for (const std::int32_t height : dem.heights) {
-    if (height == kNoHeight) continue;
-    lowest = std::min(lowest, height);
-    highest = std::max(highest, height);
-  }
-  return {lowest, highest};
-}
-
-}  // namespace
 
 // One edge on its way down.
 class SkylineDrops::Sinking {
@@ -74,7 +57,7 @@ class SkylineDrops::Sinking {
  private:
   // False where it is one already.
   bool AddVirtualOccluder(const Segment& segment) {
-    Segment virtual_occluder{all_.Scaled(segment.a), all_.Scaled(segment.b)};
+    Segment virtual_occluder = all_.Scaled(segment);
     if (virtual_occluder.a.z > virtual_occluder.b.z)
       std::swap(virtual_occluder.a, virtual_occluder.b);
     const auto same = [&virtual_occluder](const Segment& s) {
@@ -88,10 +71,8 @@ class SkylineDrops::Sinking {
   // Lowers the edge until its point at t is out of sight; says what is hidden around it then.
   OccludedRange Sink(const WideDyadic& t) {
     for (;;) {
-      Segment lowered{all_.Scaled(all_.terrain_.Point(edge_.a)),
-                      all_.Scaled(all_.terrain_.Point(edge_.b))};
-      lowered.a.z -= depth_ + 1;
-      lowered.b.z -= depth_ + 1;
+      const Segment own{all_.terrain_.Point(edge_.a), all_.terrain_.Point(edge_.b)};
+      const Segment lowered = Lowered(all_.Scaled(own), depth_ + 1);
       const OcclusionHints hints{virtual_occluders_, likely_, std::nullopt};
       std::vector<std::int32_t> blockers;
       PointQuery search(all_.skyline_, lowered, Ties::kPass, i_, hints, &blockers, nullptr);
@@ -113,7 +94,7 @@ class SkylineDrops::Sinking {
     const std::optional<HighestEdge> other = all_.walk_.HighestEdgeOver(
         edge_, a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), direction[0], direction[1]);
     const double own = a.z + t * (static_cast<double>(b.z) - a.z);
-    const double clearance = other ? std::ldexp(own - other->height, all_.bits_) : 0;
+    const double clearance = other ? std::ldexp(own - other->height, all_.heights_.bits) : 0;
     if (clearance < depth_ + 1 && other &&
         AddVirtualOccluder({terrain.Point(other->edge.a), terrain.Point(other->edge.b)})) {
       return;
@@ -134,24 +115,20 @@ SkylineDrops::SkylineDrops(const Terrain& terrain, const Horizon& horizon, doubl
     : terrain_(terrain),
       horizon_(horizon),
       walk_(terrain),
+      heights_(FinerHeights::FromLeast(HeightRangeOf(terrain.dem()), tolerance)),
       skyline_(terrain.dem().columns, terrain.dem().rows) {
-  const auto [lowest, highest] = RangeOf(terrain.dem());
-  lowest_ = lowest;
-  const int span_bits = std::ilogb(std::max(1.0, static_cast<double>(highest) - lowest)) + 1;
-  bits_ = std::min(static_cast<int>(std::ceil(-std::log2(tolerance))), kHeightBits - span_bits);
   for (const HorizonEdge& e : horizon.edges) {
-    skyline_.Insert({Scaled(terrain.Point(e.edge.a)), Scaled(terrain.Point(e.edge.b))});
+    skyline_.Insert(Scaled({terrain.Point(e.edge.a), terrain.Point(e.edge.b)}));
   }
 }
 
-Point3i SkylineDrops::Scaled(Point3i p) const {
-  const double height = static_cast<double>(p.z) - lowest_;
-  return {p.x, p.y, static_cast<std::int32_t>(std::nearbyint(std::ldexp(height, bits_)))};
+Segment SkylineDrops::Scaled(const Segment& segment) const {
+  return {heights_.Scale(segment.a), heights_.Scale(segment.b)};
 }
 
 double SkylineDrops::Of(std::size_t i) const {
   if (horizon_.edges[i].undecided) return 0;
-  return std::ldexp(Sinking(*this, i).Depth(), -bits_);
+  return heights_.Quanta(Sinking(*this, i).Depth());
 }
 
 }  // namespace farhorizon

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 
+#include "core/geometry/finer_heights.h"
 #include "core/horizon/horizon.h"
 #include "core/horizon/lines/grid_line_query.h"
 #include "core/horizon/visibility/segment_index.h"
@@ -27,14 +28,12 @@ class SkylineDrops {
 
  private:
   class Sinking;
-  /// In the units in which edges are lowered, one at a time.
-  [[nodiscard]] Point3i Scaled(Point3i p) const;
+  [[nodiscard]] Segment Scaled(const Segment& segment) const;
 
   const Terrain& terrain_;
   const Horizon& horizon_;
   GridLineQuery walk_;
-  std::int32_t lowest_;  ///< a height that is 0 in those units
-  int bits_;             ///< 2^bits_ of them are a quantum
+  FinerHeights heights_;  ///< in whose steps edges are lowered
   SegmentIndex skyline_;
 };
 
