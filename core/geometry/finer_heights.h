@@ -13,9 +13,9 @@ struct HeightRange {
   std::int32_t greatest = 0;
 };
 
-/// Heights in steps finer than quanta: an edge can then be lowered by parts of a quantum and compared
-/// exactly with others. All heights of a range, lowered by up to `most_steps`, stay below 2^30 in size, as
-/// occluder sets need (core/horizon/visibility/occluder_set.h).
+/// Heights in steps finer than quanta: an edge can then be lowered by parts of a quantum and
+/// compared exactly with others. All heights of a range, lowered by up to `most_steps`, stay below
+/// 2^30 in size, as occluder sets need (core/horizon/visibility/occluder_set.h).
 ///
 /// Not to be confused with the choice of the quantum itself (core/io/height_quantum.h).
 struct FinerHeights {
@@ -23,12 +23,12 @@ struct FinerHeights {
   int bits = 0;                 ///< 2^bits steps are a quantum; negative: Scale rounds
   std::int32_t most_steps = 0;  ///< by which any height can be lowered and still be held
 
-  /// With 0 in the middle of the range, for lowering by up to twice the range: the finest steps with room
-  /// for that, of 2^-10 quanta at the finest. bits >= 0, unless the range has no room at all.
+  /// With 0 in the middle of the range, for lowering by up to twice the range: the finest steps
+  /// with room for that, from 2^-10 quanta to a quantum.
   static FinerHeights Centred(const HeightRange& range);
 
-  /// With 0 at the range's least height, for lowering by up to the range: steps of at most `tolerance`
-  /// quanta, or, where they have no room, of 2^-28 of the range at most.
+  /// With 0 at the range's least height, for lowering by up to the range: steps of at most
+  /// `tolerance` quanta, or, where they have no room, of 2^-28 of the range at most.
   static FinerHeights FromLeast(const HeightRange& range, double tolerance);
 
   /// Exact where bits >= 0, to the nearest step otherwise.

@@ -14,9 +14,9 @@ struct GridLinePosition {
   Number j;  ///< along a line: the post's number on it, where it is whole
 };
 
-/// A family of parallel grid lines, on which neighbouring posts are joined: rows, columns or one of the
-/// two diagonals of the cells. `along` joins neighbouring posts of one line, `across` leads to the next
-/// line; together they are a basis of the grid, of determinant 1 or -1.
+/// A family of parallel grid lines, on which neighbouring posts are joined: rows, columns or one of
+/// the two diagonals of the cells. `along` joins neighbouring posts of one line, `across` leads to
+/// the next line; together they are a basis of the grid, of determinant 1 or -1.
 struct GridLines {
   std::int32_t along_column;
   std::int32_t along_row;
@@ -39,8 +39,8 @@ struct GridLines {
   }
 };
 
-/// All families of a grid: rows, columns, the diagonals from (column, row) to (column + 1, row + 1),
-/// along which cells are split (core/terrain/terrain.h), and last the other diagonals, along which
+/// All families of a grid: rows, columns, the diagonals from a post to the next column and row,
+/// along which cells are split (core/terrain/terrain.h), and last the other diagonals, on which
 /// triangles have edges beside holes only.
 inline std::array<GridLines, 4> FamiliesOfGridLines(std::int32_t columns, std::int32_t rows) {
   return {{{1, 0, 0, 1, 0, rows - 1},

@@ -1,3 +1,6 @@
+// A centred interval tree: the intervals that hold the median of all ends stay in the root, those
+// below it and those above it make the subtrees. On the way down to a number x, each node gives a
+// prefix of its intervals, sorted by start where x is below its middle, by end where it is above.
 #include "core/geometry/interval_tree.h"
 
 #include <algorithm>
@@ -6,7 +9,7 @@
 namespace farhorizon {
 namespace {
 
-// Of all ends: at most half of the intervals can then lie wholly to either side.
+// The median of all ends: at most half of the intervals are wholly below it, as many above.
 double MiddleOf(const std::vector<IntervalTree::Entry>& intervals) {
   std::vector<double> ends;
   ends.reserve(2 * intervals.size());
@@ -27,7 +30,7 @@ IntervalTree::IntervalTree(std::vector<Entry> intervals) {
   root_ = Build(std::move(intervals));
 }
 
-// Goes as deep as the tree is high.
+// Recursion as deep as the tree is high, O(log n).
 // NOLINTNEXTLINE(misc-no-recursion)
 std::int32_t IntervalTree::Build(std::vector<Entry> intervals) {
   if (intervals.empty()) return kNone;

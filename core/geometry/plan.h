@@ -10,9 +10,9 @@
 
 namespace farhorizon {
 
-// Signed areas come with two senses. Lines, directions and hulls are reckoned in (column, row), where
-// counter-clockwise is from columns to rows; triangles of a mesh in (column, -row), where it is
-// counter-clockwise as the ground is seen from above.
+// Signed areas come in two senses. For lines, directions and hulls the plan is (column, row), where
+// counter-clockwise is from columns to rows; for triangles of a mesh it is (column, -row), where
+// counter-clockwise is as the ground is seen from above.
 //
 //          row ^    b                      o----------> column
 //              |   /                       | ` ` .
@@ -42,7 +42,7 @@ inline std::int64_t SquaredLength(Point3i p, Point3i q) {
   return dx * dx + dy * dy;
 }
 
-/// How much a triangle rises, at most, along the two axes of the grid: quanta a column, quanta a row.
+/// The steepest rise of a triangle along the axes of the grid: quanta a column, quanta a row.
 struct Slope {
   double by_column = 0;
   double by_row = 0;
@@ -63,7 +63,7 @@ inline Slope SlopeOf(Point3i a, Point3i b, Point3i c) {
 /// Sign of the height of the segment v, w over the segment p, q where they cross in plan.
 /// Requires: they cross, and q is on the left of p as seen from v: TwiceArea(v, p, q) > 0. Exact.
 inline int SideAtCrossing(Point3i v, Point3i w, Point3i p, Point3i q) {
-  // Weights of p and q at the crossing, seen from the line v, w; then of v and w from the line p, q.
+  // Weights of p and q at the crossing, by the line v, w; then of v and w, by the line p, q.
   const std::int64_t of_p = TwiceArea(v, w, q);
   const std::int64_t of_q = TwiceArea(v, p, w);
   const std::int64_t of_w = TwiceArea(v, p, q);

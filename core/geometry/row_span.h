@@ -11,17 +11,17 @@
 
 namespace farhorizon {
 
-/// The columns [first, last] of one row of posts that a convex polygon covers in plan; first > last where
-/// it covers none. Borders count as covered. Exact.
+/// The columns [first, last] of one row of posts that a convex polygon covers in plan; first > last
+/// where it covers none. Borders count as covered. Exact.
 struct RowSpan {
   std::int64_t first = std::numeric_limits<std::int32_t>::max();
   std::int64_t last = std::numeric_limits<std::int32_t>::min();
 
   [[nodiscard]] bool IsEmpty() const { return first > last; }
 
-  /// Takes in where the side from a to b meets the row: with all sides it is the polygon's span. A
-  /// crossing between two posts is rounded up for `first` and down for `last`, so that it widens the
-  /// span by posts of the polygon only, once another side has its crossing.
+  /// Widens the span by the crossing of the row with the polygon's side from a to b. A crossing
+  /// between two posts is rounded up for `first` and down for `last`. So, when all sides have been
+  /// included, the span has the posts inside the polygon and no others.
   void Include(Point2i a, Point2i b, std::int64_t row) {
     if (a.y > b.y) std::swap(a, b);
     if (row < a.y || row > b.y) return;

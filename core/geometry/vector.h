@@ -9,8 +9,8 @@ namespace farhorizon {
 
 /// A vector in the plan, (columns, rows).
 ///
-/// Exact ones come in three sizes of numbers: 64 bits for most points, in which components are below
-/// 2^62; 128 bits; and wide ones for the few points of great cliffs that need them.
+/// Exact ones come in three sizes of numbers: 64 bits for most points, in which components are
+/// below 2^62; 128 bits; and wide ones for the few points of great cliffs that need them.
 template <typename Number>
 struct BasicVector {
   Number x{};
@@ -25,9 +25,10 @@ using WideVector = BasicVector<Int1280>;
 /// In floating point.
 using PlanVector = BasicVector<double>;
 
-/// The cross product, positive where b is counter-clockwise of a within half a turn. Everywhere but in
-/// plan.h counter-clockwise means from columns to rows, as if rows ran up.
-/// Requires: Number holds it; CrossSign (direction.h) needs no such care.
+/// The cross product, positive where b is counter-clockwise of a within half a turn: in the sense
+/// from
+/// columns to rows, as plan.h draws it.
+/// Requires: a Number holds it. (CrossSign in direction.h has no such condition.)
 template <typename Number>
 Number Cross(const BasicVector<Number>& a, const BasicVector<Number>& b) {
   return a.x * b.y - a.y * b.x;

@@ -12,24 +12,24 @@ namespace {
 
 using Entry = IntervalTree::Entry;
 
-TEST(IntervalTree, FindsTheIntervalsThatALookAtEachOneFinds) {
+TEST(IntervalTree, FindsTheIntervalsThatASearchThroughAllFinds) {
   std::mt19937 random(1);
   for (int round = 0; round < 300; ++round) {
     std::vector<Entry> intervals;
     const auto count = static_cast<std::int32_t>(random() % 60);
-    const auto places = static_cast<double>(1 + random() % 40);  // few: many ends are shared
+    const auto ends = static_cast<double>(1 + random() % 40);  // few: many are shared
     for (std::int32_t id = 0; id < count; ++id) {
-      const double a = static_cast<double>(random() % 1000) / 1000 * places;
+      const double a = static_cast<double>(random() % 1000) / 1000 * ends;
       const double b = random() % 4 == 0 ? a : static_cast<double>(random() % 40);
       intervals.push_back({std::min(a, b), std::max(a, b), id});
     }
     const IntervalTree tree(intervals);
-    std::vector<double> questions = {-1, 50, 0, 7.5};
+    std::vector<double> queries = {-1, 50, 0, 7.5};
     for (const Entry& interval : intervals) {
-      questions.insert(questions.end(),
-                       {interval.from, interval.to, (interval.from + interval.to) / 2});
+      queries.insert(queries.end(),
+                     {interval.from, interval.to, (interval.from + interval.to) / 2});
     }
-    for (const double x : questions) {
+    for (const double x : queries) {
       std::vector<std::int32_t> holding;
       for (const Entry& interval : intervals) {
         if (interval.from <= x && x <= interval.to) holding.push_back(interval.id);
