@@ -1,14 +1,15 @@
+// Convex polygons in 64-bit integers: all predicates are signs of cross products of differences of
+// posts, below 2^33. Hulls are built by Andrew's monotone chain and extended by one point at a
+// time, in time linear in the corners.
 #include "core/geometry/convex_polygon.h"
 
 #include <algorithm>
-#include <limits>
+
+#include "core/geometry/plan.h"
+#include "core/geometry/row_span.h"
 
 namespace farhorizon {
 namespace {
-
-std::int64_t Cross(Point2i o, Point2i a, Point2i b) {
-  return std::int64_t{a.x - o.x} * (b.y - o.y) - std::int64_t{a.y - o.y} * (b.x - o.x);
-}
 
 bool OnSegment(Point2i a, Point2i b, Point2i p) {
   return Cross(a, b, p) == 0 && p.x >= std::min(a.x, b.x) && p.x <= std::max(a.x, b.x) &&
@@ -17,14 +18,14 @@ bool OnSegment(Point2i a, Point2i b, Point2i p) {
 
 int Sign(std::int64_t value) { return static_cast<int>(value > 0) - static_cast<int>(value < 0); }
 
-// Whether two segments cross at an inner point of both; touching ends are found as corners contained.
+// Whether two segments cross at an inner point of both. (Ends that touch are found by Contains.)
 bool ProperlyCross(Point2i a, Point2i b, Point2i c, Point2i d) {
   return Sign(Cross(a, b, c)) * Sign(Cross(a, b, d)) < 0 &&
          Sign(Cross(c, d, a)) * Sign(Cross(c, d, b)) < 0;
 }
 
-// Whether a side of `a`, three corners or more, has all of `b` strictly beyond it.
-bool ASideParts(const std::vector<Point2i>& a, const std::vector<Point2i>& b) {
+// Whether a side of `a`, three corners or more, has all of `b` strictly on its outer side.
+bool ASideSeparates(const std::vector<Point2i>& a, const std::vector<Point2i>& b) {
   Point2i from = a.back();
   for (const Point2i to : a) {
     if (std::all_of(b.begin(), b.end(), [&](Point2i p) { return Cross(from, to, p) < 0; })) {
@@ -35,16 +36,11 @@ bool ASideParts(const std::vector<Point2i>& a, const std::vector<Point2i>& b) {
   return false;
 }
 
-std::int64_t FloorDivide(std::int64_t a, std::int64_t b) {
-  return a / b - static_cast<std::int64_t>(a % b != 0 && (a < 0) != (b < 0));
-}
-
 }  // namespace
 
 ConvexPolygon::ConvexPolygon(Point2i point) : corners_{point}, least_(point), most_(point) {}
 
 ConvexPolygon ConvexPolygon::HullOf(std::vector<Point2i>& points) {
-  // Andrew's monotone chain.
   std::sort(points.begin(), points.end());
   points.erase(std::unique(points.begin(), points.end()), points.end());
   ConvexPolygon hull;
@@ -76,21 +72,22 @@ void ConvexPolygon::Extend(Point2i p) {
     *this = HullOf(points);
     return;
   }
-  // The sides that p sees from outside, or along, are next to each other; p takes their place.
-  const auto sees = [&](std::size_t i) {
+  // The sides that have p on their outer side, or in line, follow each other. They are replaced by
+  // the two sides that meet at p.
+  const auto has_outside = [&](std::size_t i) {
     return Cross(corners_[i % count], corners_[(i + 1) % count], p) <= 0;
   };
   std::size_t first = 0;
-  if (sees(0)) {
-    for (first = count; sees(first - 1);) --first;
+  if (has_outside(0)) {
+    for (first = count; has_outside(first - 1);) --first;
   } else {
-    while (!sees(first)) ++first;
+    while (!has_outside(first)) ++first;
   }
   std::size_t last = first;
-  while (sees(last + 1)) ++last;
+  while (has_outside(last + 1)) ++last;
   std::rotate(corners_.begin(), corners_.begin() + static_cast<std::ptrdiff_t>(first % count),
               corners_.end());
-  // Now the sides from corner 0 to corner last - first + 1 are seen.
+  // Now these sides are those from corner 0 to corner last - first + 1.
   const std::ptrdiff_t past = static_cast<std::ptrdiff_t>(last - first) + 1;
   if (past == 1) {
     corners_.insert(corners_.begin() + 1, p);
@@ -113,7 +110,7 @@ void ConvexPolygon::FindBox() {
 bool ConvexPolygon::Contains(Point2i p) const {
   if (p.x < least_.x || p.x > most_.x || p.y < least_.y || p.y > most_.y) return false;
   if (corners_.size() < 3) return OnSegment(corners_.front(), corners_.back(), p);
-  // The fan around the first corner: the last ray that p is not to the right of.
+  // Binary search in the fan of triangles around the first corner for the one that can hold p.
   const Point2i o = corners_.front();
   if (Cross(o, corners_[1], p) < 0 || Cross(o, corners_.back(), p) > 0) return false;
   std::size_t low = 1;
@@ -130,11 +127,12 @@ bool ConvexPolygon::Meets(const ConvexPolygon& other) const {
       other.least_.y > most_.y) {
     return false;
   }
-  // Of two that are apart a side of one parts them: their difference's sides are parallel to theirs.
+  // Disjoint polygons are separated by a side of one of them: each side of their Minkowski
+  // difference is parallel to one of theirs.
   if (corners_.size() >= 3 && other.corners_.size() >= 3) {
     const bool fewer = corners_.size() < other.corners_.size();
-    return !ASideParts(fewer ? corners_ : other.corners_, fewer ? other.corners_ : corners_) &&
-           !ASideParts(fewer ? other.corners_ : corners_, fewer ? corners_ : other.corners_);
+    return !ASideSeparates(fewer ? corners_ : other.corners_, fewer ? other.corners_ : corners_) &&
+           !ASideSeparates(fewer ? other.corners_ : corners_, fewer ? corners_ : other.corners_);
   }
   const auto contains_one_of = [](const ConvexPolygon& a, const ConvexPolygon& b) {
     return std::any_of(b.corners_.begin(), b.corners_.end(),
@@ -154,41 +152,28 @@ bool ConvexPolygon::Meets(const ConvexPolygon& other) const {
 }
 
 ConvexPolygon::Silhouette ConvexPolygon::SilhouetteFrom(Point2i eye) const {
-  Silhouette seen{corners_.front(), corners_.front()};
+  Silhouette silhouette{corners_.front(), corners_.front()};
   for (const Point2i p : corners_) {
-    if (Cross(eye, seen.right, p) < 0) seen.right = p;
-    if (Cross(eye, seen.left, p) > 0) seen.left = p;
+    if (Cross(eye, silhouette.right, p) < 0) silhouette.right = p;
+    if (Cross(eye, silhouette.left, p) > 0) silhouette.left = p;
   }
-  return seen;
+  return silhouette;
 }
 
 void ConvexPolygon::ForEachRow(
     const std::function<void(std::int32_t, std::int32_t, std::int32_t)>& visit) const {
-  struct Span {
-    std::int64_t first = std::numeric_limits<std::int32_t>::max();
-    std::int64_t last = std::numeric_limits<std::int32_t>::min();
-  };
-  std::vector<Span> spans(static_cast<std::size_t>(most_.y - least_.y) + 1);
-  const auto include = [&](std::int32_t row, std::int64_t at_least, std::int64_t at_most) {
-    Span& span = spans[static_cast<std::size_t>(row - least_.y)];
-    span.first = std::min(span.first, at_least);
-    span.last = std::max(span.last, at_most);
-  };
+  std::vector<RowSpan> spans(static_cast<std::size_t>(most_.y - least_.y) + 1);
   for (std::size_t i = 0; i < corners_.size(); ++i) {
-    Point2i a = corners_[i];
-    Point2i b = corners_[(i + 1) % corners_.size()];
-    if (a.y > b.y) std::swap(a, b);
-    include(a.y, a.x, a.x);
-    include(b.y, b.x, b.x);
-    for (std::int32_t row = a.y + 1; row < b.y; ++row) {
-      const std::int64_t run = std::int64_t{b.x - a.x} * (row - a.y);
-      const std::int64_t rise = b.y - a.y;
-      include(row, a.x - FloorDivide(-run, rise), a.x + FloorDivide(run, rise));
+    const Point2i a = corners_[i];
+    const Point2i b = corners_[(i + 1) % corners_.size()];
+    const auto [first, last] = std::minmax(a.y, b.y);
+    for (std::int32_t row = first; row <= last; ++row) {
+      spans[static_cast<std::size_t>(row - least_.y)].Include(a, b, row);
     }
   }
   for (std::int32_t row = least_.y; row <= most_.y; ++row) {
-    const Span& span = spans[static_cast<std::size_t>(row - least_.y)];
-    if (span.first <= span.last) {
+    const RowSpan& span = spans[static_cast<std::size_t>(row - least_.y)];
+    if (!span.IsEmpty()) {
       visit(row, static_cast<std::int32_t>(span.first), static_cast<std::int32_t>(span.last));
     }
   }

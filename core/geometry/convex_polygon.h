@@ -8,8 +8,8 @@
 
 namespace farhorizon {
 
-/// A convex polygon with corners at posts, counter-clockwise, no three in line; a point or a segment
-/// where it has one corner or two. Closed: its border is part of it. Exact.
+/// A convex polygon with corners at posts, counter-clockwise (from columns to rows), no three in
+/// line; with one corner a point, with two a segment. Closed: its border is part of it. Exact.
 class ConvexPolygon {
  public:
   ConvexPolygon() = default;
@@ -17,23 +17,25 @@ class ConvexPolygon {
   /// The convex hull of `points` (reordered). Cost: O(n log n).
   static ConvexPolygon HullOf(std::vector<Point2i>& points);
 
-  /// Makes it the convex hull of itself and p. Requires: a corner, p outside. Cost: O(n).
+  /// Makes it the convex hull of itself and p. Requires: it has a corner; p is outside.
+  /// Cost: O(n).
   void Extend(Point2i p);
 
   [[nodiscard]] const std::vector<Point2i>& corners() const { return corners_; }
-  /// The corners of its box.
+  /// The least and the greatest corner of its bounding box.
   [[nodiscard]] Point2i least() const { return least_; }
   [[nodiscard]] Point2i most() const { return most_; }
   [[nodiscard]] bool Contains(Point2i p) const;
-  /// Whether the two have a point in common. Cost: O(n m), after a look at the boxes.
+  /// Whether the two have a point in common. Cost: O(n m), constant where their boxes are disjoint.
   [[nodiscard]] bool Meets(const ConvexPolygon& other) const;
 
-  /// The corners between which the polygon is seen from `eye`: all of it is to the left of, or on, the ray
-  /// to `right`, and to the right of the one to `left`. Requires: two corners, `eye` outside.
+  /// The corners at which the tangents from a point touch: no part of the polygon is to the right
+  /// of the ray from the point to `right`, or to the left of the ray to `left`.
   struct Silhouette {
     Point2i right;
     Point2i left;
   };
+  /// Requires: two corners or more; `eye` is outside.
   [[nodiscard]] Silhouette SilhouetteFrom(Point2i eye) const;
 
   /// Calls visit(row, first column, last column) for each row that has posts in the polygon.

@@ -1,3 +1,7 @@
+// Directions compared by a key in double first, then by the sign of a cross product; and the
+// simplest integer vector between two of them, by a search in the Stern-Brocot tree. The code is
+// one for the three sizes of numbers (vector.h), except for products, where each size has its own
+// care.
 #include "core/geometry/direction.h"
 
 #include <array>
@@ -27,8 +31,9 @@ BasicVector<Int> Add(const BasicVector<Int>& base, const Int& count, const Basic
   return {base.x + count * step.x, base.y + count * step.y};
 }
 
-// The Stern-Brocot search between the axes lo and hi, a quarter turn apart, for the simplest vector
-// strictly between from and to, which lie between them. Runs of steps to one side are galloped.
+// The search in the Stern-Brocot tree between the axes lo and hi, a quarter turn apart, for the
+// simplest vector strictly between from and to, which lie between the axes. A run of steps to one
+// side is taken at once, its length found by doubling and halving.
 template <typename Int>
 BasicVector<Int> SternBrocot(BasicVector<Int> lo, BasicVector<Int> hi, const BasicVector<Int>& from,
                              const BasicVector<Int>& to) {
@@ -38,20 +43,20 @@ BasicVector<Int> SternBrocot(BasicVector<Int> lo, BasicVector<Int> hi, const Bas
     const bool high = CrossSign(middle, to) <= 0;
     if (!low && !high) return middle;
     Check(!(low && high), "there is room between two different directions");
-    // The furthest lo + count * hi (or hi + count * lo) that is still outside.
-    const auto outside = [&](const Int& count) {
-      return low ? CrossSign(from, Add(lo, count, hi)) <= 0
-                 : CrossSign(Add(hi, count, lo), to) <= 0;
+    // Whether lo + steps * hi (or hi + steps * lo) is still outside. The most such steps are taken.
+    const auto outside = [&](const Int& steps) {
+      return low ? CrossSign(from, Add(lo, steps, hi)) <= 0
+                 : CrossSign(Add(hi, steps, lo), to) <= 0;
     };
-    Int reach{1};
-    while (outside(reach << 1)) reach = reach << 1;
-    for (Int step = reach >> 1; SignOf(step) > 0; step = step >> 1) {
-      if (outside(reach + step)) reach = reach + step;
+    Int count{1};
+    while (outside(count << 1)) count = count << 1;
+    for (Int step = count >> 1; SignOf(step) > 0; step = step >> 1) {
+      if (outside(count + step)) count = count + step;
     }
     if (low) {
-      lo = Add(lo, reach, hi);
+      lo = Add(lo, count, hi);
     } else {
-      hi = Add(hi, reach, lo);
+      hi = Add(hi, count, lo);
     }
   }
 }
@@ -83,7 +88,9 @@ BasicDirection<Int> DirectionOf(const BasicVector<Int>& v) {
   const int up = SignOf(v.y);
   d.turned = up < 0 || (up == 0 && SignOf(v.x) < 0);
   d.v = d.turned ? -v : v;
-  // Both conversions, the sum and the quotient are within one unit in the last place each.
+  // With u = 2^-53: each conversion is off by 2u at most, sum, quotient and difference by u. So the
+  // denominator is off by 3u of itself, the quotient by 2u + 3u + u, as |x| <= |x| + y, and the key
+  // by 7u, less than 2^-50.
   const auto x = static_cast<double>(d.v.x);
   const auto y = static_cast<double>(d.v.y);
   d.key = 1 - x / (std::abs(x) + y);
@@ -92,6 +99,7 @@ BasicDirection<Int> DirectionOf(const BasicVector<Int>& v) {
 
 template <typename Int>
 int AngleSign(const BasicDirection<Int>& a, const BasicDirection<Int>& b, PredicateCounts* counts) {
+  // Each key is off by less than 2^-50.
   const double difference = a.key - b.key;
   if (std::abs(difference) > 0x1p-49) {
     if (counts != nullptr) ++counts->filtered;
@@ -120,17 +128,17 @@ int DotSign(const ShortVector& a, const ShortVector& b) {
 }
 
 int CrossSign(const Vector& a, const Vector& b) {
-  if (IsNarrow(a) && IsNarrow(b)) return SignOf(a.x * b.y - a.y * b.x);
+  if (IsNarrow(a) && IsNarrow(b)) return SignOf(Cross(a, b));
   return CompareProducts(a.x, b.y, a.y, b.x);
 }
 
 int DotSign(const Vector& a, const Vector& b) {
-  if (IsNarrow(a) && IsNarrow(b)) return SignOf(a.x * b.x + a.y * b.y);
+  if (IsNarrow(a) && IsNarrow(b)) return SignOf(Dot(a, b));
   return CompareProducts(a.x, b.x, -a.y, b.y);
 }
 
-int CrossSign(const WideVector& a, const WideVector& b) { return SignOf(a.x * b.y - a.y * b.x); }
-int DotSign(const WideVector& a, const WideVector& b) { return SignOf(a.x * b.x + a.y * b.y); }
+int CrossSign(const WideVector& a, const WideVector& b) { return SignOf(Cross(a, b)); }
+int DotSign(const WideVector& a, const WideVector& b) { return SignOf(Dot(a, b)); }
 
 ShortDirection MakeDirection(const ShortVector& v) { return DirectionOf(v); }
 Direction MakeDirection(const Vector& v) { return DirectionOf(v); }

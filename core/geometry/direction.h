@@ -14,12 +14,12 @@ int DotSign(const ShortVector& a, const ShortVector& b);
 int DotSign(const Vector& a, const Vector& b);
 int DotSign(const WideVector& a, const WideVector& b);
 
-/// A direction of sight: a vector without sense, stored as the one of the two that lies in the
-/// upper half plane, [0, 180) degrees from the x axis. Ordered by that angle.
+/// A direction of sight: a vector without a sense, stored as that one of the two that lies in the
+/// half turn [0, 180) degrees from the x axis. Ordered by that angle.
 template <typename Int>
 struct BasicDirection {
   BasicVector<Int> v;
-  double key = 0;       ///< 1 - cos-like, rising with the angle from 0 to 2; error below 2^-50
+  double key = 0;       ///< rises with the angle from 0 to 2, as 1 - cosine does; off by < 2^-50
   bool turned = false;  ///< v is the opposite of what it was made from
 };
 using ShortDirection = BasicDirection<std::int64_t>;
@@ -31,7 +31,7 @@ ShortDirection MakeDirection(const ShortVector& v);
 Direction MakeDirection(const Vector& v);
 WideDirection MakeDirection(const WideVector& v);
 
-/// The two ends of the half turn: the first direction and the same again after half a turn.
+/// The two ends of the half turn: one direction, at the angles 0 and 180 degrees.
 template <typename Int = Int128>
 BasicDirection<Int> FirstDirection() {
   return {{Int{1}, Int{0}}, 0, false};
@@ -41,14 +41,16 @@ BasicDirection<Int> LastDirection() {
   return {{Int{-1}, Int{0}}, 2, false};
 }
 
-/// -1, 0, 1 as the angle of a is less than, the same as, greater than that of b. Exact; the keys
-/// decide where they are apart by more than their error.
+/// -1, 0, 1 as the angle of a is less than, equal to, greater than that of b. Exact: the keys
+/// decide where they differ by more than their errors, a cross product elsewhere.
 int CompareAngle(const ShortDirection& a, const ShortDirection& b, PredicateCounts* counts);
 int CompareAngle(const Direction& a, const Direction& b, PredicateCounts* counts);
 int CompareAngle(const WideDirection& a, const WideDirection& b, PredicateCounts* counts);
 
-/// The integer vector of least size strictly between from and to, going counter-clockwise, that is
-/// not parallel to `along`. Requires: cross(from, to) > 0, or from = -to.
+/// The simplest integer vector strictly between from and to, counter-clockwise: an axis, or the
+/// first one in the Stern-Brocot tree of a quarter. If it is parallel to `along`, the simplest one
+/// between `from` and that.
+/// Requires: cross(from, to) > 0, or from = -to.
 ShortVector SimplestBetween(const ShortVector& from, const ShortVector& to,
                             const ShortVector& along);
 Vector SimplestBetween(const Vector& from, const Vector& to, const Vector& along);

@@ -1,3 +1,6 @@
+// A centred interval tree: the intervals that hold the median of all ends stay in the root, those
+// below it and those above it make the subtrees. On the way down to a number x, each node gives a
+// prefix of its intervals, sorted by start where x is below its middle, by end where it is above.
 #include "core/geometry/interval_tree.h"
 
 #include <algorithm>
@@ -6,11 +9,11 @@
 namespace farhorizon {
 namespace {
 
-// Of all ends: at most half of the intervals can then lie wholly to either side.
-double MiddleOf(const std::vector<IntervalTree::Interval>& intervals) {
+// The median of all ends: at most half of the intervals are wholly below it, as many above.
+double MiddleOf(const std::vector<IntervalTree::Entry>& intervals) {
   std::vector<double> ends;
   ends.reserve(2 * intervals.size());
-  for (const IntervalTree::Interval& interval : intervals) {
+  for (const IntervalTree::Entry& interval : intervals) {
     ends.push_back(interval.from);
     ends.push_back(interval.to);
   }
@@ -21,22 +24,22 @@ double MiddleOf(const std::vector<IntervalTree::Interval>& intervals) {
 
 }  // namespace
 
-IntervalTree::IntervalTree(std::vector<Interval> intervals) {
+IntervalTree::IntervalTree(std::vector<Entry> intervals) {
   by_start_.reserve(intervals.size());
   by_end_.reserve(intervals.size());
   root_ = Build(std::move(intervals));
 }
 
-// Goes as deep as the tree is high.
+// Recursion as deep as the tree is high, O(log n).
 // NOLINTNEXTLINE(misc-no-recursion)
-std::int32_t IntervalTree::Build(std::vector<Interval> intervals) {
+std::int32_t IntervalTree::Build(std::vector<Entry> intervals) {
   if (intervals.empty()) return kNone;
   Node node;
   node.middle = MiddleOf(intervals);
-  std::vector<Interval> lower;
-  std::vector<Interval> upper;
+  std::vector<Entry> lower;
+  std::vector<Entry> upper;
   node.begin = by_start_.size();
-  for (const Interval& interval : intervals) {
+  for (const Entry& interval : intervals) {
     if (interval.to < node.middle) {
       lower.push_back(interval);
     } else if (interval.from > node.middle) {
@@ -50,9 +53,9 @@ std::int32_t IntervalTree::Build(std::vector<Interval> intervals) {
   const auto begin = static_cast<std::ptrdiff_t>(node.begin);
   by_end_.insert(by_end_.end(), by_start_.begin() + begin, by_start_.end());
   std::sort(by_start_.begin() + begin, by_start_.end(),
-            [](const Interval& a, const Interval& b) { return a.from < b.from; });
+            [](const Entry& a, const Entry& b) { return a.from < b.from; });
   std::sort(by_end_.begin() + begin, by_end_.end(),
-            [](const Interval& a, const Interval& b) { return a.to > b.to; });
+            [](const Entry& a, const Entry& b) { return a.to > b.to; });
   node.lower = Build(std::move(lower));
   node.upper = Build(std::move(upper));
   nodes_.push_back(node);

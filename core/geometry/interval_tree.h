@@ -5,20 +5,22 @@
 
 namespace farhorizon {
 
-/// Closed intervals of numbers, arranged once to be asked which of them hold a number.
+/// Closed intervals of numbers, built once to find those that hold a given number.
 ///
-/// A binary tree after Edelsbrunner: a node keeps the intervals that hold its middle, by rising starts and by
-/// falling ends. Cost: O(n log n) to build, O(n) memory, O(log n + found) a question.
+/// A balanced binary tree: a node keeps the intervals that hold its middle, sorted by rising start
+/// and by falling end, and has a child for those below its middle and one for those above.
+/// Cost: O(n log n) to build, O(n) memory, O(log n + found) a query.
 class IntervalTree {
  public:
-  struct Interval {
+  /// The interval [from, to] and what stands for it in answers.
+  struct Entry {
     double from = 0;
     double to = 0;
     std::int32_t id = 0;
   };
 
   /// Requires: from <= to, no NaN.
-  explicit IntervalTree(std::vector<Interval> intervals);
+  explicit IntervalTree(std::vector<Entry> intervals);
 
   /// The ids of the intervals that hold x, in no particular order.
   [[nodiscard]] std::vector<std::int32_t> Holding(double x) const;
@@ -27,16 +29,16 @@ class IntervalTree {
   static constexpr std::int32_t kNone = -1;
   struct Node {
     double middle = 0;
-    std::size_t begin = 0;  // its intervals: from here on in by_start_ and by_end_
+    std::size_t begin = 0;  // its intervals are [begin, end) of by_start_ and of by_end_
     std::size_t end = 0;
     std::int32_t lower = kNone;
     std::int32_t upper = kNone;
   };
-  std::int32_t Build(std::vector<Interval> intervals);
+  std::int32_t Build(std::vector<Entry> intervals);
 
   std::vector<Node> nodes_;
-  std::vector<Interval> by_start_;
-  std::vector<Interval> by_end_;
+  std::vector<Entry> by_start_;
+  std::vector<Entry> by_end_;
   std::int32_t root_;
 };
 

@@ -6,18 +6,33 @@
 
 #include "core/exact/int128.h"
 #include "core/geometry/point.h"
+#include "core/geometry/vector.h"
 
 namespace farhorizon {
+
+// Signed areas come in two senses. For lines, directions and hulls the plan is (column, row), where
+// counter-clockwise is from columns to rows; for triangles of a mesh it is (column, -row), where
+// counter-clockwise is as the ground is seen from above.
+//
+//          row ^    b                      o----------> column
+//              |   /                       | ` ` .
+//              |  /    . a                 |  `    ` a
+//              | /  . `                    |   `
+//              o----------> column     row v    b
+//
+//           Cross(o, a, b) > 0         TwiceArea(o, a, b) < 0
+
+/// The cross product of the vectors from o to a and from o to b, columns and rows: positive where a
+/// turn from a to b, less than half a one, is from columns to rows. Exact.
+inline std::int64_t Cross(Point2i o, Point2i a, Point2i b) {
+  return Cross(ShortVector{a.x - o.x, a.y - o.y}, ShortVector{b.x - o.x, b.y - o.y});
+}
 
 /// Twice the signed area of the triangle o, p, q in the plan (column, -row): positive where it runs
 /// counter-clockwise as the ground is seen from above. Exact: grids have at most 2^15 columns and
 /// rows.
 inline std::int64_t TwiceArea(Point3i o, Point3i p, Point3i q) {
-  const std::int64_t px = p.x - o.x;
-  const std::int64_t py = p.y - o.y;
-  const std::int64_t qx = q.x - o.x;
-  const std::int64_t qy = q.y - o.y;
-  return py * qx - px * qy;
+  return -Cross({o.x, o.y}, {p.x, p.y}, {q.x, q.y});
 }
 
 /// Square of the distance in plan, columns and rows.
@@ -27,7 +42,7 @@ inline std::int64_t SquaredLength(Point3i p, Point3i q) {
   return dx * dx + dy * dy;
 }
 
-/// How much a triangle rises, at most, along the two axes of the grid: quanta a column, quanta a row.
+/// The steepest rise of a triangle along the axes of the grid: quanta a column, quanta a row.
 struct Slope {
   double by_column = 0;
   double by_row = 0;
@@ -48,7 +63,7 @@ inline Slope SlopeOf(Point3i a, Point3i b, Point3i c) {
 /// Sign of the height of the segment v, w over the segment p, q where they cross in plan.
 /// Requires: they cross, and q is on the left of p as seen from v: TwiceArea(v, p, q) > 0. Exact.
 inline int SideAtCrossing(Point3i v, Point3i w, Point3i p, Point3i q) {
-  // Weights of p and q at the crossing, seen from the line v, w; then of v and w from the line p, q.
+  // Weights of p and q at the crossing, by the line v, w; then of v and w, by the line p, q.
   const std::int64_t of_p = TwiceArea(v, w, q);
   const std::int64_t of_q = TwiceArea(v, p, w);
   const std::int64_t of_w = TwiceArea(v, p, q);

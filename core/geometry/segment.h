@@ -10,4 +10,11 @@ struct Segment {
   Point3i b;
 };
 
+/// `segment`, `steps` lower.
+inline Segment Lowered(Segment segment, std::int32_t steps) {
+  segment.a.z -= steps;
+  segment.b.z -= steps;
+  return segment;
+}
+
 }  // namespace farhorizon

@@ -9,6 +9,8 @@
 
 #include "core/exact/int128.h"
 #include "core/exact/int1280.h"
+#include "core/geometry/floor_divide.h"
+#include "core/geometry/grid_lines.h"
 
 namespace farhorizon {
 namespace {
@@ -24,22 +26,10 @@ struct LineOfSight {
   Int dr;
 };
 
-// A family of grid lines: along[] joins neighbouring posts on one line, across[] leads to the next
-// one. Posts are from a + i * across + j * along.
-struct Family {
-  int along_column;
-  int along_row;
-  int across_column;
-  int across_row;
-};
+Int128 FloorOf(Int128 a, Int128 b, int /*bits*/) { return FloorDivide(a, b); }
 
-Int128 FloorDivide(Int128 a, Int128 b, int /*bits*/) {
-  const Int128 quotient = a / b;
-  return quotient - ((a % b != 0 && (a < 0) != (b < 0)) ? 1 : 0);
-}
-
-// b > 0, a multiple of 2^bits. Exact where the quotient is below 2^30; else no less in size than that.
-Int1280 FloorDivide(const Int1280& a, const Int1280& b, int bits) {
+// Of a / b; b > 0, a multiple of 2^bits. Exact where the quotient is below 2^30; else no less in size than that.
+Int1280 FloorOf(const Int1280& a, const Int1280& b, int bits) {
   const double near = static_cast<double>(a >> bits) / static_cast<double>(b >> bits);
   constexpr double kFar = 0x1p30;
   Int1280 quotient(static_cast<std::int64_t>(std::clamp(near, -kFar, kFar)));
@@ -57,26 +47,16 @@ class SightChecker {
       : terrain_(terrain), line_(line) {}
 
   [[nodiscard]] bool ClearsAll() const {
-    const std::int32_t columns = terrain_.dem().columns;
-    const std::int32_t rows = terrain_.dem().rows;
-    return Clears({1, 0, 0, 1}, 0, rows - 1) && Clears({0, 1, 1, 0}, 0, columns - 1) &&
-           Clears({1, 1, 1, 0}, -(rows - 1), columns - 1) &&
-           Clears({-1, 1, 1, 0}, 0, columns + rows - 2);
+    const auto families = FamiliesOfGridLines(terrain_.dem().columns, terrain_.dem().rows);
+    return std::all_of(families.begin(), families.end(),
+                       [this](const GridLines& family) { return Clears(family); });
   }
 
  private:
   // Whether no edge of the family rises above the line.
-  [[nodiscard]] bool Clears(const Family& family, std::int32_t first, std::int32_t last) const {
-    // Coordinates in the family's basis: (column, row) = i * across + j * along, unimodular.
-    const Int along_column{family.along_column};
-    const Int along_row{family.along_row};
-    const Int across_column{family.across_column};
-    const Int across_row{family.across_row};
-    const Int det = across_column * along_row - across_row * along_column;
-    const Int i0 = (line_.x * along_row - line_.y * along_column) * det;
-    const Int j0 = (line_.y * across_column - line_.x * across_row) * det;
-    Int di = (line_.dc * along_row - line_.dr * along_column) * det;
-    Int dj = (line_.dr * across_column - line_.dc * across_row) * det;
+  [[nodiscard]] bool Clears(const GridLines& family) const {
+    const auto [i0, j0] = family.PositionOf(line_.x, line_.y);
+    auto [di, dj] = family.PositionOf(line_.dc, line_.dr);
     if (SignOf(di) == 0)
       return true;  // along the family: posts on it are met by the other families
     if (SignOf(di) < 0) {
@@ -85,9 +65,9 @@ class SightChecker {
     }
     const Int whole = di << line_.bits;
     const Int most{1 << 20};
-    for (std::int32_t i = first; i <= last; ++i) {
+    for (std::int32_t i = family.first; i <= family.last; ++i) {
       const Int numerator = j0 * di + ((Int{i} << line_.bits) - i0) * dj;
-      const Int j = FloorDivide(numerator, whole, line_.bits);
+      const Int j = FloorOf(numerator, whole, line_.bits);
       if (j < -most || j > most) continue;
       const Int part = numerator - j * whole;
       if (!ClearsAt(family, i, static_cast<std::int32_t>(static_cast<std::int64_t>(j)), part, di)) {
@@ -98,10 +78,9 @@ class SightChecker {
   }
 
   // Where the line crosses at part / (step * 2^bits) of the way from post j to the next.
-  [[nodiscard]] bool ClearsAt(const Family& family, std::int32_t i, std::int32_t j, const Int& part,
-                              const Int& step) const {
-    const std::int32_t column = i * family.across_column + j * family.along_column;
-    const std::int32_t row = i * family.across_row + j * family.along_row;
+  [[nodiscard]] bool ClearsAt(const GridLines& family, std::int32_t i, std::int32_t j,
+                              const Int& part, const Int& step) const {
+    const auto [column, row] = family.Post(i, j);
     if (!Inside(column, row)) return true;
     const VertexId p = row * terrain_.dem().columns + column;
     const Int whole = step << line_.bits;

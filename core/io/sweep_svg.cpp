@@ -109,13 +109,13 @@ std::string DrawSweep(const SweepTrace& trace, const std::string& title) {
   std::array<std::string, 2> bitangents;  // inactive, active: one path each, they are many
   std::array<std::size_t, 2> counts{};
   for (const SweepTrace::Bitangent& b : trace.bitangents) {
-    bitangents[b.active ? 1 : 0] += drawing.Path(b.touches, false);
+    bitangents[b.active ? 1 : 0] += drawing.Path(b.contacts, false);
     ++counts[b.active ? 1 : 0];
   }
   std::string candidates;
   for (const auto& candidate : trace.candidates) candidates += drawing.Path(candidate, false);
   std::string seen;
-  for (const PlanPoint& p : trace.seen) seen += drawing.Dot(p);
+  for (const PlanPoint& p : trace.horizon_points) seen += drawing.Dot(p);
 
   const auto count = [](const char* what, std::size_t n) {
     return what + (": " + std::to_string(n));
@@ -132,7 +132,7 @@ std::string DrawSweep(const SweepTrace& trace, const std::string& title) {
                  {"active", count("active bitangents", counts[1])},
                  {"inactive", count("inactive bitangents", counts[0])},
                  {"candidates", count("candidate edges at this level", trace.candidates.size())},
-                 {"seen", count("seen on the horizon so far", trace.seen.size())}}) +
+                 {"seen", count("seen on the horizon so far", trace.horizon_points.size())}}) +
          "</svg>\n";
 }
 

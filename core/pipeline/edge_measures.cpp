@@ -8,14 +8,13 @@
 #include <numbers>
 
 #include "core/base/parallel_for.h"
+#include "core/geometry/interval_set.h"
 #include "core/horizon/lines_of_sight/skyline_drop.h"
 
 namespace farhorizon {
 namespace {
 
 constexpr double kDegrees = 180 / std::numbers::pi;
-
-using Interval = std::array<double, 2>;
 
 // Directions on the ground, as they are seen from one edge.
 class EdgeCompass {
@@ -32,8 +31,7 @@ class EdgeCompass {
   // The angle on the ground from the edge's direction, in degrees, 0 to 180.
   [[nodiscard]] double Angle(const PlanMotion& motion, double t) const {
     const auto [dot, cross] = DotAndCross(motion, t);
-    // Never -0: the edge's opposite is at 180 degrees, not at -180.
-    return std::atan2(cross > 0 ? cross : 0.0, dot) * kDegrees;
+    return HalfTurnAngle(dot, cross) * kDegrees;
   }
 
   [[nodiscard]] double Cosine(const PlanMotion& motion, double t) const {
@@ -50,8 +48,7 @@ class EdgeCompass {
     return step_.column_east_m * step_.row_north_m - step_.row_east_m * step_.column_north_m;
   }
   [[nodiscard]] std::array<double, 2> DotAndCross(const PlanMotion& motion, double t) const {
-    const double x = motion.ax + t * motion.bx;
-    const double y = motion.ay + t * motion.by;
+    const auto [x, y] = motion.At(t);
     const std::array<double, 2> ground = OnGround(x, y);
     return {ground[0] * ground_[0] + ground[1] * ground_[1],
             std::abs(Determinant()) * (along_[0] * y - along_[1] * x)};
@@ -61,20 +58,6 @@ class EdgeCompass {
   std::array<double, 2> along_;
   std::array<double, 2> ground_;
 };
-
-// Overlapping and touching intervals as one, rising.
-std::vector<Interval> Union(std::vector<Interval> intervals) {
-  std::sort(intervals.begin(), intervals.end());
-  std::vector<Interval> apart;
-  for (const Interval& next : intervals) {
-    if (apart.empty() || next[0] > apart.back()[1]) {
-      apart.push_back(next);
-    } else {
-      apart.back()[1] = std::max(apart.back()[1], next[1]);
-    }
-  }
-  return apart;
-}
 
 // To whole steps, outwards, but for what rounding does.
 Interval Outwards(const Interval& interval, double step) {
@@ -105,7 +88,7 @@ std::vector<Interval> AzimuthsOf(const std::vector<Interval>& angles, const Edge
     if (from > 180 - kAzimuthStep / 2) from = 0;
     azimuths.push_back({from, from + width});
   }
-  azimuths = Union(std::move(azimuths));
+  azimuths = UnionOf(std::move(azimuths));
   // The last may reach the first again, half a turn on.
   if (azimuths.size() > 1 && azimuths.back()[1] >= azimuths.front()[0] + 180) {
     azimuths.back()[1] = std::max(azimuths.back()[1], azimuths.front()[1] + 180);
@@ -150,8 +133,8 @@ EdgeMeasures MeasuresOf(const LinesOfSight& sights, std::array<double, 2> along,
     view.spans.push_back(Outwards({patch.from, patch.to}, kSpanStep));
     view.line_measure_m += MeasureOf(patch, compass) * compass.length_m();
   }
-  view.spans = Union(std::move(view.spans));
-  angles = Union(std::move(angles));
+  view.spans = UnionOf(std::move(view.spans));
+  angles = UnionOf(std::move(angles));
   for (const Interval& angle : angles) view.angular_share += (angle[1] - angle[0]) / 180;
   view.azimuths = AzimuthsOf(angles, compass);
   return view;

@@ -48,7 +48,7 @@ Status WriteSweepPicture(const std::filesystem::path& dem, const std::filesystem
                  "no-such-level"};
   }
   if (!trace) return std::move(trace.error());
-  const double drawn_m = grid.height_offset_m + trace->level * grid.quantum_m;
+  const double drawn_m = grid.height_offset_m + trace->height * grid.quantum_m;
   watch.Report(Stage::kWrite, 0);
   Status written =
       WriteFile(out, DrawSweep(*trace, dem.filename().string() + " at " + Metres(drawn_m)));

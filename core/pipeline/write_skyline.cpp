@@ -25,7 +25,7 @@ class ViewFrame {
     ahead_ = {east / length, north / length};
   }
 
-  // Whether what lies further across the view (Across) lies to the right.
+  // Whether what lies further across the view (Offset) lies to the right.
   [[nodiscard]] bool RisesToTheRight() const {
     return step_.column_east_m * step_.row_north_m < step_.row_east_m * step_.column_north_m;
   }
@@ -59,19 +59,19 @@ GridPoint Between(const Dem& dem, Edge edge, double t) {
 }
 
 // The parts with their left ends at t_from and the leftmost first.
-std::vector<SkylinePart> LeftToRight(std::vector<SkylinePart> parts, bool rises_to_the_right) {
+std::vector<SkylinePiece> LeftToRight(std::vector<SkylinePiece> parts, bool rises_to_the_right) {
   if (rises_to_the_right) return parts;
   std::reverse(parts.begin(), parts.end());
-  for (SkylinePart& part : parts) std::swap(part.t_from, part.t_to);
+  for (SkylinePiece& part : parts) std::swap(part.t_from, part.t_to);
   return parts;
 }
 
 Result<SkylineOfDirection> Published(const TerrainInput& source, const Horizon& horizon,
-                                     const std::vector<SkylinePart>& parts,
+                                     const std::vector<SkylinePiece>& parts,
                                      const ViewFrame& frame) {
   const Dem& dem = source.dem();
   std::vector<GridPoint> ends;
-  for (const SkylinePart& part : parts) {
+  for (const SkylinePiece& part : parts) {
     ends.push_back(Between(dem, horizon.edges[part.edge].edge, part.t_from));
     ends.push_back(Between(dem, horizon.edges[part.edge].edge, part.t_to));
   }

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "core/exact/int128.h"
+#include "core/geometry/floor_divide.h"
 #include "core/geometry/plan.h"
 
 namespace farhorizon {
@@ -21,7 +22,7 @@ namespace {
 
 class Walk {
  public:
-  Walk(const Terrain& terrain, const HullMergeTree& hulls, const HeightScale& scale, VertexId p,
+  Walk(const Terrain& terrain, const HullMergeTree& hulls, const FinerHeights& scale, VertexId p,
        VertexId q, std::int32_t steps)
       : terrain_(terrain),
         hulls_(hulls),
@@ -45,8 +46,9 @@ class Walk {
       const std::int64_t at_right = at_left + dy;
       const std::int64_t top = std::min(at_left, at_right);
       const std::int64_t bottom = std::max(at_left, at_right);
-      const auto first = static_cast<std::int32_t>(p_.y + FloorDivide(top, dx));
-      const auto last = static_cast<std::int32_t>(p_.y - FloorDivide(-bottom, dx)) - 1;
+      const auto first = static_cast<std::int32_t>(p_.y + FloorDivide<std::int64_t>(top, dx));
+      const auto last =
+          static_cast<std::int32_t>(p_.y - FloorDivide<std::int64_t>(-bottom, dx)) - 1;
       for (std::int32_t r = first; r <= last; ++r) {
         if (!IsBelowInCell(c, r)) return false;
       }
@@ -55,9 +57,6 @@ class Walk {
   }
 
  private:
-  static std::int64_t FloorDivide(std::int64_t a, std::int64_t b) {
-    return a / b - static_cast<std::int64_t>(a % b != 0 && a < 0);
-  }
   [[nodiscard]] VertexId PostAt(std::int32_t column, std::int32_t row) const {
     return row * terrain_.dem().columns + column;
   }
@@ -66,8 +65,8 @@ class Walk {
   [[nodiscard]] std::int32_t HeightAt(double t) const {
     const double z = p_.z + t * (static_cast<double>(q_.z) - p_.z);
     // Doubles are right to 2^-20 here; a whole step up is more than that.
-    return scale_.middle +
-           static_cast<std::int32_t>(std::ceil((z + 1) / std::ldexp(1.0, scale_.shift)));
+    return scale_.zero +
+           static_cast<std::int32_t>(std::ceil((z + 1) / std::ldexp(1.0, scale_.bits)));
   }
 
   [[nodiscard]] bool IsBelowFromPostToPost(std::int32_t n) const {
@@ -136,14 +135,14 @@ class Walk {
 
   const Terrain& terrain_;
   const HullMergeTree& hulls_;
-  const HeightScale& scale_;
+  const FinerHeights& scale_;
   Point3i p_;
   Point3i q_;
 };
 
 }  // namespace
 
-bool GroundCovers(const Terrain& terrain, const HullMergeTree& hulls, const HeightScale& scale,
+bool GroundCovers(const Terrain& terrain, const HullMergeTree& hulls, const FinerHeights& scale,
                   VertexId p, VertexId q, std::int32_t steps) {
   return Walk(terrain, hulls, scale, p, q, steps).IsBelow();
 }

@@ -2,8 +2,8 @@
 
 #include <cstdint>
 
+#include "core/geometry/finer_heights.h"
 #include "core/horizon/horizon.h"
-#include "core/simplify/height_scale.h"
 #include "core/terrain/terrain.h"
 
 namespace farhorizon {
@@ -13,7 +13,7 @@ namespace farhorizon {
 /// DEM's visual hull, so it is occluded in every direction. False: not known.
 ///
 /// Requires: the segment lies in the terrain's domain. Cost: the cells that it crosses.
-bool GroundCovers(const Terrain& terrain, const HullMergeTree& hulls, const HeightScale& scale,
+bool GroundCovers(const Terrain& terrain, const HullMergeTree& hulls, const FinerHeights& scale,
                   VertexId p, VertexId q, std::int32_t steps);
 
 }  // namespace farhorizon

@@ -33,7 +33,7 @@ struct Lod {
 /// (2) No triangle is steeper along either axis of the grid than the DEM's steepest.
 /// (3) Each level keeps only horizon edges that the finer one keeps.
 /// (4) H is within the silhouette budget, exactly. Where the budget is 0, or below a step of
-///     HeightScale, the level keeps all horizon edges and H is exactly the DEM's.
+///     FinerHeights, the level keeps all horizon edges and H is exactly the DEM's.
 /// Requires: budgets do not fall from level to level.
 /// Errors: kCancelled.
 Result<std::vector<Lod>> BuildLodChain(const Terrain& terrain, const Horizon& horizon,

@@ -22,7 +22,7 @@ std::size_t Index(std::int32_t id) { return static_cast<std::size_t>(id); }
 
 }  // namespace
 
-RidgeNetwork::RidgeNetwork(const Terrain& terrain, const Horizon& horizon, HeightScale scale)
+RidgeNetwork::RidgeNetwork(const Terrain& terrain, const Horizon& horizon, FinerHeights scale)
     : terrain_(&terrain),
       horizon_(&horizon),
       scale_(scale),

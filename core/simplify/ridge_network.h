@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "core/base/progress.h"
+#include "core/geometry/finer_heights.h"
 #include "core/horizon/horizon.h"
 #include "core/horizon/visibility/occluder_set.h"
-#include "core/simplify/height_scale.h"
 #include "core/terrain/terrain.h"
 
 namespace farhorizon {
@@ -30,7 +30,7 @@ namespace farhorizon {
 class RidgeNetwork {
  public:
   /// The allowance is 0 at first: no ridge may be removed. Requires: both outlive the network.
-  RidgeNetwork(const Terrain& terrain, const Horizon& horizon, HeightScale scale);
+  RidgeNetwork(const Terrain& terrain, const Horizon& horizon, FinerHeights scale);
 
   /// Requires: no less than before, so that what is proven stays proven.
   void Allow(std::int32_t steps) { allowance_ = steps; }
@@ -72,7 +72,7 @@ class RidgeNetwork {
 
   const Terrain* terrain_;
   const Horizon* horizon_;
-  HeightScale scale_;
+  FinerHeights scale_;
   OccluderSet nothing_;  // stays empty: over it, virtual occluders alone decide
   std::int32_t allowance_ = 0;
   std::vector<Ridge> ridges_;

@@ -86,7 +86,7 @@ Result<double> SilhouetteBound(const Terrain& terrain, const Horizon& horizon,
                                const std::vector<MeshEdge>& edges, double asked,
                                const Watch& watch) {
   const SkylineGuard guard(terrain, horizon);
-  const HeightScale& scale = guard.scale();
+  const FinerHeights& scale = guard.scale();
   BoundSearch search(scale.Steps(asked), scale.most_steps);
 
   // H of the mesh is not above that of the DEM. An edge of the mesh that is an edge of the DEM has

@@ -11,7 +11,7 @@
 namespace farhorizon {
 
 /// A bound on |H_dem - H_mesh| for a mesh over posts, quanta: at most about a twentieth above the
-/// least one, or a step of HeightScale where that is more.
+/// least one, or a step of FinerHeights where that is more.
 ///
 /// Proven edge by edge: every ridge of the mesh, lowered by the bound, is occluded by the DEM's
 /// horizon edges, and every horizon edge, lowered by the bound, is occluded by the mesh

@@ -2,9 +2,9 @@
 
 #include <cstdint>
 
+#include "core/geometry/finer_heights.h"
 #include "core/horizon/horizon.h"
 #include "core/horizon/visibility/occluder_set.h"
-#include "core/simplify/height_scale.h"
 #include "core/terrain/terrain.h"
 
 namespace farhorizon {
@@ -23,12 +23,12 @@ class SkylineGuard {
   /// Cost: constant for most edges; for the others about the occluders that are visible from them.
   [[nodiscard]] bool IsOccluded(VertexId p, VertexId q, std::int32_t steps_lower) const;
 
-  [[nodiscard]] const HeightScale& scale() const { return scale_; }
+  [[nodiscard]] const FinerHeights& scale() const { return scale_; }
 
  private:
   const Terrain* terrain_;
   const HullMergeTree* hulls_;
-  HeightScale scale_;
+  FinerHeights scale_;
   OccluderSet occluders_;
 };
 

@@ -9,6 +9,8 @@
 #include <functional>
 #include <limits>
 
+#include "core/geometry/union_find.h"
+
 namespace farhorizon {
 namespace {
 
@@ -55,10 +57,7 @@ class Components {
  private:
   static std::size_t Index(VertexId v) { return static_cast<std::size_t>(v); }
 
-  VertexId Root(VertexId v) {
-    while (parent_[Index(v)] != v) v = parent_[Index(v)] = parent_[Index(parent_[Index(v)])];
-    return v;
-  }
+  VertexId Root(VertexId v) { return FindRoot(parent_, v); }
 
   void Join(VertexId p, VertexId q) {
     p = Root(p);

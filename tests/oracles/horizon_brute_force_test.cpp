@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/ascii_dem.h"
-#include "tests/support/plan_line.h"
+#include "tests/support/line_equation.h"
 #include "tests/support/terrains.h"
 
 namespace farhorizon {
@@ -50,7 +50,7 @@ bool LineOfSightHolds(const OracleLineOfSight& sight, const Segment& segment,
         dx = from_weight;
         dy = to_weight;
       }
-      const PlanLine<Wide> line =
+      const LineEquation<Wide> line =
           LineThrough<Wide>(segment, sight.t.numerator, denominator, dx, dy);
       const bool free = std::none_of(obstacles.begin(), obstacles.end(), [&](const Segment& f) {
         const std::optional<Ratio<Wide>> height = HeightOver<Wide>(line, f);
@@ -214,7 +214,7 @@ TEST(BruteForce, NoRandomLineSeesASegmentThatIsHidden) {
       const Wide t = 1 + random() % 1022;
       const Wide dx = static_cast<int>(random() % 2001) - 1000;
       const Wide dy = static_cast<int>(random() % 1000) + 1;
-      const PlanLine<Wide> line = LineThrough<Wide>(segment, t, 1023, dx, dy);
+      const LineEquation<Wide> line = LineThrough<Wide>(segment, t, 1023, dx, dy);
       const std::optional<Ratio<Wide>> own = HeightOver<Wide>(line, segment);
       const bool seen = std::all_of(segments.begin(), segments.end(), [&](const Segment& f) {
         const std::optional<Ratio<Wide>> height = HeightOver<Wide>(line, f);

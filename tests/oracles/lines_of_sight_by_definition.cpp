@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "tests/support/plan_line.h"
+#include "tests/support/line_equation.h"
 
 namespace farhorizon {
 namespace {
@@ -22,7 +22,7 @@ Wide Cross(const Direction& a, const Direction& b) { return a[0] * b[1] - a[1] *
 template <typename Int>
 bool NothingAbove(const Segment& segment, const Int& n, const Int& whole, const Int& dx,
                   const Int& dy, const std::vector<Segment>& obstacles) {
-  const PlanLine<Int> line = LineThrough<Int>(segment, n, whole, dx, dy);
+  const LineEquation<Int> line = LineThrough<Int>(segment, n, whole, dx, dy);
   const Ratio<Int> own{segment.a.z * whole + (Int(segment.b.z) - segment.a.z) * n, whole};
   return std::none_of(obstacles.begin(), obstacles.end(), [&](const Segment& f) {
     const std::optional<Ratio<Int>> height = HeightOver<Int>(line, f);

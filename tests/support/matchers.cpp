@@ -9,7 +9,7 @@
 
 #include "tests/oracles/horizon_brute_force.h"
 #include "tests/support/ascii_dem.h"
-#include "tests/support/plan_line.h"
+#include "tests/support/line_equation.h"
 #include "tests/support/shrink.h"
 #include "tests/support/svg.h"
 
@@ -38,7 +38,7 @@ std::string WriteSvg(const std::string& svg) {
 }
 
 using Int = __int128;
-using Line = PlanLine<Int>;
+using Line = LineEquation<Int>;
 
 std::int64_t Below(std::int64_t bound, std::mt19937& random) {
   return static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(bound));
@@ -123,7 +123,7 @@ testing::AssertionResult LineOfSightIsClear(const Witness& witness, const Segmen
   const double mantissa = std::frexp(witness.t, &exponent);  // in [0.5, 1): 53 bits
   const Wide numerator = static_cast<std::int64_t>(std::ldexp(mantissa, 53));
   const Wide denominator = Wide(1) << static_cast<unsigned>(53 - exponent);
-  const PlanLine<Wide> line =
+  const LineEquation<Wide> line =
       LineThrough<Wide>(segment, numerator, denominator, witness.dc, witness.dr);
   const Ratio<Wide> own{segment.a.z * denominator + (Wide(segment.b.z) - segment.a.z) * numerator,
                         denominator};

@@ -5,7 +5,8 @@
 namespace farhorizon {
 namespace {
 
-// Which side of the line a point is on, as twice the cross product with its direction.
+// Twice the cross product of the vector from the line to p with its direction, up to sign: 0 on the
+// line.
 std::int64_t Side(Point3i p, const PlanLine& line) {
   return (2 * std::int64_t{p.x} - line.x) * line.dr - (2 * std::int64_t{p.y} - line.y) * line.dc;
 }
@@ -37,7 +38,7 @@ std::optional<ExactHeight> HighestOver(const Terrain& terrain, const PlanLine& l
   std::optional<ExactHeight> highest;
   for (VertexId v = 0; v < terrain.post_count(); ++v) {
     const Point3i p = terrain.Point(v);
-    // Edges are at most a diagonal long: from further away none reaches the line.
+    // Edges are at most a diagonal long: none from a post farther away reaches the line.
     const std::int64_t side = Side(p, line);
     const std::int64_t reach =
         2 * (std::abs(std::int64_t{line.dc}) + std::abs(std::int64_t{line.dr}));

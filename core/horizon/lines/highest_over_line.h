@@ -22,12 +22,13 @@ struct PlanLine {
 /// A height in quanta.
 using ExactHeight = Fraction;
 
-/// The height at which a segment stands over the line; the greater of its ends where it lies along it;
-/// nullopt where they do not meet. Exact.
+/// g_e of core/horizon/README.md, section 1: the height of a segment where the line crosses it in
+/// plan, the height of its higher end where the line contains it, nullopt where they do not meet.
+/// Exact.
 std::optional<ExactHeight> HeightOver(const Segment& segment, const PlanLine& line);
 
-/// H(l): the greatest height of the segments over the line; nullopt where none meets it.
-/// The slow and plain twin of everything in occluder_set.h. Cost: O(segments).
+/// H(l): the greatest height of the segments over the line; nullopt where none meets it. Exact.
+/// By definition, the slow twin of occluder_set.h and grid_line_query.h. Cost: O(segments).
 std::optional<ExactHeight> HighestOver(std::span<const Segment> segments, const PlanLine& line);
 
 /// The same for all edges of a terrain. Cost: O(edges).

@@ -1,9 +1,7 @@
-// Why the edges seen in the closed set of directions are enough. At each place across the view, H is the
-// limit of H along lines beside it that have a horizon edge at their greatest height by D2 (horizon.md,
-// theorem 2); of finitely many edges one is it on lines as close by as one likes, and so in the limit.
-// A tie on a whole stretch is between edges in one plane with the direction. Turned a little to the side on
-// which the nearest of them rises, it alone is at H: it is a horizon edge, with the direction in the closed
-// set of its own. So the nearest of the terrain's edges is among those found, too.
+// Which edges can be on the skyline along u: those that have u in the closed set of their
+// directions of sight (core/horizon/README.md, theorem 11). An edge too many does no harm, because
+// the upper envelope leaves it out; so directions are angles in doubles, as intervals rounded
+// outwards.
 #include "core/horizon/lines_of_sight/directional_skyline.h"
 
 #include <algorithm>
@@ -12,89 +10,77 @@
 #include <numbers>
 #include <utility>
 
+#include "core/geometry/interval_set.h"
+
 namespace farhorizon {
 namespace {
 
-using Interval = IntervalTree::Interval;
-
-// What doubles may be wrong by in an angle made of few steps.
-constexpr double kAngleSlack = 1e-12;
-// Ends of a patch are known to this share of it (lines_of_sight.h), with two bits to spare.
-constexpr double kEndSlack = 0x1p-45;
-
-// The angle of a moving vector at t from `along`, 0 to pi, and how much it may be wrong.
+// The angle of a moving vector at t from `along`, 0 to pi, and a bound on its error.
 struct Angle {
   double value = 0;
   double slack = 0;
 };
 
 Angle AngleAt(const PlanMotion& motion, double t, const std::array<double, 2>& along) {
-  const double x = motion.ax + t * motion.bx;
-  const double y = motion.ay + t * motion.by;
+  // Products, quotient and arcus tangent are off by a few units in the last place of an angle below
+  // 2 pi, and so are the sums that turn it into an azimuth of the half turn: by less than 1e-14
+  // together. Any value from there on is sound; this one lets nearly no edge pass that need not.
+  constexpr double kRounding = 1e-12;
+  // t is within 2^-47 of a cell's end (lines_of_sight.h), and the vector's numbers are exact. So
+  // the vector is off by 1.1 * 2^-47 of `size`, its angle by that over its length, and 1.2 times as
+  // much where it is known to a tenth (kMostSlack). kEnd is three times that.
+  constexpr double kEnd = 0x1p-45;
+  const auto [x, y] = motion.At(t);
   const double cross = along[0] * y - along[1] * x;
   const double dot = along[0] * x + along[1] * y;
   const double size = std::hypot(motion.ax, motion.ay) + std::hypot(motion.bx, motion.by);
-  // Never -0: the edge's opposite is at pi, not at -pi.
-  return {std::atan2(cross > 0 ? cross : 0.0, dot),
-          kEndSlack * size / std::hypot(x, y) + kAngleSlack};
+  return {HalfTurnAngle(dot, cross), kEnd * size / std::hypot(x, y) + kRounding};
 }
 
-// The directions of a patch as angles from `along`, rounded outwards.
-Interval AnglesOf(const LineOfSightCell& patch, const std::array<double, 2>& along) {
-  constexpr double kUseless = 0.1;
+// The directions of a cell as angles from `along`, rounded outwards. Its curves turn one way, so
+// that they have their least and greatest angles at the cell's ends.
+Interval AnglesOf(const LineOfSightCell& cell, const std::array<double, 2>& along) {
+  // Beyond this the bound on the error does not hold, and any direction is possible.
+  constexpr double kMostSlack = 0.1;
   double from = std::numbers::pi;
   double to = 0;
   double slack = 0;
-  for (const double t : {patch.from, patch.to}) {
-    const Angle first = AngleAt(patch.first, t, along);
-    const Angle last = AngleAt(patch.last, t, along);
+  for (const double t : {cell.from, cell.to}) {
+    const Angle first = AngleAt(cell.first, t, along);
+    const Angle last = AngleAt(cell.last, t, along);
     from = std::min(from, first.value);
     to = std::max(to, last.value);
     slack = std::max({slack, first.slack, last.slack});
   }
-  if (!(slack < kUseless)) return {0, std::numbers::pi, 0};
-  return {from - slack, to + slack, 0};
+  if (!(slack < kMostSlack)) return {0, std::numbers::pi};
+  return {from - slack, to + slack};
 }
 
-std::vector<Interval> Union(std::vector<Interval> intervals) {
-  std::sort(intervals.begin(), intervals.end(),
-            [](const Interval& a, const Interval& b) { return a.from < b.from; });
-  std::vector<Interval> apart;
-  for (const Interval& next : intervals) {
-    if (apart.empty() || next.from > apart.back().to) {
-      apart.push_back(next);
-    } else {
-      apart.back().to = std::max(apart.back().to, next.to);
-    }
-  }
-  return apart;
-}
-
-// Adds [from, to], angles of directions that have no sense, as parts of [0, pi].
+// Appends [from, to], angles of directions without a sense, as intervals of [0, pi].
 void AppendHalfTurn(double from, double to, std::vector<Interval>& angles) {
   constexpr double kHalf = std::numbers::pi;
   if (to - from >= kHalf) {
-    angles.push_back({0, kHalf, 0});
+    angles.push_back({0, kHalf});
     return;
   }
   const double shift = std::floor(from / kHalf) * kHalf;
   from -= shift;
   to -= shift;
-  angles.push_back({from, std::min(to, kHalf), 0});
-  if (to >= kHalf) angles.push_back({0, to - kHalf, 0});
+  angles.push_back({from, std::min(to, kHalf)});
+  if (to >= kHalf) angles.push_back({0, to - kHalf});
 }
 
-// All directions in which an edge is seen, as disjoint intervals of [0, pi].
-std::vector<Interval> DirectionsOf(const LinesOfSight& sights, const Segment& edge) {
+// All directions of sight of an edge, as disjoint intervals of [0, pi].
+std::vector<Interval> DirectionsOf(const LinesOfSight& lines, const Segment& edge) {
   const std::array<double, 2> along = {static_cast<double>(edge.b.x) - edge.a.x,
                                        static_cast<double>(edge.b.y) - edge.a.y};
   const double base = std::atan2(along[1], along[0]);
   std::vector<Interval> angles;
-  for (const LineOfSightCell& patch : sights) {
-    const Interval turned = AnglesOf(patch, along);
-    AppendHalfTurn(base + turned.from, base + turned.to, angles);
+  for (const LineOfSightCell& cell : lines) {
+    const Interval turned = AnglesOf(cell, along);
+    AppendHalfTurn(base + turned[0], base + turned[1], angles);
   }
-  return Union(std::move(angles));
+  return UnionOf(std::move(angles));
 }
 
 double AngleOf(const ViewDirection& view) {
@@ -112,49 +98,49 @@ std::vector<Segment> SegmentsOf(const Terrain& terrain, const Horizon& horizon) 
 }
 
 IntervalTree TreeOf(const std::vector<Segment>& edges, const Horizon& horizon,
-                    const std::vector<LinesOfSight>& sights) {
-  std::vector<Interval> all;
+                    const std::vector<LinesOfSight>& lines) {
+  std::vector<IntervalTree::Entry> all;
   for (std::size_t i = 0; i < edges.size(); ++i) {
     const auto id = static_cast<std::int32_t>(i);
     if (horizon.edges[i].undecided) {
       all.push_back({0, std::numbers::pi, id});
       continue;
     }
-    for (const Interval& angles : DirectionsOf(sights[i], edges[i])) {
-      all.push_back({angles.from, angles.to, id});
+    for (const Interval& angles : DirectionsOf(lines[i], edges[i])) {
+      all.push_back({angles[0], angles[1], id});
     }
   }
   return IntervalTree(std::move(all));
 }
 
-// How far along the edge, from a to b, the place across the view is.
-double ShareOf(const Segment& edge, const ViewDirection& view, const Fraction& place) {
-  const std::int64_t a = Across(edge.a, view);
-  const std::int64_t run = Across(edge.b, view) - a;
-  const Int128 numerator = place.numerator - a * place.denominator;
+// The t, from a to b, at which the edge has the offset.
+double ShareAt(const Segment& edge, const ViewDirection& view, const Fraction& offset) {
+  const std::int64_t a = Offset(edge.a, view);
+  const std::int64_t run = Offset(edge.b, view) - a;
+  const Int128 numerator = offset.numerator - a * offset.denominator;
   // + 0.0: never -0.
-  return static_cast<double>(numerator) / static_cast<double>(run * place.denominator) + 0.0;
+  return static_cast<double>(numerator) / static_cast<double>(run * offset.denominator) + 0.0;
 }
 
 }  // namespace
 
 DirectionalSkylines::DirectionalSkylines(const Terrain& terrain, const Horizon& horizon,
-                                         const std::vector<LinesOfSight>& sights)
-    : edges_(SegmentsOf(terrain, horizon)), directions_(TreeOf(edges_, horizon, sights)) {}
+                                         const std::vector<LinesOfSight>& lines)
+    : edges_(SegmentsOf(terrain, horizon)), directions_(TreeOf(edges_, horizon, lines)) {}
 
-std::vector<SkylinePart> DirectionalSkylines::Along(const ViewDirection& view) const {
-  std::vector<std::int32_t> seen = directions_.Holding(AngleOf(view));
-  std::sort(seen.begin(), seen.end());
+std::vector<SkylinePiece> DirectionalSkylines::Along(const ViewDirection& view) const {
+  std::vector<std::int32_t> visible = directions_.Holding(AngleOf(view));
+  std::sort(visible.begin(), visible.end());
   std::vector<Segment> segments;
-  segments.reserve(seen.size());
-  for (const std::int32_t i : seen) segments.push_back(edges_[static_cast<std::size_t>(i)]);
-  std::vector<SkylinePart> parts;
-  for (const EnvelopePart& part : UpperEnvelope(segments, view)) {
-    const Segment& edge = segments[part.segment];
-    parts.push_back({static_cast<std::size_t>(seen[part.segment]), ShareOf(edge, view, part.from),
-                     ShareOf(edge, view, part.to)});
+  segments.reserve(visible.size());
+  for (const std::int32_t i : visible) segments.push_back(edges_[static_cast<std::size_t>(i)]);
+  std::vector<SkylinePiece> skyline;
+  for (const EnvelopePiece& piece : UpperEnvelope(segments, view)) {
+    const Segment& edge = segments[piece.segment];
+    skyline.push_back({static_cast<std::size_t>(visible[piece.segment]),
+                       ShareAt(edge, view, piece.from), ShareAt(edge, view, piece.to)});
   }
-  return parts;
+  return skyline;
 }
 
 }  // namespace farhorizon

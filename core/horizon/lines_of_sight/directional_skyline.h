@@ -10,33 +10,36 @@
 
 namespace farhorizon {
 
-/// A part of a horizon edge that is the skyline for a viewer far away.
-struct SkylinePart {
+/// A piece of a horizon edge that is on the skyline of one direction.
+struct SkylinePiece {
   std::size_t edge = 0;  ///< in Horizon::edges
-  /// Where on it, 0 at a and 1 at b: the ends of the part by rising Across. To the nearest double; the line
-  /// of sight through each t between is a witness.
+  /// The ends of the piece on the edge, by rising Offset: 0 at a and 1 at b, to the nearest double.
+  /// The line of sight through each t between is a witness.
   double t_from = 0;
   double t_to = 0;
 };
 
-/// The skylines of a terrain, one for each direction of view, from its horizon edges alone.
+/// The skylines of a terrain for viewers far away, one for each direction of view, from the lines
+/// of sight of its horizon edges alone (core/horizon/README.md, theorem 11).
 ///
-/// Which edges a direction may show is looked up in an interval tree of their directions of sight; which
-/// part of each it does show is the upper envelope of those.
+/// An interval tree of the edges' directions of sight tells which edges can be on the skyline of a
+/// direction; the upper envelope of these is the skyline.
 class DirectionalSkylines {
  public:
-  /// Requires: the horizon is FindHorizon's of the terrain, the sights FindLinesOfSight' of both; undecided edges
-  /// stand for all directions. Cost: O(n log n) in the number n of horizon edges, about 200 bytes each.
+  /// Undecided edges count as visible in all directions.
+  /// Requires: the horizon is FindHorizon's of the terrain, and `lines` are FindLinesOfSight's of
+  /// both.
+  /// Cost: O(n log n) for n horizon edges, about 200 bytes each.
   DirectionalSkylines(const Terrain& terrain, const Horizon& horizon,
-                      const std::vector<LinesOfSight>& sights);
+                      const std::vector<LinesOfSight>& lines);
 
-  /// The skyline seen along `view`, by rising Across (to the viewer's right where columns, then rows turn
-  /// clockwise seen from above, as they do in a DEM whose rows run south). Where edges are seen at one
-  /// height, the nearest. Edges along the view, which show as a point, are left out.
+  /// The skyline along `view`, by rising Offset: to the viewer's right in a DEM whose rows run
+  /// south, where columns, then rows turn clockwise as seen from above. Of edges at one height the
+  /// nearest is taken. Edges parallel to the view, which are points of it, are left out.
   ///
-  /// It is the upper envelope of all edges of the terrain, exactly. Cost: O(log n + s log s) for s edges seen
-  /// in the direction.
-  [[nodiscard]] std::vector<SkylinePart> Along(const ViewDirection& view) const;
+  /// Exactly the upper envelope of all edges of the terrain. Cost: O(log n + s log s) for s edges
+  /// with the direction among their directions of sight.
+  [[nodiscard]] std::vector<SkylinePiece> Along(const ViewDirection& view) const;
 
  private:
   std::vector<Segment> edges_;

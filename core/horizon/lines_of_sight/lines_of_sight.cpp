@@ -16,28 +16,29 @@ PlanMotion MotionOf(const BoundaryCurve& curve, const TargetSegment& edge, bool 
   MovingVector v = curve.v;
   if (curve.kind == BoundaryCurve::Kind::kAlong) v = {dx, dy, 0, 0};
   if (curve.kind == BoundaryCurve::Kind::kAgainst) v = {-dx, -dy, 0, 0};
-  // The other way round: t runs down, and the half turn begins at the opposite direction.
+  // From the other end: 1 - t for t, and a half turn that begins at the opposite direction.
   if (from_high) v = {-v.ax - v.bx, -v.ay - v.by, v.bx, v.by};
   return {static_cast<double>(v.ax), static_cast<double>(v.ay), static_cast<double>(v.bx),
           static_cast<double>(v.by)};
 }
 
-LinesOfSight SightsOf(const VisibleRegion& region, const TargetSegment& edge, bool from_high) {
-  LinesOfSight sights;
-  for (const StripCell& cell : region.cells()) {
-    LineOfSightCell patch;
-    patch.from = cell.from.ToDouble();
-    patch.to = cell.to.ToDouble();
+// The cells of a region in doubles. from_high: t is to run from the edge's higher end.
+LinesOfSight InDoubles(const VisibleRegion& region, const TargetSegment& edge, bool from_high) {
+  LinesOfSight lines;
+  for (const StripCell& exact : region.cells()) {
+    LineOfSightCell cell;
+    cell.from = exact.from.ToDouble();
+    cell.to = exact.to.ToDouble();
     if (from_high) {
-      patch.from = 1 - patch.from;
-      patch.to = 1 - patch.to;
-      std::swap(patch.from, patch.to);
+      cell.from = 1 - cell.from;
+      cell.to = 1 - cell.to;
+      std::swap(cell.from, cell.to);
     }
-    patch.first = MotionOf(cell.first, edge, from_high);
-    patch.last = MotionOf(cell.last, edge, from_high);
-    sights.push_back(patch);
+    cell.first = MotionOf(exact.first, edge, from_high);
+    cell.last = MotionOf(exact.last, edge, from_high);
+    lines.push_back(cell);
   }
-  return sights;
+  return lines;
 }
 
 }  // namespace
@@ -49,28 +50,27 @@ Result<std::vector<LinesOfSight>> FindLinesOfSight(const Terrain& terrain, const
   for (const HorizonEdge& e : horizon.edges) {
     index.Insert({terrain.Point(e.edge.a), terrain.Point(e.edge.b)});
   }
-  std::vector<LinesOfSight> sights(horizon.edges.size());
-  const auto look = [&](std::size_t i) {
+  std::vector<LinesOfSight> lines(horizon.edges.size());
+  const auto find = [&](std::size_t i) {
     if (horizon.edges[i].undecided) return;
     const SegmentIndex::Item& item = index.item(static_cast<std::int32_t>(i));
     const TargetSegment edge{item.low, item.high, Ties::kPass};
     VisibleRegion region(edge, WedgeOf(terrain, horizon.edges[i].edge));
     for (std::size_t j = i == 0 ? 0 : horizon.virtual_occluder_ends[i - 1];
          j < horizon.virtual_occluder_ends[i]; ++j) {
-      region.Subtract({horizon.virtual_occluders[j].a, horizon.virtual_occluders[j].b});
+      region.AddOccluder({horizon.virtual_occluders[j].a, horizon.virtual_occluders[j].b});
     }
-    region.Subtract(index, static_cast<std::int32_t>(i));
-    Check(!region.cells().empty(), "an edge on the horizon has lines of sight");
-    sights[i] = SightsOf(region, edge, !(item.low == terrain.Point(horizon.edges[i].edge.a)));
+    region.AddOccluders(index, static_cast<std::int32_t>(i));
+    Check(!region.cells().empty(), "a horizon edge has lines of sight");
+    lines[i] = InDoubles(region, edge, !(item.low == terrain.Point(horizon.edges[i].edge.a)));
   };
-  const auto look_at_all = [&](std::size_t begin, std::size_t end, std::size_t /*thread*/) {
-    for (std::size_t i = begin; i < end; ++i) look(i);
+  const auto find_all = [&](std::size_t begin, std::size_t end, std::size_t /*thread*/) {
+    for (std::size_t i = begin; i < end; ++i) find(i);
   };
-  if (!ParallelForBatches(sights.size(), kBatch, threads, Stage::kLinesOfSight, watch,
-                          look_at_all)) {
+  if (!ParallelForBatches(lines.size(), kBatch, threads, Stage::kLinesOfSight, watch, find_all)) {
     return Error{ErrorCode::kCancelled, "stopped while finding lines of sight"};
   }
-  return sights;
+  return lines;
 }
 
 }  // namespace farhorizon

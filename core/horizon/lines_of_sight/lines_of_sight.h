@@ -4,24 +4,18 @@
 
 #include "core/base/progress.h"
 #include "core/base/result.h"
+#include "core/geometry/plan_motion.h"
 #include "core/horizon/horizon.h"
 
 namespace farhorizon {
 
-/// A vector of the plan, columns and rows, that moves with t: (ax, ay) + t (bx, by).
-struct PlanMotion {
-  double ax = 0;
-  double ay = 0;
-  double bx = 0;
-  double by = 0;
-};
-
-/// Lines of sight of an edge: through its point at t, from <= t <= to, 0 at a and 1 at b; at each t in
-/// the directions of `first` counter-clockwise (from columns to rows) to those of `last`. Both lie in the
-/// half turn from the edge's own direction, a to b, to its opposite, ends included.
+/// Lines of sight of an edge a, b: those through its point at t, with from <= t <= to, 0 at a and 1
+/// at b, whose direction is from `first` at t counter-clockwise (from columns to rows) to `last` at
+/// t.
 ///
-/// `first` and `last` turn one way only, each by less than half a turn; integers, exact, but for
-/// `from` and `to`, which are within 2^-47.
+/// Both are in the half turn from the edge's own direction, a to b, to its opposite, ends included.
+/// Each turns one way only as t rises, by less than half a turn. Their numbers are integers, exact;
+/// `from` and `to` are within 2^-47 of the exact ends.
 struct LineOfSightCell {
   double from = 0;
   double to = 1;
@@ -29,16 +23,16 @@ struct LineOfSightCell {
   PlanMotion last;
 };
 
-/// All lines of sight of one edge, but for a set of measure zero: patches that do not overlap.
+/// All lines of sight of one edge, except a set of measure zero, as cells that do not overlap.
 using LinesOfSight = std::vector<LineOfSightCell>;
 
-/// For each edge of `horizon`, all lines of sight that touch it and nowhere meet higher ground. They are
-/// found exactly and then written in doubles (visible_region.h). None for an undecided edge, which nobody
-/// could afford to look at; others have some.
+/// For each edge of `horizon` all lines of sight that touch it: over them the edge is at the
+/// greatest height of the terrain. Found exactly (visible_region.h), then rounded as
+/// LineOfSightCell says. Empty for undecided edges; never empty otherwise. The same for any
+/// `threads`.
 ///
 /// Requires: `horizon` is FindHorizon's of `terrain`.
-/// Errors: kCancelled when the watch says stop. The same for any `threads`.
-/// Cost: a few times FindHorizon's.
+/// Errors: kCancelled when the watch says stop. Cost: a few times FindHorizon's.
 Result<std::vector<LinesOfSight>> FindLinesOfSight(const Terrain& terrain, const Horizon& horizon,
                                                    int threads, const Watch& watch);
 

@@ -7,9 +7,9 @@
 
 namespace farhorizon {
 
-/// The lines through an edge that a segment rises above: pairs of t and a direction, as cells that do not
-/// overlap; exact, up to a set without interior points. (visible_region.h)
-/// Requires: the segment does not lie over the edge in plan, but at its ends.
+/// The lines through an edge, at its height, above which a segment rises: cells of the edge's strip
+/// that do not overlap. Exact, up to a set of lines without interior points.
+/// Requires: in plan the segment does not lie over the edge, except at its ends.
 std::vector<StripCell> CellsOccludedBy(const SegmentIndex::Item& item, const TargetSegment& edge);
 
 }  // namespace farhorizon

@@ -1,46 +1,34 @@
-// The edge is lowered, further and further, as long as it can be sighted over all others: each point of it
-// that is in sight says by how much it may sink; each one that is not is hidden with a whole range around
-// it, and stays so however low the edge gets. So every range is settled once.
+// An edge is lowered step by step as long as it is visible over all others; the depth reached is
+// its drop. A point of the edge that is visible allows a depth: the clearance along its line of
+// sight. A point that is occluded is so with a whole range of t around it, and remains so however
+// low the edge gets. So each range of t is settled once.
 //
-// Of the other edges only those on the horizon are there from the start, those of the faces beside the edge,
-// and what is known to hide it (Horizon::virtual occluders, which stand for ground as high as the edge's upper end, and
-// so for ground that is not the edge's own). What comes to light where the edge sinks is found by walking
-// along its lines of sight.
+//      edge            o--------------o
+//                      :  clearance   :          depth
+//      lowered by it   o--------------o
+//      another edge  -----x-----
+//
+// Occluders are at first the other horizon edges, the edges of the faces beside the edge, and its
+// virtual occluders (Horizon::virtual_occluders), which stand for ground at the height of its upper
+// end or above, so for ground that is not the edge's own. Other edges of the terrain may be higher
+// than the lowered edge: those are found by walking along its lines of sight, and added.
 #include "core/horizon/lines_of_sight/skyline_drop.h"
 
 #include <algorithm>
 #include <cmath>
 #include <deque>
-#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "core/horizon/visibility/point_query.h"
+#include "core/terrain/height_range.h"
 
 namespace farhorizon {
-namespace {
 
-// A lowered segment stays above minus the range of heights: both are within OccluderSet's limits.
-constexpr int kHeightBits = 29;
-
-std::pair<std::int32_t, std::int32_t> RangeOf(const Dem& dem) {
-  std::int32_t lowest = std::numeric_limits<std::int32_t>::max();
-  std::int32_t highest = std::numeric_limits<std::int32_t>::min();
-  for (const std::int32_t height : dem.heights) {
-    if (height == kNoHeight) continue;
-    lowest = std::min(lowest, height);
-    highest = std::max(highest, height);
-  }
-  return {lowest, highest};
-}
-
-}  // namespace
-
-// One edge on its way down.
-class SkylineDrops::Sinking {
+class SkylineDrops::LoweredEdge {
  public:
-  Sinking(const SkylineDrops& all, std::size_t i)
+  LoweredEdge(const SkylineDrops& all, std::size_t i)
       : all_(all), i_(static_cast<std::int32_t>(i)), edge_(all.horizon_.edges[i].edge) {
     const Horizon& horizon = all.horizon_;
     for (std::size_t j = i == 0 ? 0 : horizon.virtual_occluder_ends[i - 1];
@@ -55,70 +43,67 @@ class SkylineDrops::Sinking {
     }
   }
 
-  // How deep it gets, in scaled units.
-  std::int32_t Depth() {
+  // The greatest depth at which the edge is visible, in steps.
+  std::int32_t FindDepth() {
     std::deque<OccludedRange> open = {
         {QuadraticRoot::At(Dyadic{0, 0}), QuadraticRoot::At(Dyadic{1, 0})}};
     while (!open.empty()) {
-      const OccludedRange gap = open.front();
+      const OccludedRange range = open.front();
       open.pop_front();
-      const std::optional<WideDyadic> t = Between(gap.from, gap.to);
+      const std::optional<WideDyadic> t = Between(range.from, range.to);
       if (!t) continue;
-      const OccludedRange hidden = Sink(*t);
-      open.push_back({gap.from, hidden.from});
-      open.push_back({hidden.to, gap.to});
+      const OccludedRange occluded = LowerAt(*t);
+      open.push_back({range.from, occluded.from});
+      open.push_back({occluded.to, range.to});
     }
     return depth_;
   }
 
  private:
-  // False where it is one already.
+  // False where the segment has been added before.
   bool AddVirtualOccluder(const Segment& segment) {
-    Segment virtual_occluder{all_.Scaled(segment.a), all_.Scaled(segment.b)};
-    if (virtual_occluder.a.z > virtual_occluder.b.z)
-      std::swap(virtual_occluder.a, virtual_occluder.b);
-    const auto same = [&virtual_occluder](const Segment& s) {
-      return s.a == virtual_occluder.a && s.b == virtual_occluder.b;
-    };
+    Segment scaled = all_.Scaled(segment);
+    if (scaled.a.z > scaled.b.z) std::swap(scaled.a, scaled.b);
+    const auto same = [&scaled](const Segment& s) { return s.a == scaled.a && s.b == scaled.b; };
     if (std::any_of(virtual_occluders_.begin(), virtual_occluders_.end(), same)) return false;
-    virtual_occluders_.push_back(virtual_occluder);
+    virtual_occluders_.push_back(scaled);
     return true;
   }
 
-  // Lowers the edge until its point at t is out of sight; says what is hidden around it then.
-  OccludedRange Sink(const WideDyadic& t) {
+  // Lowers the edge until its point at t is occluded, and returns a range around t that is so then.
+  OccludedRange LowerAt(const WideDyadic& t) {
     for (;;) {
-      Segment lowered{all_.Scaled(all_.terrain_.Point(edge_.a)),
-                      all_.Scaled(all_.terrain_.Point(edge_.b))};
-      lowered.a.z -= depth_ + 1;
-      lowered.b.z -= depth_ + 1;
+      const Segment own{all_.terrain_.Point(edge_.a), all_.terrain_.Point(edge_.b)};
+      const Segment lowered = Lowered(all_.Scaled(own), depth_ + 1);
       const OcclusionHints hints{virtual_occluders_, likely_, std::nullopt};
       std::vector<std::int32_t> blockers;
       PointQuery search(all_.skyline_, lowered, Ties::kPass, i_, hints, &blockers, nullptr);
       const PointAnswer finding = search.LookAt(t);
       if (!finding.sight) {
-        // What hides one point is likely to hide the next.
+        // What occludes one point is likely to occlude the next.
         likely_ = std::move(blockers);
         return finding.hidden;
       }
-      Walk(finding.sight->t, finding.middle);
+      LowerAlong(finding.sight->t, finding.middle);
     }
   }
 
-  // Along a line that nothing known hides from the edge one unit lower: finds what does, or lowers it.
-  void Walk(double t, const std::array<double, 2>& direction) {
+  // Requires: no occluder known so far rises above the edge, one step lower, on the line through t.
+  // Adds an occluder that does so, or lowers the edge by the clearance.
+  void LowerAlong(double t, const std::array<double, 2>& direction) {
     const Terrain& terrain = all_.terrain_;
     const Point3i a = terrain.Point(edge_.a);
     const Point3i b = terrain.Point(edge_.b);
-    const std::optional<HighestEdge> other = all_.walk_.HighestEdgeOver(
+    const std::optional<HighestEdge> other = all_.lines_.HighestEdgeOver(
         edge_, a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), direction[0], direction[1]);
     const double own = a.z + t * (static_cast<double>(b.z) - a.z);
-    const double clearance = other ? std::ldexp(own - other->height, all_.bits_) : 0;
+    const double clearance = other ? std::ldexp(own - other->height, all_.heights_.bits) : 0;
     if (clearance < depth_ + 1 && other &&
         AddVirtualOccluder({terrain.Point(other->edge.a), terrain.Point(other->edge.b)})) {
       return;
     }
-    // Where the two disagree by what rounding does, the sight is right.
+    // The line query is rounded. Where the edge that it finds has been added before, the exact
+    // answer counts: one step lower the edge is visible.
     depth_ = std::max(depth_ + 1, static_cast<std::int32_t>(clearance));
   }
 
@@ -127,31 +112,27 @@ class SkylineDrops::Sinking {
   Edge edge_;
   std::vector<Segment> virtual_occluders_;
   std::vector<std::int32_t> likely_;
-  std::int32_t depth_ = 0;  // it is still seen at it
+  std::int32_t depth_ = 0;  // at which the edge is visible
 };
 
 SkylineDrops::SkylineDrops(const Terrain& terrain, const Horizon& horizon, double tolerance)
     : terrain_(terrain),
       horizon_(horizon),
-      walk_(terrain),
+      lines_(terrain),
+      heights_(FinerHeights::FromLeast(HeightRangeOf(terrain.dem()), tolerance)),
       skyline_(terrain.dem().columns, terrain.dem().rows) {
-  const auto [lowest, highest] = RangeOf(terrain.dem());
-  lowest_ = lowest;
-  const int span_bits = std::ilogb(std::max(1.0, static_cast<double>(highest) - lowest)) + 1;
-  bits_ = std::min(static_cast<int>(std::ceil(-std::log2(tolerance))), kHeightBits - span_bits);
   for (const HorizonEdge& e : horizon.edges) {
-    skyline_.Insert({Scaled(terrain.Point(e.edge.a)), Scaled(terrain.Point(e.edge.b))});
+    skyline_.Insert(Scaled({terrain.Point(e.edge.a), terrain.Point(e.edge.b)}));
   }
 }
 
-Point3i SkylineDrops::Scaled(Point3i p) const {
-  const double height = static_cast<double>(p.z) - lowest_;
-  return {p.x, p.y, static_cast<std::int32_t>(std::nearbyint(std::ldexp(height, bits_)))};
+Segment SkylineDrops::Scaled(const Segment& segment) const {
+  return {heights_.Scale(segment.a), heights_.Scale(segment.b)};
 }
 
 double SkylineDrops::Of(std::size_t i) const {
   if (horizon_.edges[i].undecided) return 0;
-  return std::ldexp(Sinking(*this, i).Depth(), -bits_);
+  return heights_.Quanta(LoweredEdge(*this, i).FindDepth());
 }
 
 }  // namespace farhorizon

@@ -1,3 +1,8 @@
+// Comparisons of boundary curves. Two curves a + b t cross where their cross product, a quadratic
+// in t, changes its sign; between neighbouring roots one order of the two holds, and one sample
+// tells it. Floating point decides where its error bound allows, else the quadratic is evaluated
+// exactly. All bounds below hold for MovingVector's numbers: integers below 2^50, so exact in
+// double. u = 2^-53.
 #include "core/horizon/lines_of_sight/strip_cell.h"
 
 #include <algorithm>
@@ -8,10 +13,13 @@ namespace {
 
 using Kind = BoundaryCurve::Kind;
 
-// The cross product of two moving vectors at t in plain numbers, where that tells its sign.
+// The sign of the cross product of two moving vectors at t, where doubles can tell it.
 std::optional<int> FilteredSign(const MovingVector& a, const MovingVector& b, double t) {
-  // Each coordinate is within 2^-51 of the sum of its terms' sizes, the difference of products within
-  // a little more than twice that.
+  // t is within u of the sample and below 1, so that a coordinate c + d t is off by at most 2u |d|
+  // for t and the product, and u (|c| + |d|) for the sum: by less than 2^-51 of its size |c| + |d|.
+  // A product of two coordinates is then off by 2 * 2^-51 + u of the product of their sizes, to
+  // first order, and the difference of two such products by 2^-50 + 2u of `most`, which is below
+  // 2^-49. A factor of two is left for terms of higher order and for the rounding of `most`.
   constexpr double kError = 0x1p-48;
   const auto at = [t](std::int64_t c, std::int64_t d) {
     return static_cast<double>(c) + static_cast<double>(d) * t;
@@ -25,8 +33,6 @@ std::optional<int> FilteredSign(const MovingVector& a, const MovingVector& b, do
   return cross > 0 ? 1 : -1;
 }
 
-double CrossOf(const PlanVector& a, const PlanVector& b) { return a.x * b.y - a.y * b.x; }
-
 }  // namespace
 
 int Order(const BoundaryCurve& a, const BoundaryCurve& b, const SamplePoint& point) {
@@ -36,7 +42,7 @@ int Order(const BoundaryCurve& a, const BoundaryCurve& b, const SamplePoint& poi
   return point.Sign(Cross(a.v, b.v));
 }
 
-VectorRange VectorRangeOf(const MovingVector& v, double from, double to) {
+EndVectors EndVectorsOf(const MovingVector& v, double from, double to) {
   const auto ax = static_cast<double>(v.ax);
   const auto ay = static_cast<double>(v.ay);
   const auto bx = static_cast<double>(v.bx);
@@ -46,26 +52,32 @@ VectorRange VectorRangeOf(const MovingVector& v, double from, double to) {
           std::abs(ax) + std::abs(ay) + std::abs(bx) + std::abs(by)};
 }
 
-bool SurelyTurns(const VectorRange& a, const VectorRange& b) {
-  // The Bernstein coefficients of their cross product are positive.
+bool SurelyCounterClockwise(const EndVectors& a, const EndVectors& b) {
+  // Over the range the cross product is a quadratic with these three Bernstein coefficients, the
+  // second one doubled. If all are positive, it is positive on the whole range.
+  //
+  // The ends of the range are exact, so that a coordinate is off by 2u of its part of the size. A
+  // product of two coordinates is off by 5u of the product of their parts, a cross product by 6u
+  // and the sum of two by 14u of the product of the sizes, to first order. That is below 2^-49; any
+  // larger factor is sound, and leaves a few more pairs to exact arithmetic.
   constexpr double kError = 0x1p-47;
   const double margin = kError * a.size * b.size;
-  return CrossOf(a.start, b.start) > margin && CrossOf(a.end, b.end) > margin &&
-         CrossOf(a.start, b.end) + CrossOf(a.end, b.start) > margin;
+  return Cross(a.start, b.start) > margin && Cross(a.end, b.end) > margin &&
+         Cross(a.start, b.end) + Cross(a.end, b.start) > margin;
 }
 
 bool SurelyInOrder(const BoundaryCurve& a, const BoundaryCurve& b, double from, double to) {
   if (a.kind == Kind::kAlong || b.kind == Kind::kAgainst || a == b) return true;
   if (a.kind != Kind::kMoving || b.kind != Kind::kMoving) return false;
-  return SurelyTurns(VectorRangeOf(a.v, from, to), VectorRangeOf(b.v, from, to));
+  return SurelyCounterClockwise(EndVectorsOf(a.v, from, to), EndVectorsOf(b.v, from, to));
 }
 
 void AppendCrossings(const BoundaryCurve& a, const BoundaryCurve& b, double from, double to,
                      std::vector<IsolatedRoot>& roots) {
   if (a.kind != Kind::kMoving || b.kind != Kind::kMoving || a == b) return;
-  const VectorRange sweep_a = VectorRangeOf(a.v, from, to);
-  const VectorRange sweep_b = VectorRangeOf(b.v, from, to);
-  if (SurelyTurns(sweep_a, sweep_b) || SurelyTurns(sweep_b, sweep_a)) return;
+  const EndVectors ends_a = EndVectorsOf(a.v, from, to);
+  const EndVectors ends_b = EndVectorsOf(b.v, from, to);
+  if (SurelyCounterClockwise(ends_a, ends_b) || SurelyCounterClockwise(ends_b, ends_a)) return;
   for (const IsolatedRoot& root : SignChanges(Cross(a.v, b.v))) roots.push_back(root);
 }
 
@@ -81,22 +93,22 @@ std::vector<IsolatedRoot> Cuts(const IsolatedRoot& from, std::vector<IsolatedRoo
   return cuts;
 }
 
-void StripBuilder::Add(const IsolatedRoot& from, const IsolatedRoot& to,
-                       const std::vector<std::pair<BoundaryCurve, BoundaryCurve>>& columns) {
-  std::vector<std::size_t> now;
-  for (const auto& [first, last] : columns) {
-    const auto same = std::find_if(open_.begin(), open_.end(), [&](std::size_t i) {
+void StripBuilder::AddSlab(const IsolatedRoot& from, const IsolatedRoot& to,
+                           const std::vector<CurvePair>& between) {
+  std::vector<std::size_t> slab;
+  for (const auto& [first, last] : between) {
+    const auto same = std::find_if(last_slab_.begin(), last_slab_.end(), [&](std::size_t i) {
       return cells_[i].first == first && cells_[i].last == last;
     });
-    if (same != open_.end()) {
+    if (same != last_slab_.end()) {
       cells_[*same].to = to;
-      now.push_back(*same);
+      slab.push_back(*same);
     } else {
-      now.push_back(cells_.size());
+      slab.push_back(cells_.size());
       cells_.push_back({from, to, first, last});
     }
   }
-  open_ = std::move(now);
+  last_slab_ = std::move(slab);
 }
 
 }  // namespace farhorizon

@@ -5,13 +5,31 @@
 #include <vector>
 
 #include "core/exact/isolated_root.h"
+#include "core/geometry/vector.h"
 #include "core/horizon/visibility/point_view.h"
 
 namespace farhorizon {
 
-/// A direction of sight that moves with t along an edge, as its angle from the edge's own direction:
-/// that direction itself (0), its opposite (half a turn), or a moving vector strictly between the two.
-/// A direction of sight has no sense, so the half turn holds each once.
+// The lines that meet an edge in plan, as points of a strip: t runs along the edge from its lower
+// end (0) to its higher one (1), and directions turn counter-clockwise through the half turn from
+// the edge's own direction to its opposite. A direction of sight has no sense, so each line through
+// the inside of the edge is one point of the strip.
+//
+//      direction
+//      kAgainst +----------------------------------+  half a turn: the edge's opposite
+//               |               last               |
+//               |        ___..---''''---..         |
+//               |       |                 |        |
+//               |       |    StripCell    |        |
+//               |       |                 |        |
+//               |       '--..__     __..--'        |
+//               |              '''''               |
+//               |               first              |
+//        kAlong +----------------------------------+  0: the edge's own direction
+//              t = 0   from              to      t = 1
+
+/// A direction that depends on t: either end of the half turn, or a moving vector strictly between
+/// the two.
 struct BoundaryCurve {
   enum class Kind { kAlong, kMoving, kAgainst };
   Kind kind = Kind::kMoving;
@@ -22,12 +40,12 @@ struct BoundaryCurve {
   friend bool operator==(const BoundaryCurve&, const BoundaryCurve&) = default;
 };
 
-/// Lines through an edge, as pairs of t and a direction: t in [from, to], directions from `first`
-/// counter-clockwise to `last`. In the interior of the range of t, first < last.
+/// The lines with t in [from, to] and a direction from `first` counter-clockwise to `last`. At each
+/// t strictly between `from` and `to`, first < last.
 ///
-/// Curves of moving vectors turn one way only: the direction of a + b t has a turn of the sign of
-/// cross(a, b). So the directions of all t together are those from the least end of `first` to the
-/// greatest end of `last`.
+/// The curve of a moving vector a + b t turns one way only, that of the sign of cross(a, b). So the
+/// directions of a cell, for all its t together, are those from the lesser end of `first` to the
+/// greater end of `last`.
 struct StripCell {
   IsolatedRoot from = IsolatedRoot::Zero();
   IsolatedRoot to = IsolatedRoot::One();
@@ -35,50 +53,54 @@ struct StripCell {
   BoundaryCurve last;
 };
 
-/// 1 where b is counter-clockwise of a around the point, -1 where clockwise, 0 where they are one direction
-/// for all t. Exact. Requires: they do not cross at the point, which they may touch at.
+/// The directions from one curve counter-clockwise to another.
+using CurvePair = std::pair<BoundaryCurve, BoundaryCurve>;
+
+/// 1 where b is counter-clockwise of a around the point, -1 where it is clockwise, 0 where the two
+/// are one direction for all t. Exact. Requires: they do not cross at the point; they may touch
+/// there.
 int Order(const BoundaryCurve& a, const BoundaryCurve& b, const SamplePoint& point);
 
-struct PlanVector {
-  double x;
-  double y;
-};
-
-/// A moving vector in plain numbers, at both ends of a range of t.
-struct VectorRange {
+/// A moving vector at both ends of a range of t, in floating point.
+struct EndVectors {
   PlanVector start;
   PlanVector end;
-  double size;  ///< of the numbers that it was made from
+  /// At least the sum of the absolute values of the four numbers of the moving vector.
+  double size;
 };
-VectorRange VectorRangeOf(const MovingVector& v, double from, double to);
+EndVectors EndVectorsOf(const MovingVector& v, double from, double to);
 
-/// Whether b is counter-clockwise of a all the way, by more than rounding can be wrong.
-bool SurelyTurns(const VectorRange& a, const VectorRange& b);
+/// Whether b is counter-clockwise of a, by less than half a turn, on the whole range of t. False
+/// also where rounding leaves a doubt.
+bool SurelyCounterClockwise(const EndVectors& a, const EndVectors& b);
 
-/// Whether b is nowhere clockwise of a; false where that takes a closer look.
+/// Whether b is nowhere clockwise of a for t in [from, to]. False also where only an exact
+/// comparison can tell.
 bool SurelyInOrder(const BoundaryCurve& a, const BoundaryCurve& b, double from, double to);
 
-/// Adds the t at which two curves cross between `from` and `to`, and perhaps others.
+/// Appends each t between `from` and `to` at which two curves cross, and perhaps some beyond.
 void AppendCrossings(const BoundaryCurve& a, const BoundaryCurve& b, double from, double to,
                      std::vector<IsolatedRoot>& roots);
 
-/// `from`, those of `roots` that lie between, in order, and `to`.
+/// `from`, those of `roots` that lie strictly between, rising and each once, and `to`.
 std::vector<IsolatedRoot> Cuts(const IsolatedRoot& from, std::vector<IsolatedRoot> roots,
                                const IsolatedRoot& to);
 
-/// Cells of a strip, made by rising t: those that go on where cells of the same curves ended grow,
-/// others are new.
+/// Builds the cells of a strip slab by slab, by rising t: a cell is extended where a slab begins at
+/// its end and has the same two curves.
 class StripBuilder {
  public:
+  /// cells: receives the cells; must outlive the builder.
   explicit StripBuilder(std::vector<StripCell>& cells) : cells_(cells) {}
 
-  /// columns: first and last of each cell from `from` to `to`.
-  void Add(const IsolatedRoot& from, const IsolatedRoot& to,
-           const std::vector<std::pair<BoundaryCurve, BoundaryCurve>>& columns);
+  /// between: the pairs of curves that bound the cells of the slab from `from` to `to`.
+  /// Requires: `from` is the `to` of the slab before.
+  void AddSlab(const IsolatedRoot& from, const IsolatedRoot& to,
+               const std::vector<CurvePair>& between);
 
  private:
   std::vector<StripCell>& cells_;
-  std::vector<std::size_t> open_;  // the numbers of the cells that ended last
+  std::vector<std::size_t> last_slab_;  // numbers of the cells that the last slab made or extended
 };
 
 }  // namespace farhorizon

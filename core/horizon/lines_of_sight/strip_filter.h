@@ -6,22 +6,26 @@
 
 namespace farhorizon {
 
-/// Bounds on cells and on what hides them, in plain floating point, never smaller than the truth: what
-/// lies beside each other by them does so exactly. Directions are given as slopes, minus the cotangent of
-/// their angle from the edge, which rises with the angle from -infinity to infinity.
+/// Decides in floating point, where it can, that an occluder occludes nothing of a cell of one
+/// edge's strip. All bounds are rounded outwards: what they say to be disjoint is so exactly.
+///
+/// A direction is measured by its slope, minus the cotangent of its angle from the edge's
+/// direction: it rises through the half turn from -infinity to infinity.
 class StripFilter {
  public:
   explicit StripFilter(const TargetSegment& edge);
 
-  struct Cell {
+  /// Where a cell lies in the strip, at most.
+  struct CellBounds {
     double from_slope;
     double to_slope;
     double from_t;
     double to_t;
   };
-  [[nodiscard]] Cell Of(const StripCell& cell) const;
+  [[nodiscard]] CellBounds BoundsOf(const StripCell& cell) const;
 
-  /// From the edge's lower end, in the grid's axes and in the edge's times its length.
+  /// A corner of the convex hull of an occluder in plan, from the edge's lower end: in columns and
+  /// rows, and along and across the edge, times its length. Exact.
   struct Corner {
     double x;
     double y;
@@ -30,37 +34,39 @@ class StripFilter {
   };
   [[nodiscard]] Corner CornerAt(std::int32_t x, std::int32_t y) const;
 
-  /// What ground can hide at most: slopes in [from, to], or outside it where `outer`.
-  struct Shade {
+  /// The slopes that an occluder can occlude at most, at all t together: those in [from, to], or
+  /// those outside it where `outer`.
+  struct OccludedSlopes {
     double from;
     double to;
     bool outer = false;
 
-    [[nodiscard]] bool Meets(const Cell& cell) const {
+    [[nodiscard]] bool Overlap(const CellBounds& cell) const {
       return outer ? cell.from_slope < from || cell.to_slope > to
                    : cell.from_slope < to && cell.to_slope > from;
     }
   };
-  /// What points of the convex hull of the corners can hide from any point of the edge.
-  /// N: 2 or 4, instantiated in the source.
+  /// Of an occluder in the convex hull of the corners, of any height.
+  /// N: 2 for a segment or 4 for a box, instantiated in the source.
   template <std::size_t N>
-  [[nodiscard]] Shade ShadeOf(const std::array<Corner, N>& corners) const;
+  [[nodiscard]] OccludedSlopes OccludedSlopesOf(const std::array<Corner, N>& corners) const;
 
-  /// Whether what is at the corners lies beside a cell from one t to another: before `first` or past
-  /// `last`, what is left of the edge's line and what is right of it each by itself.
+  /// Whether an occluder in the convex hull of the corners occludes no direction of the cell for t
+  /// in [from, to]. Sharper than OccludedSlopesOf, as both are followed with t, and dearer.
   template <std::size_t N>
-  [[nodiscard]] bool IsBeside(const std::array<Corner, N>& corners, const StripCell& cell,
-                              double from, double to) const;
+  [[nodiscard]] bool SurelyDisjoint(const std::array<Corner, N>& corners, const StripCell& cell,
+                                    double from, double to) const;
 
-  /// The t up to which the edge may be lower than `top`, not above 1. Requires: top above its lower end.
-  [[nodiscard]] double Reach(double top) const;
+  /// An upper bound on the t at which the edge is lower than `top`; at most 1.
+  /// Requires: `top` is above the edge's lower end.
+  [[nodiscard]] double LastTBelow(double top) const;
 
  private:
-  struct SlopeRange {
+  struct SlopeBounds {
     double from;
     double to;
   };
-  [[nodiscard]] SlopeRange SlopesOf(const BoundaryCurve& curve, double t) const;
+  [[nodiscard]] SlopeBounds SlopesOf(const BoundaryCurve& curve, double t) const;
 
   TargetSegment edge_;
   double run_x_;

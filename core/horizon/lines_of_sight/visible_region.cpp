@@ -1,8 +1,19 @@
-// The lines of sight of one edge, exactly, as cells of a strip: t runs along the edge, directions turn
-// from the edge's own to its opposite. Two curves that bound what obstacles hide cross at roots of a
-// quadratic, their cross product: between neighbouring roots one order of the curves holds, which a point
-// between them tells. [Archambault05] calls the cells' sides bitangents.
-// Floating point only leaves out obstacles whose shade lies beside every cell by more than its error.
+// The lines of sight of one edge, exactly, as cells of its strip (strip_cell.h). Each occluder has
+// cells that it occludes (occluded_cells.h), which are subtracted. The difference of two cells is
+// found slab by slab: between neighbouring t at which a curve of one crosses a curve of the other,
+// one order of the four curves holds, which one sample tells. Where t is fixed, a cell's sides are
+// the bitangents of [Archambault03, section 3.1].
+//
+//      cell.last  +------+-----------------+------+
+//                 |      |     remains     |      |
+//                 |      |    ___---___    |      |   occluded.last
+//                 | cell | .-'         '-. | cell |
+//                 |      |'   occluded    '|      |
+//      cell.first +------+-----------------+------+
+//                       /:                 :|         slabs end where curves cross
+//
+// Cost: floating point skips occluders that surely miss every cell (strip_filter.h); each of the
+// others costs a few quadratics for each cell that it may overlap.
 #include "core/horizon/lines_of_sight/visible_region.h"
 
 #include <algorithm>
@@ -17,7 +28,8 @@ namespace farhorizon {
 
 namespace {
 
-// A side of the wedge as a curve: in lowest terms, as those of neighbours that share a face are.
+// A side of the wedge as a curve: in lowest terms, so that it is equal to CurveOf's for an edge of
+// the same face (occluded_cells.cpp).
 BoundaryCurve SideOf(const ShortVector& v) {
   const std::int64_t divisor = std::gcd(v.x, v.y);
   return {BoundaryCurve::Kind::kMoving, {v.x / divisor, v.y / divisor, 0, 0}};
@@ -26,7 +38,7 @@ BoundaryCurve SideOf(const ShortVector& v) {
 }  // namespace
 
 VisibleRegion::VisibleRegion(const TargetSegment& edge, const std::optional<FaceWedge>& wedge)
-    : edge_(edge), bounds_(edge) {
+    : edge_(edge), filter_(edge) {
   const ShortVector along{std::int64_t{edge.high.x} - edge.low.x,
                           std::int64_t{edge.high.y} - edge.low.y};
   StripCell all;
@@ -34,84 +46,88 @@ VisibleRegion::VisibleRegion(const TargetSegment& edge, const std::optional<Face
   all.last = BoundaryCurve::Against();
   if (wedge && CrossSign(along, wedge->first) != 0) all.first = SideOf(wedge->first);
   if (wedge && CrossSign(along, wedge->last) != 0) all.last = SideOf(wedge->last);
-  Add(all);
+  Insert(all);
 }
 
 template <std::size_t N>
-bool VisibleRegion::MayMeet(const std::array<StripFilter::Corner, N>& corners, double top) const {
-  const StripFilter::Shade shade = bounds_.ShadeOf(corners);
-  const double reach = bounds_.Reach(top);
+bool VisibleRegion::MayOcclude(const std::array<StripFilter::Corner, N>& corners,
+                               double top) const {
+  const StripFilter::OccludedSlopes slopes = filter_.OccludedSlopesOf(corners);
+  const double last_t = filter_.LastTBelow(top);
   for (std::size_t i = 0; i < cells_.size(); ++i) {
-    const StripFilter::Cell& cell = cell_bounds_[i];
-    if (cell.from_t < reach && shade.Meets(cell) &&
-        !bounds_.IsBeside(corners, cells_[i], cell.from_t, std::min(cell.to_t, reach))) {
+    const StripFilter::CellBounds& cell = bounds_[i];
+    if (cell.from_t < last_t && slopes.Overlap(cell) &&
+        !filter_.SurelyDisjoint(corners, cells_[i], cell.from_t, std::min(cell.to_t, last_t))) {
       return true;
     }
   }
   return false;
 }
 
-std::optional<std::vector<StripCell>> VisibleRegion::Rest(const StripCell& cell,
-                                                          const StripCell& hidden) {
-  const IsolatedRoot& from = Compare(cell.from, hidden.from) < 0 ? hidden.from : cell.from;
-  const IsolatedRoot& to = Compare(cell.to, hidden.to) > 0 ? hidden.to : cell.to;
-  if (Compare(from, to) >= 0 || SurelyInOrder(cell.last, hidden.first, from.lo, to.hi) ||
-      SurelyInOrder(hidden.last, cell.first, from.lo, to.hi)) {
+std::optional<std::vector<StripCell>> VisibleRegion::Difference(const StripCell& cell,
+                                                                const StripCell& occluded) {
+  const IsolatedRoot& from = Compare(cell.from, occluded.from) < 0 ? occluded.from : cell.from;
+  const IsolatedRoot& to = Compare(cell.to, occluded.to) > 0 ? occluded.to : cell.to;
+  if (Compare(from, to) >= 0 || SurelyInOrder(cell.last, occluded.first, from.lo, to.hi) ||
+      SurelyInOrder(occluded.last, cell.first, from.lo, to.hi)) {
     return std::nullopt;
   }
   std::vector<IsolatedRoot> roots;
-  for (const BoundaryCurve& side : {hidden.first, hidden.last}) {
+  for (const BoundaryCurve& side : {occluded.first, occluded.last}) {
     AppendCrossings(side, cell.first, from.lo, to.hi, roots);
     AppendCrossings(side, cell.last, from.lo, to.hi, roots);
   }
   const std::vector<IsolatedRoot> cuts = Cuts(from, std::move(roots), to);
   bool changed = false;
-  std::vector<StripCell> rest;
-  StripBuilder strip(rest);
-  if (Compare(cell.from, from) < 0) strip.Add(cell.from, from, {{cell.first, cell.last}});
+  std::vector<StripCell> difference;
+  StripBuilder strip(difference);
+  if (Compare(cell.from, from) < 0) strip.AddSlab(cell.from, from, {{cell.first, cell.last}});
   for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
     const SamplePoint point = PointBetween(cuts[i], cuts[i + 1]);
-    std::vector<std::pair<BoundaryCurve, BoundaryCurve>> gaps;
-    if (Order(hidden.first, cell.last, point) <= 0 || Order(cell.first, hidden.last, point) <= 0) {
-      gaps.emplace_back(cell.first, cell.last);
+    std::vector<CurvePair> remaining;
+    if (Order(occluded.first, cell.last, point) <= 0 ||
+        Order(cell.first, occluded.last, point) <= 0) {
+      remaining.emplace_back(cell.first, cell.last);
     } else {
       changed = true;
-      if (Order(cell.first, hidden.first, point) > 0) gaps.emplace_back(cell.first, hidden.first);
-      if (Order(hidden.last, cell.last, point) > 0) gaps.emplace_back(hidden.last, cell.last);
+      if (Order(cell.first, occluded.first, point) > 0)
+        remaining.emplace_back(cell.first, occluded.first);
+      if (Order(occluded.last, cell.last, point) > 0)
+        remaining.emplace_back(occluded.last, cell.last);
     }
-    strip.Add(cuts[i], cuts[i + 1], gaps);
+    strip.AddSlab(cuts[i], cuts[i + 1], remaining);
   }
   if (!changed) return std::nullopt;
-  if (Compare(to, cell.to) < 0) strip.Add(to, cell.to, {{cell.first, cell.last}});
-  return rest;
+  if (Compare(to, cell.to) < 0) strip.AddSlab(to, cell.to, {{cell.first, cell.last}});
+  return difference;
 }
 
-void VisibleRegion::Subtract(const StripCell& hidden) {
-  const StripFilter::Cell shade = bounds_.Of(hidden);
-  std::vector<StripCell> made;
+void VisibleRegion::Subtract(const StripCell& occluded) {
+  const StripFilter::CellBounds bounds = filter_.BoundsOf(occluded);
+  std::vector<StripCell> replacements;
   for (std::size_t i = 0; i < cells_.size();) {
-    if (cell_bounds_[i].from_slope < shade.to_slope &&
-        cell_bounds_[i].to_slope > shade.from_slope) {
-      if (std::optional<std::vector<StripCell>> rest = Rest(cells_[i], hidden)) {
-        made.insert(made.end(), rest->begin(), rest->end());
+    if (bounds_[i].from_slope < bounds.to_slope && bounds_[i].to_slope > bounds.from_slope) {
+      if (const std::optional<std::vector<StripCell>> remaining = Difference(cells_[i], occluded)) {
+        replacements.insert(replacements.end(), remaining->begin(), remaining->end());
         Remove(i);
         continue;
       }
     }
     ++i;
   }
-  for (const StripCell& cell : made) Add(cell);
+  for (const StripCell& cell : replacements) Insert(cell);
 }
 
 void VisibleRegion::Remove(std::size_t i) {
   cells_[i] = cells_.back();
-  cell_bounds_[i] = cell_bounds_.back();
+  bounds_[i] = bounds_.back();
   cells_.pop_back();
-  cell_bounds_.pop_back();
+  bounds_.pop_back();
 }
 
-// Joined with those that it goes on in.
-void VisibleRegion::Add(StripCell cell) {
+// Joined with the cells that it continues: those between the same curves that end where it begins,
+// or begin where it ends.
+void VisibleRegion::Insert(StripCell cell) {
   for (std::size_t i = 0; i < cells_.size();) {
     const StripCell& other = cells_[i];
     const bool same = cell.first == other.first && cell.last == other.last;
@@ -125,19 +141,19 @@ void VisibleRegion::Add(StripCell cell) {
     }
     Remove(i);
   }
-  cell_bounds_.push_back(bounds_.Of(cell));
+  bounds_.push_back(filter_.BoundsOf(cell));
   cells_.push_back(cell);
 }
 
-void VisibleRegion::Subtract(const SegmentIndex::Item& item) {
+void VisibleRegion::AddOccluder(const SegmentIndex::Item& item) {
   if (item.high.z <= edge_.low.z) return;
-  const std::array<StripFilter::Corner, 2> ends = {bounds_.CornerAt(item.low.x, item.low.y),
-                                                   bounds_.CornerAt(item.high.x, item.high.y)};
-  if (!MayMeet(ends, item.high.z)) return;
-  for (const StripCell& hidden : CellsOccludedBy(item, edge_)) Subtract(hidden);
+  const std::array<StripFilter::Corner, 2> ends = {filter_.CornerAt(item.low.x, item.low.y),
+                                                   filter_.CornerAt(item.high.x, item.high.y)};
+  if (!MayOcclude(ends, item.high.z)) return;
+  for (const StripCell& occluded : CellsOccludedBy(item, edge_)) Subtract(occluded);
 }
 
-void VisibleRegion::Subtract(const SegmentIndex& index, std::int32_t except) {
+void VisibleRegion::AddOccluders(const SegmentIndex& index, std::int32_t except) {
   struct Pending {
     SegmentIndex::Place place;
     double distance;
@@ -152,11 +168,11 @@ void VisibleRegion::Subtract(const SegmentIndex& index, std::int32_t except) {
     const SegmentIndex::Node& node = index.At(place);
     if (node.top <= edge_.low.z) continue;
     const std::array<StripFilter::Corner, 4> box = {
-        bounds_.CornerAt(node.min_x, node.min_y), bounds_.CornerAt(node.max_x, node.min_y),
-        bounds_.CornerAt(node.max_x, node.max_y), bounds_.CornerAt(node.min_x, node.max_y)};
-    if (!MayMeet(box, node.top)) continue;
+        filter_.CornerAt(node.min_x, node.min_y), filter_.CornerAt(node.max_x, node.min_y),
+        filter_.CornerAt(node.max_x, node.max_y), filter_.CornerAt(node.min_x, node.max_y)};
+    if (!MayOcclude(box, node.top)) continue;
     for (std::int32_t id = node.first; id >= 0; id = index.item(id).next) {
-      if (id != except && index.item(id).alive) Subtract(index.item(id));
+      if (id != except && index.item(id).alive) AddOccluder(index.item(id));
     }
     if (place.level == 0) continue;
     const std::size_t base = depth;

@@ -11,43 +11,45 @@
 
 namespace farhorizon {
 
-/// The lines of sight of one edge over a set of segments: exactly those pairs of t and direction in
-/// whose line nothing of the set is higher than the edge, up to a set without interior points.
+/// The lines of sight of one edge over a set of occluders: the pairs of t and direction on whose
+/// line no occluder rises above the edge. Exact, up to a set of lines without interior points.
 ///
-/// The region is all pairs of the wedge at first; each segment takes away what it hides. It stays a list of cells
-/// that do not overlap, bounded by the curves of what hides beyond.
-/// Requires: no segment of the set lies over the edge in plan, but at its ends.
-/// Limits: as OccluderSet. Cost: some microseconds for each segment that shows beside nearer ones.
+/// The region begins as all pairs that the wedge leaves free, and each occluder that is added takes
+/// away what it occludes. It is a list of cells that do not overlap.
+/// Requires: in plan no occluder lies over the edge, except at its ends.
+/// Limits: as OccluderSet. Cost: some microseconds for each occluder that is visible beside nearer
+/// ones.
 class VisibleRegion {
  public:
-  /// wedge: what the ground beside the edge leaves free, if it is part of what hides (face_wedge.h).
+  /// wedge: the directions that the faces beside the edge leave free, if the edge is one of a
+  /// terrain (core/horizon/README.md, theorem 7).
   explicit VisibleRegion(const TargetSegment& edge,
                          const std::optional<FaceWedge>& wedge = std::nullopt);
 
-  /// Takes away what all members of `index` but one hide.
-  void Subtract(const SegmentIndex& index, std::int32_t except);
+  /// Adds all members of `index` except one, the nearest first: then others are skipped sooner.
+  void AddOccluders(const SegmentIndex& index, std::int32_t except);
+  void AddOccluder(const SegmentIndex::Item& item);
 
-  /// Takes away what one segment hides.
-  void Subtract(const SegmentIndex::Item& item);
-
-  /// By no particular order.
+  /// In no particular order.
   [[nodiscard]] const std::vector<StripCell>& cells() const { return cells_; }
 
  private:
-  /// Whether ground up to `top` in the convex hull of the corners may hide anything that is left.
+  // False only if nothing in the convex hull of the corners, up to the height `top`, occludes any
+  // part of the region.
   template <std::size_t N>
-  [[nodiscard]] bool MayMeet(const std::array<StripFilter::Corner, N>& corners, double top) const;
-  void Subtract(const StripCell& hidden);
-  /// What is left of `cell`; nullopt where that is all of it.
-  [[nodiscard]] static std::optional<std::vector<StripCell>> Rest(const StripCell& cell,
-                                                                  const StripCell& hidden);
+  [[nodiscard]] bool MayOcclude(const std::array<StripFilter::Corner, N>& corners,
+                                double top) const;
+  void Subtract(const StripCell& occluded);
+  // `cell` without `occluded`; nullopt where that is all of `cell`.
+  [[nodiscard]] static std::optional<std::vector<StripCell>> Difference(const StripCell& cell,
+                                                                        const StripCell& occluded);
   void Remove(std::size_t i);
-  void Add(StripCell cell);
+  void Insert(StripCell cell);
 
   TargetSegment edge_;
-  StripFilter bounds_;
+  StripFilter filter_;
   std::vector<StripCell> cells_;
-  std::vector<StripFilter::Cell> cell_bounds_;  // of cells_, in step
+  std::vector<StripFilter::CellBounds> bounds_;  // of cells_, in step
 };
 
 }  // namespace farhorizon

@@ -8,9 +8,11 @@
 #include <bit>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "core/geometry/convex_polygon.h"
+#include "core/geometry/union_find.h"
 #include "core/horizon/sweep/sweep_order.h"
 
 namespace farhorizon {
@@ -85,14 +87,7 @@ class Sweeper {
   }
   [[nodiscard]] Point2i PointOf(VertexId v) const { return {v % columns_, v / columns_}; }
 
-  std::int32_t Find(std::int32_t node) {
-    while (roots_[static_cast<std::size_t>(node)] != node) {
-      std::int32_t& root = roots_[static_cast<std::size_t>(node)];
-      root = roots_[static_cast<std::size_t>(root)];
-      node = root;
-    }
-    return node;
-  }
+  std::int32_t Find(std::int32_t node) { return FindRoot(roots_, node); }
 
   [[nodiscard]] std::int32_t& PlaceOf(std::int32_t node) {
     return places_[static_cast<std::size_t>(node)];
@@ -167,21 +162,16 @@ class Sweeper {
   // Marks the posts in `polygon` that no cluster covers yet.
   void Cover(const ConvexPolygon& polygon, std::int32_t node) {
     polygon.ForEachRow([&](std::int32_t row, std::int32_t first, std::int32_t last) {
-      std::int32_t* next = next_uncovered_.data() +
-                           static_cast<std::ptrdiff_t>(row) * (std::ptrdiff_t{columns_} + 1);
-      const auto find = [next](std::int32_t column) {
-        while (next[column] != column) {
-          next[column] = next[next[column]];
-          column = next[column];
-        }
-        return column;
-      };
-      for (std::int32_t column = find(first); column <= last; column = find(column)) {
+      const auto width = static_cast<std::size_t>(columns_) + 1;
+      const std::span<std::int32_t> next(
+          next_uncovered_.data() + static_cast<std::size_t>(row) * width, width);
+      for (std::int32_t column = FindRoot(next, first); column <= last;
+           column = FindRoot(next, column)) {
         const VertexId id = row * columns_ + column;
         const auto post = static_cast<std::size_t>(id);
         result_.hulls.enclosed_height[post] = level_;
         result_.hulls.cluster[post] = node;
-        next[column] = column + 1;
+        next[static_cast<std::size_t>(column)] = column + 1;
       }
     });
   }

@@ -13,7 +13,9 @@ struct PlanPoint {
   double y = 0;
 };
 
-/// The contours of SweepTrace. Ground at the level itself is inside.
-std::vector<std::vector<PlanPoint>> ContoursAt(const Terrain& terrain, std::int32_t level);
+/// The border of the slice at `height`, in quanta, inside the terrain: contours with the ground at
+/// or above the height on one side. Closed ones end where they begin, the others at the border of
+/// the terrain or of a hole. Cost: O(triangles log triangles).
+std::vector<std::vector<PlanPoint>> ContoursAt(const Terrain& terrain, std::int32_t height);
 
 }  // namespace farhorizon

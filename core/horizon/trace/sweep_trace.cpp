@@ -1,4 +1,4 @@
-// The sweep stopped at one height: what each engine keeps there, put side by side.
+// The sweep stopped at one height, with the states of both engines there.
 #include "core/horizon/trace/sweep_trace.h"
 
 #include <algorithm>
@@ -13,14 +13,14 @@
 
 namespace farhorizon {
 
-Result<SweepTrace> TraceSweep(const Terrain& terrain, std::int32_t level, const Watch& watch) {
+Result<SweepTrace> TraceSweep(const Terrain& terrain, std::int32_t height, const Watch& watch) {
   const std::int64_t budget = DefaultKineticWorkBudget(terrain.CountEdges());
   kinetic::KineticSweep sweep(terrain, watch, budget, false);
-  if (level > sweep.summit() || level < sweep.lowest()) {
-    return Error{ErrorCode::kInvalidArgument, "the terrain has no slice at this level",
+  if (height > sweep.summit() || height < sweep.lowest()) {
+    return Error{ErrorCode::kInvalidArgument, "the terrain has no slice at this height",
                  "no-such-level"};
   }
-  const std::int64_t s = std::int64_t{sweep.summit()} - level;
+  const std::int64_t s = std::int64_t{sweep.summit()} - height;
   Status run = sweep.Run(s);
   if (!run) return std::move(run.error());
   Result<HullSweep> hulls = SweepHulls(terrain, 1, watch);
@@ -28,14 +28,14 @@ Result<SweepTrace> TraceSweep(const Terrain& terrain, std::int32_t level, const 
   Result<Candidates> culled = FindCandidates(terrain, *hulls, 1, watch);
   if (!culled) return std::move(culled.error());
   SweepTrace trace;
-  trace.level = level;
+  trace.height = height;
   trace.columns = terrain.dem().columns;
   trace.rows = terrain.dem().rows;
-  trace.contours = ContoursAt(terrain, level);
+  trace.contours = ContoursAt(terrain, height);
   for (const Candidate& candidate : culled->edges) {
     const Point3i a = terrain.Point(candidate.edge.a);
     const Point3i b = terrain.Point(candidate.edge.b);
-    if (std::max(a.z, b.z) < level || std::min(a.z, b.z) > level) continue;
+    if (std::max(a.z, b.z) < height || std::min(a.z, b.z) > height) continue;
     trace.candidates.push_back({PlanPoint{static_cast<double>(a.x), static_cast<double>(a.y)},
                                 PlanPoint{static_cast<double>(b.x), static_cast<double>(b.y)}});
   }

@@ -37,7 +37,7 @@ void TraceScene(const Scene& scene, std::int64_t s, SweepTrace& trace) {
   }
   for (PointId p = 0; p < scene.point_count(); ++p) {
     const Scene::Point& point = scene.point(p);
-    if (point.alive && point.seen && point.tag >= 0) trace.seen.push_back(where(p));
+    if (point.alive && point.seen && point.tag >= 0) trace.horizon_points.push_back(where(p));
   }
 }
 

@@ -18,18 +18,19 @@ std::vector<Point2i> RandomPoints(std::mt19937& random, int most, int size) {
   return points;
 }
 
-std::int64_t Cross(Point2i o, Point2i a, Point2i b) {
+std::int64_t Turn(Point2i o, Point2i a, Point2i b) {
   return std::int64_t{a.x - o.x} * (b.y - o.y) - std::int64_t{a.y - o.y} * (b.x - o.x);
 }
 
-// p is in the hull exactly if it is in a triangle (or segment) of three of the points: Carathéodory.
+// p is in the hull exactly if it is in a triangle, or a segment, of three of the points:
+// Carathéodory.
 bool InHull(const std::vector<Point2i>& points, Point2i p) {
   for (const Point2i a : points) {
     for (const Point2i b : points) {
       for (const Point2i c : points) {
-        const std::int64_t u = Cross(a, b, p);
-        const std::int64_t v = Cross(b, c, p);
-        const std::int64_t w = Cross(c, a, p);
+        const std::int64_t u = Turn(a, b, p);
+        const std::int64_t v = Turn(b, c, p);
+        const std::int64_t w = Turn(c, a, p);
         if (!((u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0))) continue;
         const auto [x0, x1] = std::minmax({a.x, b.x, c.x});
         const auto [y0, y1] = std::minmax({a.y, b.y, c.y});
@@ -65,7 +66,7 @@ TEST(ConvexPolygon, ExtendsToTheHullOfAllPointsItWasGiven) {
   }
 }
 
-TEST(ConvexPolygon, ContainsAndCoversWhatTheDefinitionSays) {
+TEST(ConvexPolygon, ContainsAndHasInRowsThePostsOfTheDefinition) {
   std::mt19937 random(6);
   for (int round = 0; round < 400; ++round) {
     std::vector<Point2i> points = RandomPoints(random, 7, 8);
@@ -85,7 +86,8 @@ TEST(ConvexPolygon, ContainsAndCoversWhatTheDefinitionSays) {
   }
 }
 
-// Convex sets are apart exactly if a line through two of their corners, or across it, separates them.
+// Convex sets are disjoint exactly if a line along one through two of their corners, or
+// perpendicular to one, separates them.
 bool Separable(const std::vector<Point2i>& a, const std::vector<Point2i>& b) {
   std::vector<Point2i> normals;
   std::vector<Point2i> all = a;
@@ -112,15 +114,15 @@ TEST(ConvexPolygon, MeetsUnlessALineSeparates) {
   for (int round = 0; round < 5000; ++round) {
     std::vector<Point2i> a = RandomPoints(random, 5, 9);
     std::vector<Point2i> b = RandomPoints(random, 5, 9);
-    const bool apart = Separable(a, b);
+    const bool separable = Separable(a, b);
     const ConvexPolygon hull_a = ConvexPolygon::HullOf(a);
     const ConvexPolygon hull_b = ConvexPolygon::HullOf(b);
-    ASSERT_EQ(hull_a.Meets(hull_b), !apart) << "round " << round;
-    ASSERT_EQ(hull_b.Meets(hull_a), !apart);
+    ASSERT_EQ(hull_a.Meets(hull_b), !separable) << "round " << round;
+    ASSERT_EQ(hull_b.Meets(hull_a), !separable);
   }
 }
 
-TEST(ConvexPolygon, ItsSilhouetteHasAllOfItBetween) {
+TEST(ConvexPolygon, IsBetweenTheTangentsOfItsSilhouette) {
   std::mt19937 random(8);
   for (int round = 0; round < 2000; ++round) {
     std::vector<Point2i> points = RandomPoints(random, 6, 9);
@@ -129,8 +131,8 @@ TEST(ConvexPolygon, ItsSilhouetteHasAllOfItBetween) {
     if (hull.corners().size() < 2 || hull.Contains(eye)) continue;
     const ConvexPolygon::Silhouette seen = hull.SilhouetteFrom(eye);
     for (const Point2i p : hull.corners()) {
-      ASSERT_GE(Cross(eye, seen.right, p), 0);
-      ASSERT_LE(Cross(eye, seen.left, p), 0);
+      ASSERT_GE(Turn(eye, seen.right, p), 0);
+      ASSERT_LE(Turn(eye, seen.left, p), 0);
     }
   }
 }

@@ -39,7 +39,7 @@ TEST(CompareAngle, TellsDirectionsApartThatDoublesCannot) {
   EXPECT_EQ(counts.filtered, 1);
 }
 
-// The slow twin: all vectors by rising size.
+// The slow twin: tries all vectors by rising size.
 Vector SimplestBySearch(const Vector& from, const Vector& to, const Vector& along, int most) {
   for (int size = 1; size <= most; ++size) {
     for (int x = -size; x <= size; ++x) {
@@ -70,7 +70,7 @@ TEST(SimplestBetween, LiesStrictlyBetweenAndIsNotAlongTheSegment) {
   }
 }
 
-// Both sizes of numbers share their code, but for the products.
+// Both sizes of numbers share their code, except for products.
 TEST(SimplestBetween, IsTheSameInWideNumbers) {
   std::mt19937_64 random(6);
   const auto widened = [](const Vector& v) { return WideVector{Int1280(v.x), Int1280(v.y)}; };

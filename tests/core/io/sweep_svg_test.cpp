@@ -12,7 +12,7 @@ using testing::HasSubstr;
 
 SweepTrace SomeTrace() {
   SweepTrace trace;
-  trace.level = 7;
+  trace.height = 7;
   trace.columns = 11;
   trace.rows = 6;
   trace.contours = {{{1, 1}, {2, 1}, {1, 2}, {1, 1}}, {{8, 0}, {8, 5}}};
@@ -21,7 +21,7 @@ SweepTrace SomeTrace() {
                       {{PlanPoint{2, 1}, PlanPoint{8, 2}}, true},
                       {{PlanPoint{1, 2}, PlanPoint{8, 2}}, false}};
   trace.candidates = {{PlanPoint{1, 0}, PlanPoint{1, 1}}};
-  trace.seen = {{1, 1}, {8, 2}};
+  trace.horizon_points = {{1, 1}, {8, 2}};
   return trace;
 }
 

@@ -14,7 +14,8 @@
 namespace farhorizon {
 namespace {
 
-// A line through a post or half way between two, over the grid; often along the grid or its diagonals.
+// A line through a post or half way between two, inside the grid; often along rows, columns or
+// diagonals.
 PlanLine AnyLine(const Dem& dem, std::mt19937& random) {
   const auto below = [&random](std::int32_t n) {
     return static_cast<std::int32_t>(random() % static_cast<std::uint32_t>(n));
@@ -32,11 +33,11 @@ double ToDouble(const ExactHeight& height) {
   return static_cast<double>(height.numerator) / static_cast<double>(height.denominator);
 }
 
-// What GridLineQuery finds is what the definition says of all edges but one.
-testing::AssertionResult WalksRight(const Dem& dem, int lines, std::mt19937& random) {
+// GridLineQuery agrees with the definition for all edges except one.
+testing::AssertionResult AgreesWithTheDefinition(const Dem& dem, int lines, std::mt19937& random) {
   Result<Terrain> terrain = Terrain::Build(dem);
   if (!terrain) return testing::AssertionSuccess();
-  const GridLineQuery walk(*terrain);
+  const GridLineQuery query(*terrain);
   const std::vector<Edge> edges = terrain->Edges();
   for (int i = 0; i < lines; ++i) {
     const PlanLine line = AnyLine(dem, random);
@@ -47,9 +48,9 @@ testing::AssertionResult WalksRight(const Dem& dem, int lines, std::mt19937& ran
     }
     const std::optional<ExactHeight> height = HighestOver(others, line);
     const std::optional<HighestEdge> found =
-        walk.HighestEdgeOver(except, line.x / 2.0, line.y / 2.0, line.dc, line.dr);
+        query.HighestEdgeOver(except, line.x / 2.0, line.y / 2.0, line.dc, line.dr);
     if (found.has_value() != height.has_value()) {
-      return testing::AssertionFailure() << DrawAscii(dem) << "one of them meets nothing";
+      return testing::AssertionFailure() << DrawAscii(dem) << "one of them finds no edge";
     }
     if (!found) continue;
     const Segment highest{terrain->Point(found->edge.a), terrain->Point(found->edge.b)};
@@ -68,14 +69,14 @@ testing::AssertionResult WalksRight(const Dem& dem, int lines, std::mt19937& ran
 TEST(GridLineQuery, FindsTheHighestOtherEdge) {
   std::mt19937 random(2);
   for (int i = 0; i < Rounds(2000); ++i) {
-    ASSERT_TRUE(WalksRight(AnyRandomDem(3, 8, random), 20, random));
+    ASSERT_TRUE(AgreesWithTheDefinition(AnyRandomDem(3, 8, random), 20, random));
   }
 }
 
 TEST(GridLineQuery, FindsItBeyondManyBlocks) {
   std::mt19937 random(3);
   for (int i = 0; i < Rounds(40); ++i) {
-    ASSERT_TRUE(WalksRight(AnyLandscape(40, 70, random), 20, random));
+    ASSERT_TRUE(AgreesWithTheDefinition(AnyLandscape(40, 70, random), 20, random));
   }
 }
 

@@ -19,22 +19,22 @@
 namespace farhorizon {
 namespace {
 
-// A part of the skyline as text: its edge by name and where it begins and ends, to a millionth.
+// A piece of the skyline as text: its edge by name and the ends of the piece, to a millionth.
 std::string Told(Edge edge, double from, double to) {
   const auto share = [](double t) { return std::to_string(std::lround(t * 1e6)); };
   return std::to_string(edge.a) + '-' + std::to_string(edge.b) + ' ' + share(from) + ".." +
          share(to);
 }
 
-std::vector<std::string> Told(const Horizon& horizon, const std::vector<SkylinePart>& parts) {
+std::vector<std::string> Told(const Horizon& horizon, const std::vector<SkylinePiece>& skyline) {
   std::vector<std::string> told;
-  for (const SkylinePart& part : parts) {
-    told.push_back(Told(horizon.edges[part.edge].edge, part.t_from, part.t_to));
+  for (const SkylinePiece& piece : skyline) {
+    told.push_back(Told(horizon.edges[piece.edge].edge, piece.t_from, piece.t_to));
   }
   return told;
 }
 
-// What all edges of the terrain show, by definition.
+// The skyline of all edges of the terrain, by definition.
 std::vector<std::string> TerrainSkyline(const Terrain& terrain, const ViewDirection& view) {
   const std::vector<Edge> edges = terrain.Edges();
   std::vector<Segment> segments;
@@ -42,8 +42,8 @@ std::vector<std::string> TerrainSkyline(const Terrain& terrain, const ViewDirect
   std::vector<std::string> told;
   for (const SeenStretch& stretch : SkylineByDefinition(segments, view)) {
     const Segment& s = segments[stretch.segment];
-    const std::int64_t a = Across(s.a, view);
-    const std::int64_t run = Across(s.b, view) - a;
+    const std::int64_t a = Offset(s.a, view);
+    const std::int64_t run = Offset(s.b, view) - a;
     told.push_back(Told(edges[stretch.segment], static_cast<double>((stretch.from - a) / run),
                         static_cast<double>((stretch.to - a) / run)));
   }
@@ -58,7 +58,7 @@ Dem AnyDemWithGround(std::int32_t max_side, std::mt19937& random) {
 }
 
 ViewDirection AnyView(std::mt19937& random) {
-  // Steps of the grid, where edges and planes are seen end on, as often as others.
+  // Steps of the grid, to which edges and faces are parallel, as often as others.
   const std::int32_t most = random() % 2 == 0 ? 1 : 9;
   for (;;) {
     const auto step = [&] {
@@ -81,7 +81,7 @@ TEST(DirectionalSkylines, AreTheEnvelopesOfAllEdgesOfTheTerrain) {
     for (int i = 0; i < 3; ++i) {
       const ViewDirection view = AnyView(random);
       ASSERT_EQ(Told(horizon, skylines.Along(view)), TerrainSkyline(terrain, view))
-          << DrawAscii(dem) << "seen along " << view.dc << ' ' << view.dr;
+          << DrawAscii(dem) << "along " << view.dc << ' ' << view.dr;
     }
   }
 }
@@ -102,31 +102,32 @@ TEST(DirectionalSkylines, OfASupersetAreTheSame) {
   }
 }
 
-// Too large for the definition: that the parts follow each other without a gap from one side of the view to
-// the other, and that lines of sight through them meet nothing higher, is the same.
+// For terrains too large for the definition. Pieces that follow each other without a gap from one
+// side of the view to the other, with lines of sight through them that meet nothing higher, are the
+// skyline.
 void ExpectTheSkyline(const Terrain& terrain, const Horizon& horizon,
                       const DirectionalSkylines& skylines, const ViewDirection& view) {
-  const std::vector<SkylinePart> parts = skylines.Along(view);
-  const auto place = [&](const SkylinePart& part, double t) {
-    const Edge edge = horizon.edges[part.edge].edge;
-    const auto a = static_cast<double>(Across(terrain.Point(edge.a), view));
-    const auto b = static_cast<double>(Across(terrain.Point(edge.b), view));
+  const std::vector<SkylinePiece> skyline = skylines.Along(view);
+  const auto offset = [&](const SkylinePiece& piece, double t) {
+    const Edge edge = horizon.edges[piece.edge].edge;
+    const auto a = static_cast<double>(Offset(terrain.Point(edge.a), view));
+    const auto b = static_cast<double>(Offset(terrain.Point(edge.b), view));
     return a + t * (b - a);
   };
   const Dem& dem = terrain.dem();
   std::vector<std::int64_t> corners;
   for (const VertexId v :
        {0, dem.columns - 1, (dem.rows - 1) * dem.columns, dem.rows * dem.columns - 1}) {
-    corners.push_back(Across(terrain.Point(v), view));
+    corners.push_back(Offset(terrain.Point(v), view));
   }
   const auto [least, most] = std::minmax_element(corners.begin(), corners.end());
   const double tolerance = 1e-9 * static_cast<double>(*most - *least);
   auto reached = static_cast<double>(*least);
-  for (const SkylinePart& part : parts) {
-    ASSERT_NEAR(place(part, part.t_from), reached, tolerance);
-    reached = place(part, part.t_to);
-    const Witness middle{(part.t_from + part.t_to) / 2, view.dc, view.dr};
-    ASSERT_TRUE(WitnessHolds(terrain, horizon.edges[part.edge].edge, middle));
+  for (const SkylinePiece& piece : skyline) {
+    ASSERT_NEAR(offset(piece, piece.t_from), reached, tolerance);
+    reached = offset(piece, piece.t_to);
+    const Witness middle{(piece.t_from + piece.t_to) / 2, view.dc, view.dr};
+    ASSERT_TRUE(WitnessHolds(terrain, horizon.edges[piece.edge].edge, middle));
   }
   EXPECT_NEAR(reached, static_cast<double>(*most), tolerance);
 }

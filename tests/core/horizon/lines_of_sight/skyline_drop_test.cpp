@@ -17,11 +17,11 @@
 namespace farhorizon {
 namespace {
 
-// SkylineDrops are asked for to 1 / kUnits quanta.
+// The tolerance is 1 / kUnits quanta.
 constexpr int kUnits = 64;
 
-// Every edge is seen over all others when it is lowered by a unit less than its skyline drop, and not by a
-// unit more.
+// Every edge is visible over all others when it is lowered by a unit less than its skyline drop,
+// and is not when lowered by a unit more.
 testing::AssertionResult ArePrecise(const Dem& dem) {
   Result<Terrain> terrain = Terrain::Build(dem);
   if (!terrain) return testing::AssertionSuccess();
@@ -37,13 +37,14 @@ testing::AssertionResult ArePrecise(const Dem& dem) {
     for (const Edge e : terrain->Edges()) {
       if (e != edge) others.push_back({scaled(e.a, 0), scaled(e.b, 0)});
     }
-    const auto is_seen = [&](std::int32_t depth) {
+    const auto is_visible = [&](std::int32_t depth) {
       const Segment lowered{scaled(edge.a, depth), scaled(edge.b, depth)};
       return LineOfSightByBruteForce(lowered, others, Ties::kPass).has_value();
     };
     const double units = skyline_drops.Of(i) * kUnits;
     const auto depth = static_cast<std::int32_t>(units);
-    if (units != depth || depth < 0 || (depth > 0 && !is_seen(depth - 1)) || is_seen(depth + 1)) {
+    if (units != depth || depth < 0 || (depth > 0 && !is_visible(depth - 1)) ||
+        is_visible(depth + 1)) {
       return testing::AssertionFailure() << DrawAscii(dem) << edge.a << '-' << edge.b << ": "
                                          << units << " / " << kUnits << " quanta";
     }
@@ -51,7 +52,7 @@ testing::AssertionResult ArePrecise(const Dem& dem) {
   return testing::AssertionSuccess();
 }
 
-TEST(SkylineDrop, IsHowFarAnEdgeMaySinkAndStillBeSeen) {
+TEST(SkylineDrop, IsTheGreatestDepthAtWhichAnEdgeIsVisible) {
   std::mt19937 random(5);
   for (int i = 0; i < Rounds(1500); ++i) ASSERT_TRUE(ArePrecise(AnyRandomDem(3, 6, random)));
 }
@@ -68,8 +69,8 @@ TEST(SkylineDropLong, OfLandscapes) {
   for (int i = 0; i < Rounds(60); ++i) ASSERT_TRUE(ArePrecise(AnyLandscape(8, 14, random)));
 }
 
-// A ridge of height 10 on a plain: there are lines that cross it as near to a post of it as may be, and
-// else nothing but the plain.
+// A ridge of height 10 on a plain: some lines cross it as near to a post as you like, and otherwise
+// the plain only.
 TEST(SkylineDrop, OfARidgeOnAPlain) {
   const Dem dem = MakeDem(9, 5, [](std::int32_t column, std::int32_t row) {
     return row == 2 && column >= 3 && column <= 6 ? 10 : 0;
@@ -85,7 +86,7 @@ TEST(SkylineDrop, OfARidgeOnAPlain) {
   }
 }
 
-// Heights that leave no room for digits after the point, and do not fit any number of bits.
+// Heights with so great a range that steps are coarser than quanta.
 TEST(SkylineDrop, OfGreatHeights) {
   const std::int32_t most = (1 << 30) - 1;
   const Dem dem = MakeDem(5, 5, [most](std::int32_t column, std::int32_t row) {
@@ -102,7 +103,7 @@ TEST(SkylineDrop, OfGreatHeights) {
   EXPECT_LE(greatest, 2.0 * most);
 }
 
-// No line lowers the skyline of a real DEM by more where its edge is taken away.
+// On no line of a real DEM does the skyline drop by more where its edge is taken away.
 TEST(SkylineDrop, IsNotExceededOnAnyLineOfADem) {
   const std::filesystem::path path = std::filesystem::path(FARHORIZON_DEM_DIR) / "zion_257.tif";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "no zion_257.tif in FARHORIZON_DEM_DIR";
@@ -111,7 +112,7 @@ TEST(SkylineDrop, IsNotExceededOnAnyLineOfADem) {
   const Horizon horizon = *FindHorizon(terrain, 2, {});
   const double tolerance = 1.0 / kUnits;
   const SkylineDrops skyline_drops(terrain, horizon, tolerance);
-  const GridLineQuery walk(terrain);
+  const GridLineQuery lines(terrain);
   std::mt19937 random(7);
   std::uniform_real_distribution<double> share(0, 1);
   for (std::size_t i = 0; i < horizon.edges.size(); i += 50) {
@@ -123,7 +124,7 @@ TEST(SkylineDrop, IsNotExceededOnAnyLineOfADem) {
     for (int k = 0; k < Rounds(500); ++k) {
       const double t = share(random);
       const double angle = 3.141592653589793 * share(random);
-      const std::optional<HighestEdge> other = walk.HighestEdgeOver(
+      const std::optional<HighestEdge> other = lines.HighestEdgeOver(
           edge, a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), std::cos(angle), std::sin(angle));
       if (other) greatest = std::max(greatest, a.z + t * (b.z - a.z) - other->height);
     }

@@ -15,10 +15,10 @@ using boost::multiprecision::cpp_int;
 
 Number Exact(const Fraction& f) { return Number(cpp_int(f.numerator), cpp_int(f.denominator)); }
 
-std::vector<SeenStretch> Exact(const std::vector<EnvelopePart>& parts) {
+std::vector<SeenStretch> Exact(const std::vector<EnvelopePiece>& envelope) {
   std::vector<SeenStretch> stretches;
-  for (const EnvelopePart& part : parts) {
-    stretches.push_back({part.segment, Exact(part.from), Exact(part.to)});
+  for (const EnvelopePiece& piece : envelope) {
+    stretches.push_back({piece.segment, Exact(piece.from), Exact(piece.to)});
   }
   return stretches;
 }
@@ -38,7 +38,7 @@ Segment AnySegment(std::int32_t side, std::int32_t top, std::mt19937& random) {
 TEST(UpperEnvelope, IsTheSkylineByItsDefinition) {
   std::mt19937 random(1);
   for (int round = 0; round < Rounds(3000); ++round) {
-    // Small numbers tie often; segments may cross, and lie in front of one another.
+    // Small numbers tie often; segments may cross, and be in front of one another.
     const auto side = static_cast<std::int32_t>(2 + random() % 5);
     const auto top = static_cast<std::int32_t>(random() % 4);
     std::vector<Segment> segments(random() % 9);
@@ -55,7 +55,7 @@ TEST(UpperEnvelope, IsExactAtTheLimits) {
   for (int round = 0; round < Rounds(200); ++round) {
     std::vector<Segment> segments(6);
     for (Segment& s : segments) s = AnySegment(1 << 16, (1 << 30) - 1, random);
-    // Two of one height all the way in this direction, and nearly so.
+    // Two at one height at all offsets, or a quantum apart at one end.
     segments[1] = segments[0];
     segments[1].a.z -= static_cast<std::int32_t>(random() % 2);
     const auto step = [&] {

@@ -81,17 +81,18 @@ std::vector<DyadicNumber> PointsToTry(const VisibleRegion& region, const Segment
 
 struct Tally {
   std::int64_t lines = 0;
-  std::int64_t sights = 0;
+  std::int64_t lines_of_sight = 0;
 };
 
-// The region against the definition: in all directions at some points, at all points in some directions.
+// The region against the definition: in all directions at some points, and at all points in some
+// directions.
 testing::AssertionResult IsTheDefinition(const VisibleRegion& region, const Segment& edge,
                                          const std::vector<Segment>& others, std::mt19937& random,
                                          Tally& tally) {
   const auto agrees = [&](const DyadicNumber& t, const OracleDirection& direction) {
     const bool expected = IsLineOfSight(edge, t, direction, others);
     ++tally.lines;
-    tally.sights += expected ? 1 : 0;
+    tally.lines_of_sight += expected ? 1 : 0;
     return Contains(region, edge, t, direction) == expected;
   };
   const auto differs = [&](const DyadicNumber& t, const OracleDirection& direction) {
@@ -106,7 +107,7 @@ testing::AssertionResult IsTheDefinition(const VisibleRegion& region, const Segm
     }
   }
   for (int i = 0; i < 3; ++i) {
-    // No direction in which a face is level: along that the definition meets ties only.
+    // Not a contour direction of a face: along one the definition meets ties only.
     const auto dx = static_cast<std::int64_t>(random() % 2'000'001) - 1'000'000;
     const auto dy = static_cast<std::int64_t>(random() % 1'000'000) + 1;
     if (dx * (edge.b.y - edge.a.y) == dy * (edge.b.x - edge.a.x)) continue;
@@ -117,7 +118,8 @@ testing::AssertionResult IsTheDefinition(const VisibleRegion& region, const Segm
   return testing::AssertionSuccess();
 }
 
-// Every horizon edge of a terrain over the others, in turn with and without the sweep's virtual occluders.
+// Every horizon edge of a terrain over the others, in turn with and without the sweep's virtual
+// occluders.
 testing::AssertionResult RegionsAreTheDefinition(const Dem& dem, std::mt19937& random,
                                                  Tally& tally) {
   const Result<Terrain> terrain = Terrain::Build(dem);
@@ -133,10 +135,10 @@ testing::AssertionResult RegionsAreTheDefinition(const Dem& dem, std::mt19937& r
     VisibleRegion region(TargetOf(segment));
     const std::size_t first = i == 0 ? 0 : horizon.virtual_occluder_ends[i - 1];
     for (std::size_t j = first; j < horizon.virtual_occluder_ends[i] && i % 2 == 0; ++j) {
-      region.Subtract({horizon.virtual_occluders[j].a, horizon.virtual_occluders[j].b});
+      region.AddOccluder({horizon.virtual_occluders[j].a, horizon.virtual_occluders[j].b});
     }
-    region.Subtract(index, static_cast<std::int32_t>(i));
-    if (region.cells().empty()) return testing::AssertionFailure() << "no sight";
+    region.AddOccluders(index, static_cast<std::int32_t>(i));
+    if (region.cells().empty()) return testing::AssertionFailure() << "no line of sight";
     std::vector<Edge> others = terrain->Edges();
     std::erase(others, edge);
     testing::AssertionResult same =
@@ -154,8 +156,8 @@ void ExpectTheDefinitionOnRandomTerrains(std::int32_t min_side, std::int32_t max
     const Dem dem = AnyRandomDem(min_side, max_side, random);
     ASSERT_TRUE(RegionsAreTheDefinition(dem, random, tally)) << "round " << round;
   }
-  EXPECT_GT(tally.sights, tally.lines / 20);
-  EXPECT_LT(tally.sights, tally.lines * 19 / 20);
+  EXPECT_GT(tally.lines_of_sight, tally.lines / 20);
+  EXPECT_LT(tally.lines_of_sight, tally.lines * 19 / 20);
   testing::Test::RecordProperty("lines", std::to_string(tally.lines));
 }
 
@@ -175,7 +177,7 @@ TEST(VisibleRegion, IsTheDefinitionOnRandomTerrainsOfUpToSevenPosts) {
   ExpectTheDefinitionOnRandomTerrains(5, 7, Rounds(20), 3);
 }
 
-TEST(SightRegionLong, IsTheDefinitionOnThousandsOfRandomTerrains) {
+TEST(VisibleRegionLong, IsTheDefinitionOnThousandsOfRandomTerrains) {
   ExpectTheDefinitionOnRandomTerrains(2, 4, Rounds(8'000), 101);
   ExpectTheDefinitionOnRandomTerrains(4, 7, Rounds(500), 102);
 }
@@ -198,7 +200,8 @@ std::int64_t SideOf(const Point3i& p, const Segment& s) {
   return std::int64_t{s.b.x - s.a.x} * (p.y - s.a.y) - std::int64_t{s.b.y - s.a.y} * (p.x - s.a.x);
 }
 
-// Segments of few sizes in few places: their curves touch without crossing, often half way.
+// Segments with ends at few posts: their curves often touch without crossing, half way along the
+// edge.
 TEST(VisibleRegion, IsTheDefinitionBehindAnyTwoSegments) {
   std::mt19937 random(6);
   const auto draw = [&random] {
@@ -217,7 +220,7 @@ TEST(VisibleRegion, IsTheDefinitionBehindAnyTwoSegments) {
     std::vector<Segment> others;
     while (others.size() < 2) {
       const Segment other = draw();
-      // Beside the edge, on one side of its line or ahead of it or behind.
+      // Not over the edge: on one side of its line, or across the line ahead of it or behind it.
       const bool beside = SideOf(other.a, edge) * SideOf(other.b, edge) > 0;
       const bool past = SideOf(edge.a, other) * SideOf(edge.b, other) > 0;
       if (beside || past) others.push_back(other);
@@ -225,7 +228,7 @@ TEST(VisibleRegion, IsTheDefinitionBehindAnyTwoSegments) {
     VisibleRegion region(TargetOf(edge));
     SegmentIndex index(5, 5);
     for (const Segment& other : others) index.Insert(other);
-    region.Subtract(index, -1);
+    region.AddOccluders(index, -1);
     ASSERT_TRUE(IsTheDefinition(region, edge, others, random, tally)) << DrawSegments(others);
   }
 }

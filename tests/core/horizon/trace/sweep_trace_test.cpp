@@ -44,26 +44,26 @@ TEST(ContoursAt, EndAtTheBorderOfTheTerrain) {
   EXPECT_EQ(std::abs(contours[0].front().y - contours[0].back().y), 2);
 }
 
-TEST(ContoursAt, CountWhatLevelGroundIsInside) {
+TEST(ContoursAt, HaveGroundAtTheHeightInside) {
   const Dem dem = AsciiDem("0000\n0550\n0550\n0000");
   EXPECT_EQ(ContoursAt(*Terrain::Build(dem), 5).size(), 1U);
   EXPECT_EQ(ContoursAt(*Terrain::Build(dem), 6).size(), 0U);
 }
 
-TEST(TraceSweep, SeesTwoSummitsAsTwoHullsWithFourBitangentsAllActive) {
+TEST(TraceSweep, HasTwoHullsForTwoSummitsWithFourBitangentsAllActive) {
   const Dem dem = AsciiDem(R"(
       0 0 0 0 0 0 0
       0 9 0 0 0 8 0
       0 0 0 0 0 0 0)");
   const Terrain terrain = *Terrain::Build(dem);
   const SweepTrace trace = *TraceSweep(terrain, 4, {});
-  EXPECT_EQ(trace.level, 4);
+  EXPECT_EQ(trace.height, 4);
   EXPECT_EQ(trace.contours.size(), 2U);
   EXPECT_EQ(trace.hulls.size(), 2U);
   ASSERT_EQ(trace.bitangents.size(), 4U);
   for (const SweepTrace::Bitangent& b : trace.bitangents) EXPECT_TRUE(b.active);
   EXPECT_EQ(trace.candidates.size(), 12U);
-  EXPECT_EQ(trace.seen.size(), 12U);
+  EXPECT_EQ(trace.horizon_points.size(), 12U);
   EXPECT_EQ((*TraceSweep(terrain, 9, {})).hulls.size(), 1U);
 }
 
@@ -83,7 +83,7 @@ bool IsIn(const std::vector<PlanPoint>& hull, PlanPoint p) {
   return hull.size() > 2 || std::hypot(hull[0].x - p.x, hull[0].y - p.y) < 2;
 }
 
-/// The posts of the terrain, the highest first.
+// The posts of the terrain, the highest first.
 std::vector<VertexId> ByHeight(const Terrain& terrain) {
   std::vector<VertexId> posts;
   for (VertexId v = 0; v < terrain.post_count(); ++v) {
@@ -94,34 +94,34 @@ std::vector<VertexId> ByHeight(const Terrain& terrain) {
   return posts;
 }
 
-TEST(TraceSweep, KeepsHullsConvexAndRoundAllGroundAboveTheLevel) {
+TEST(TraceSweep, HasConvexHullsAroundAllGroundAboveTheHeight) {
   std::mt19937 random(1);
   for (int round = 0; round < Rounds(60); ++round) {
     const Dem dem = AnyLandscape(9, 24, random);
     Result<Terrain> terrain = Terrain::Build(dem);
     if (!terrain) continue;
     const std::vector<VertexId> posts = ByHeight(*terrain);
-    const std::int32_t level = terrain->Point(posts[posts.size() / 2]).z;
-    const SweepTrace trace = *TraceSweep(*terrain, level, {});
+    const std::int32_t height = terrain->Point(posts[posts.size() / 2]).z;
+    const SweepTrace trace = *TraceSweep(*terrain, height, {});
     const std::size_t m = trace.hulls.size();
     EXPECT_EQ(trace.bitangents.size(), m * (m - 1) / 2 * 4);
     EXPECT_TRUE(std::all_of(trace.hulls.begin(), trace.hulls.end(), IsConvex)) << DrawAscii(dem);
     for (const VertexId v : posts) {
-      if (terrain->Point(v).z < level) break;
+      if (terrain->Point(v).z < height) break;
       const PlanPoint p{static_cast<double>(dem.Column(v)), static_cast<double>(dem.Row(v))};
       EXPECT_TRUE(std::any_of(trace.hulls.begin(), trace.hulls.end(),
                               [p](const auto& hull) { return IsIn(hull, p); }))
-          << DrawAscii(dem) << "level " << level << " post " << v;
+          << DrawAscii(dem) << "height " << height << " post " << v;
     }
   }
 }
 
-TEST(TraceSweep, RefusesLevelsWithoutASlice) {
+TEST(TraceSweep, RefusesHeightsWithoutASlice) {
   const Dem dem = AsciiDem("000\n090\n000");
   const Terrain terrain = *Terrain::Build(dem);
-  for (const std::int32_t level : {10, -1, -5}) {
-    Result<SweepTrace> trace = TraceSweep(terrain, level, {});
-    ASSERT_FALSE(trace) << level;
+  for (const std::int32_t height : {10, -1, -5}) {
+    Result<SweepTrace> trace = TraceSweep(terrain, height, {});
+    ASSERT_FALSE(trace) << height;
     EXPECT_EQ(trace.error().kind, "no-such-level");
   }
 }

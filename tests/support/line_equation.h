@@ -9,7 +9,7 @@ namespace farhorizon {
 
 /// The plan line a x + b y = c.
 template <typename Int>
-struct PlanLine {
+struct LineEquation {
   Int a;
   Int b;
   Int c;
@@ -32,7 +32,7 @@ struct Ratio {
 /// The greatest height of a segment over a plan line; nullopt where the line misses it. Exact, if
 /// Int holds a height times the side of a point (a x + b y - c), twice over.
 template <typename Int>
-std::optional<Ratio<Int>> HeightOver(const PlanLine<Int>& line, const Segment& segment) {
+std::optional<Ratio<Int>> HeightOver(const LineEquation<Int>& line, const Segment& segment) {
   const Int side_a = line.a * segment.a.x + line.b * segment.a.y - line.c;
   const Int side_b = line.a * segment.b.x + line.b * segment.b.y - line.c;
   if ((side_a > 0 && side_b > 0) || (side_a < 0 && side_b < 0)) return std::nullopt;
@@ -49,8 +49,8 @@ std::optional<Ratio<Int>> HeightOver(const PlanLine<Int>& line, const Segment& s
 /// The line through the point t = numerator / denominator of the way along `segment`, in the
 /// direction (dx, dy).
 template <typename Int>
-PlanLine<Int> LineThrough(const Segment& segment, const Int& numerator, const Int& denominator,
-                          const Int& dx, const Int& dy) {
+LineEquation<Int> LineThrough(const Segment& segment, const Int& numerator, const Int& denominator,
+                              const Int& dx, const Int& dy) {
   const Int x = segment.a.x * denominator + (Int(segment.b.x) - segment.a.x) * numerator;
   const Int y = segment.a.y * denominator + (Int(segment.b.y) - segment.a.y) * numerator;
   return {dy * denominator, -dx * denominator, dy * x - dx * y};
