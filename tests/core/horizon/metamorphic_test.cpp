@@ -1,8 +1,8 @@
-// What must not change the answer: horizon edges stay where they are under every invertible affine map of
-// the plan, under scaling and lifting of heights, under a finer triangulation of the same surface
-// (horizon.md, section 3). Both engines where the map of a grid is a grid again; elsewhere the maps are of
-// segments, which have no diagonals, and the answer on the grid is the kinetic engine's as much as the
-// adaptive one's.
+// Maps under which the answer does not change: horizon edges follow every invertible affine map of
+// the plan, scaled and lifted heights, and a finer triangulation of the same surface
+// (core/horizon/README.md, "Invariance"). Where the image of a grid is a grid, both engines are
+// run. Elsewhere segments are mapped, which have no diagonals, and the answer on the grid comes
+// from either engine.
 #include <algorithm>
 #include <array>
 #include <random>
@@ -24,7 +24,7 @@ namespace {
 
 std::vector<Edge> FindAdaptively(const Terrain& terrain) {
   std::vector<Edge> edges;
-  const Horizon horizon = *FindHorizon(terrain, 1, {});
+  const Horizon horizon = *FindHorizon(terrain, {}, {});
   for (const HorizonEdge& e : horizon.edges) edges.push_back(e.edge);
   return edges;
 }
@@ -67,8 +67,8 @@ std::int32_t HeightAt(const Dem& dem, std::int32_t c, std::int32_t r) {
   return dem.heights[static_cast<std::size_t>(v)];
 }
 
-// The sixth turns and their mirror images take the triangulated grid to itself, but a cell that lost a post
-// to something that is no cell.
+// Turns by 60 degrees and their mirror images map the triangulated grid to itself, except a cell
+// without data at one post.
 TEST_P(Metamorphic, FollowsTheTwelveMapsOfTheTriangulatedGrid) {
   std::mt19937 random(1);
   for (int round = 0; round < Rounds(50); ++round) {
@@ -210,7 +210,7 @@ std::vector<Edge> HorizonOfCreases(const OracleMesh& mesh) {
   return edges;
 }
 
-// Quarter turns, reflections, shears, and maps that change areas: none but the first few take a grid to a
+// Quarter turns, reflections, shears, and maps that change areas: most of them map no grid to a
 // grid with the same diagonals.
 TEST(MetamorphicSegments, FollowEveryIntegerMatrixFromBothEnginesAnswers) {
   constexpr std::array<GridMap, 10> kMaps{{{0, -1, 1, 0},
@@ -268,7 +268,7 @@ OracleMesh OtherDiagonalMesh(const Dem& dem) {
   return mesh;
 }
 
-// The other four symmetries of the square: they exchange the two diagonals.
+// The four symmetries of the square that exchange its two diagonals.
 TEST(MetamorphicSegments, FollowQuarterTurnsAndReflectionsToTheOtherDiagonal) {
   std::mt19937 random(8);
   for (int round = 0; round < Rounds(100); ++round) {
