@@ -21,7 +21,7 @@ void ExpectTheHorizon(const std::string& name, int lines) {
   Result<Dem> dem = ReadDem(path, {});
   ASSERT_TRUE(dem) << dem.error().message;
   const Terrain terrain = *Terrain::Build(*dem);
-  const Horizon horizon = *FindHorizon(terrain, 2, {});
+  const Horizon horizon = *FindHorizon(terrain, {.threads = 2}, {});
   std::vector<Edge> edges;
   for (const HorizonEdge& e : horizon.edges) {
     ASSERT_TRUE(WitnessHolds(terrain, e.edge, e.witness)) << e.edge.a << '-' << e.edge.b;

@@ -16,7 +16,7 @@ namespace farhorizon {
 namespace {
 
 Horizon HorizonOf(const Terrain& terrain, int threads = 1) {
-  return *FindHorizon(terrain, threads, {});
+  return *FindHorizon(terrain, {.threads = threads}, {});
 }
 
 std::vector<Edge> EdgesOf(const Horizon& horizon) {
@@ -212,7 +212,7 @@ TEST(FindHorizon, StopsWhenAskedTo) {
   const Dem dem = FractalDem(65, 900, 100, 12);
   std::stop_source source;
   source.request_stop();
-  Result<Horizon> horizon = FindHorizon(*Terrain::Build(dem), 1, {.stop = source.get_token()});
+  Result<Horizon> horizon = FindHorizon(*Terrain::Build(dem), {}, {.stop = source.get_token()});
   ASSERT_FALSE(horizon);
   EXPECT_EQ(horizon.error().code, ErrorCode::kCancelled);
 }

@@ -92,7 +92,7 @@ void ExpectTheDefinition(const Dem& dem, Tally& tally) {
         << DrawAscii(dem) << "edge " << s.edge.a << '-' << s.edge.b;
   }
   tally.inexact += inexact;
-  Result<Horizon> horizon = FindHorizon(terrain, 1, {});
+  Result<Horizon> horizon = FindHorizon(terrain, {}, {});
   ASSERT_EQ(horizon.has_value(), inexact == 0) << DrawAscii(dem);
   if (!horizon) {
     EXPECT_EQ(horizon.error().code, ErrorCode::kUnsupportedData);
@@ -188,7 +188,7 @@ TEST(GreatCliffs, GiveAnErrorThatNamesTheEdgeWhereNoDoubleIsInTheGap) {
       "536870915 536870912         1     32768\n"
       "536870914         3         3     32771");
   const Terrain terrain = *Terrain::Build(dem);
-  Result<Horizon> horizon = FindHorizon(terrain, 2, {});
+  Result<Horizon> horizon = FindHorizon(terrain, {.threads = 2}, {});
   ASSERT_FALSE(horizon);
   EXPECT_EQ(horizon.error().code, ErrorCode::kUnsupportedData);
   EXPECT_EQ(horizon.error().kind, "sight-too-narrow");

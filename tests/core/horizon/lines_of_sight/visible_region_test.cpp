@@ -136,7 +136,7 @@ testing::AssertionResult RegionsAreTheDefinition(const Dem& dem, std::mt19937& r
                                                  Tally& tally) {
   const Result<Terrain> terrain = Terrain::Build(dem);
   if (!terrain) return testing::AssertionSuccess();
-  const Horizon horizon = *FindHorizon(*terrain, 1, {});
+  const Horizon horizon = *FindHorizon(*terrain, {}, {});
   SegmentIndex index(dem.columns, dem.rows);
   for (const HorizonEdge& e : horizon.edges) {
     index.Insert({terrain->Point(e.edge.a), terrain->Point(e.edge.b)});
