@@ -78,7 +78,7 @@ class Walk {
           std::max(LevelAt(static_cast<double>(i) / n), LevelAt(static_cast<double>(i + 1) / n));
       const VertexId u = PostAt(p_.x + i * step_x, p_.y + i * step_y);
       const VertexId w = PostAt(p_.x + (i + 1) * step_x, p_.y + (i + 1) * step_y);
-      if (!hulls_.Hides(u, w, level)) return false;
+      if (!hulls_.Occludes(u, w, level)) return false;
     }
     return true;
   }
@@ -123,9 +123,9 @@ class Walk {
     const double from = std::max((c - p_.x) / dx, by_row_from);
     const double to = std::min((c + 1 - p_.x) / dx, by_row_to);
     const std::int32_t level = std::max(LevelAt(from), LevelAt(to));
-    return hulls_.Hides(corners[0], corners[1], level) &&
-           hulls_.Hides(corners[0], corners[2], level) &&
-           hulls_.Hides(corners[0], corners[3], level);
+    return hulls_.Occludes(corners[0], corners[1], level) &&
+           hulls_.Occludes(corners[0], corners[2], level) &&
+           hulls_.Occludes(corners[0], corners[3], level);
   }
 
   const Terrain& terrain_;
