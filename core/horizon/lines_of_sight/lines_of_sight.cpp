@@ -54,9 +54,8 @@ Result<std::vector<LinesOfSight>> FindLinesOfSight(const Terrain& terrain, const
     const SegmentIndex::Item& item = index.item(static_cast<std::int32_t>(i));
     const TargetSegment edge{item.low, item.high, Ties::kPass};
     VisibleRegion region(edge, WedgeOf(terrain, horizon.edges[i].edge));
-    for (std::size_t j = i == 0 ? 0 : horizon.virtual_occluder_ends[i - 1];
-         j < horizon.virtual_occluder_ends[i]; ++j) {
-      region.Subtract({horizon.virtual_occluders[j].a, horizon.virtual_occluders[j].b});
+    for (const Segment& segment : horizon.virtual_occluders.Of(i)) {
+      region.Subtract({segment.a, segment.b});
     }
     region.Subtract(index, static_cast<std::int32_t>(i));
     Check(!region.cells().empty(), "an edge on the horizon has lines of sight");

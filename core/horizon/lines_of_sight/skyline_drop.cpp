@@ -43,10 +43,7 @@ class SkylineDrops::Sinking {
   Sinking(const SkylineDrops& all, std::size_t i)
       : all_(all), i_(static_cast<std::int32_t>(i)), edge_(all.horizon_.edges[i].edge) {
     const Horizon& horizon = all.horizon_;
-    for (std::size_t j = i == 0 ? 0 : horizon.virtual_occluder_ends[i - 1];
-         j < horizon.virtual_occluder_ends[i]; ++j) {
-      AddVirtualOccluder(horizon.virtual_occluders[j]);
-    }
+    for (const Segment& segment : horizon.virtual_occluders.Of(i)) AddVirtualOccluder(segment);
     const Terrain::Faces faces = all.terrain_.FacesOf(edge_);
     for (const std::optional<VertexId> third : {faces.left, faces.right}) {
       if (!third) continue;
@@ -92,16 +89,18 @@ class SkylineDrops::Sinking {
                       all_.Scaled(all_.terrain_.Point(edge_.b))};
       lowered.a.z -= depth_ + 1;
       lowered.b.z -= depth_ + 1;
-      const OcclusionHints hints{virtual_occluders_, likely_, std::nullopt};
-      std::vector<std::int32_t> blockers;
-      PointQuery search(all_.skyline_, lowered, Ties::kPass, i_, hints, &blockers, nullptr);
-      const PointAnswer finding = search.LookAt(t);
-      if (!finding.sight) {
+      const VisibilityQuery query{
+          .segment = lowered,
+          .except = i_,
+          .hints = {.virtual_occluders = virtual_occluders_, .likely = likely_}};
+      PointQuery points(all_.skyline_, query);
+      const PointAnswer point = points.AnswerAt(t);
+      if (!point.witness) {
         // What hides one point is likely to hide the next.
-        likely_ = std::move(blockers);
-        return finding.hidden;
+        likely_ = points.occluders();
+        return point.occluded;
       }
-      Walk(finding.sight->t, finding.middle);
+      Walk(point.witness->t, point.free_direction);
     }
   }
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/exact/isolated_root.h"
-#include "core/horizon/visibility/point_view.h"
+#include "core/horizon/visibility/moving_vector.h"
 
 namespace farhorizon {
 

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/geometry/direction.h"
 #include "core/horizon/find_horizon.h"
 #include "tests/oracles/lines_of_sight_by_definition.h"
 #include "tests/support/ascii_dem.h"
@@ -145,9 +146,8 @@ testing::AssertionResult RegionsAreTheDefinition(const Dem& dem, std::mt19937& r
     const Edge edge = horizon.edges[i].edge;
     const Segment segment{terrain->Point(edge.a), terrain->Point(edge.b)};
     VisibleRegion region(TargetOf(segment));
-    const std::size_t first = i == 0 ? 0 : horizon.virtual_occluder_ends[i - 1];
-    for (std::size_t j = first; j < horizon.virtual_occluder_ends[i] && i % 2 == 0; ++j) {
-      region.Subtract({horizon.virtual_occluders[j].a, horizon.virtual_occluders[j].b});
+    if (i % 2 == 0) {
+      for (const Segment& s : horizon.virtual_occluders.Of(i)) region.Subtract({s.a, s.b});
     }
     region.Subtract(index, static_cast<std::int32_t>(i));
     if (region.cells().empty()) return testing::AssertionFailure() << "no sight";
