@@ -44,7 +44,7 @@ class Sweeper {
   [[gnu::always_inline]] void Prefetch(VertexId v) const {
     const auto post = static_cast<std::ptrdiff_t>(v);
     const NodeId* node = result_.hulls.nodes_of_posts().data() + post;
-    __builtin_prefetch(order_.neighbours.data() + post);
+    __builtin_prefetch(order_.neighbour_orders.data() + post);
     __builtin_prefetch(terrain_.dem().heights.data() + post);
     __builtin_prefetch(node);
     if (v >= columns_) __builtin_prefetch(node - columns_);
@@ -55,7 +55,8 @@ class Sweeper {
   void Insert(VertexId v) {
     v_ = v;
     height_ = Height(v);
-    const SweepOrder::Neighbours& neighbours = order_.neighbours[static_cast<std::size_t>(v)];
+    const SweepOrder::NeighbourOrder& neighbours =
+        order_.neighbour_orders[static_cast<std::size_t>(v)];
     // The hulls of the ground that v joins: each one once.
     std::vector<NodeId>& joined = joined_;
     joined.clear();

@@ -12,11 +12,11 @@
 namespace farhorizon {
 namespace {
 
-SweepOrder::Neighbours NeighboursOf(const Terrain& terrain, VertexId v) {
+SweepOrder::NeighbourOrder NeighbourOrderOf(const Terrain& terrain, VertexId v) {
   const std::vector<std::int32_t>& heights = terrain.dem().heights;
   const std::int32_t columns = terrain.dem().columns;
   const std::int32_t height = heights[static_cast<std::size_t>(v)];
-  SweepOrder::Neighbours neighbours;
+  SweepOrder::NeighbourOrder neighbours;
   for (const VertexId n : terrain.NeighboursOf(v)) {
     const std::int32_t of_n = heights[static_cast<std::size_t>(n)];
     if (of_n < height || (of_n == height && n > v)) {
@@ -35,7 +35,7 @@ SweepOrder::Neighbours NeighboursOf(const Terrain& terrain, VertexId v) {
 // The vertices by falling height, then by rising number. Heights usually take few values; then they
 // are counted, which is many times faster than sorting.
 std::vector<VertexId> FromSummitDown(const std::vector<std::int32_t>& heights,
-                                     const std::vector<SweepOrder::Neighbours>& neighbours) {
+                                     const std::vector<SweepOrder::NeighbourOrder>& neighbours) {
   std::vector<VertexId> order;
   std::int64_t least = std::numeric_limits<std::int64_t>::max();
   std::int64_t most = std::numeric_limits<std::int64_t>::min();
@@ -72,10 +72,10 @@ std::optional<SweepOrder> OrderOfSweep(const Terrain& terrain, int threads, cons
   for (std::int32_t i = 0; i < 9; ++i) {
     order.offsets[static_cast<std::size_t>(i)] = (i / 3 - 1) * terrain.dem().columns + i % 3 - 1;
   }
-  order.neighbours.resize(terrain.dem().heights.size());
+  order.neighbour_orders.resize(terrain.dem().heights.size());
   const auto find_neighbours = [&](std::size_t begin, std::size_t end, std::size_t /*thread*/) {
     for (std::size_t v = begin * columns; v < end * columns; ++v) {
-      order.neighbours[v] = NeighboursOf(terrain, static_cast<VertexId>(v));
+      order.neighbour_orders[v] = NeighbourOrderOf(terrain, static_cast<VertexId>(v));
     }
   };
   constexpr std::size_t kRows = 32;
@@ -83,7 +83,7 @@ std::optional<SweepOrder> OrderOfSweep(const Terrain& terrain, int threads, cons
                           watch, find_neighbours)) {
     return std::nullopt;
   }
-  order.vertices = FromSummitDown(terrain.dem().heights, order.neighbours);
+  order.vertices = FromSummitDown(terrain.dem().heights, order.neighbour_orders);
   return order;
 }
 

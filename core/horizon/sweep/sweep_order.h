@@ -13,14 +13,14 @@ namespace farhorizon {
 /// The vertices in the order in which a falling plane passes them: by falling height, then by
 /// rising number.
 struct SweepOrder {
-  /// The neighbours of a post by their place in the order. A post that is no vertex has none.
-  struct Neighbours {
+  /// Which neighbours of a post come before it. A post that is no vertex has no neighbours.
+  struct NeighbourOrder {
     std::uint16_t before = 0;  ///< bit i: the neighbour at offsets[i] comes before the post
     bool some_after = false;   ///< some neighbour comes after the post
   };
 
   std::vector<VertexId> vertices;
-  std::vector<Neighbours> neighbours;  ///< per post
+  std::vector<NeighbourOrder> neighbour_orders;  ///< per post
   /// From a post's number to those of the 3 x 3 posts around it, row by row.
   std::array<VertexId, 9> offsets{};
 };

@@ -37,7 +37,8 @@ void ExpectTheDefinition(const Terrain& terrain, const SweepOrder& order) {
     }
     if (terrain.IsVertex(v)) vertices.push_back(v);
 
-    const SweepOrder::Neighbours& neighbours = order.neighbours[static_cast<std::size_t>(v)];
+    const SweepOrder::NeighbourOrder& neighbours =
+        order.neighbour_orders[static_cast<std::size_t>(v)];
     std::vector<VertexId> found;
     for (std::size_t i = 0; i < order.offsets.size(); ++i) {
       if ((neighbours.before >> i & 1U) != 0) found.push_back(v + order.offsets[i]);
