@@ -14,7 +14,7 @@
 namespace farhorizon {
 namespace {
 
-/// Every edge's witness holds, and no random line finds an edge that is left out.
+// Every edge's witness holds, and no random line finds an edge that is left out.
 void ExpectTheHorizon(const std::string& name, int lines) {
   const std::filesystem::path path = std::filesystem::path(FARHORIZON_DEM_DIR) / name;
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "no " << name << " in FARHORIZON_DEM_DIR";

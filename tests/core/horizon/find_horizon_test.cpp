@@ -41,7 +41,7 @@ testing::AssertionResult EveryWitnessHolds(const Terrain& terrain, const Horizon
   return testing::AssertionSuccess();
 }
 
-/// The n-th DEM of columns x rows posts with heights 0 ... heights - 1.
+// The n-th DEM of columns x rows posts with heights 0 ... heights - 1.
 Dem NthDem(std::int32_t columns, std::int32_t rows, std::int32_t heights, std::int32_t n) {
   return MakeDem(columns, rows, [&](std::int32_t, std::int32_t) {
     const std::int32_t height = n % heights;

@@ -22,7 +22,7 @@
 namespace farhorizon {
 namespace {
 
-/// Heights of the feet and tops of cliffs. Each post is at one of them, or up to 3 quanta above.
+// Heights of the feet and tops of cliffs. Each post is at one of them, or up to 3 quanta above.
 using CliffHeights = std::vector<std::int32_t>;
 
 constexpr std::int32_t kTop = (1 << 30) - 4;
@@ -34,7 +34,7 @@ Dem CliffDem(std::int32_t columns, std::int32_t rows, const CliffHeights& height
   });
 }
 
-/// What FindHorizon decides, whether or not all witnesses are exact.
+// What FindHorizon decides, whether or not all witnesses are exact.
 Horizon DecideAll(const Terrain& terrain) {
   const Candidates candidates = *FindCandidates(terrain, *SweepHulls(terrain, 1, {}), 1, {});
   const Watch watch;
@@ -53,13 +53,13 @@ std::vector<Edge> FindEvenInexact(const Terrain& terrain) {
 }
 
 struct Tally {
-  int exact = 0;            ///< witnesses
-  int inexact = 0;          ///< edges whose witness cannot be represented
-  int long_directions = 0;  ///< of 2^53 and more
+  int exact = 0;            // witnesses
+  int inexact = 0;          // edges whose witness cannot be represented
+  int long_directions = 0;  // of 2^53 and more
 };
 
-/// The set of edges is the definition's, every exact witness holds by two checks, and FindHorizon
-/// returns all edges or an error where a witness is not exact.
+// The set of edges is the definition's, every exact witness holds by two checks, and FindHorizon
+// returns all edges or an error where a witness is not exact.
 void ExpectTheDefinition(const Dem& dem, Tally& tally) {
   ASSERT_TRUE(MatchesBruteForce(dem, FindEvenInexact));
   const Terrain terrain = *Terrain::Build(dem);

@@ -79,8 +79,8 @@ TEST(JoinHorizons, TheHorizonOfAWholeIsThatOfItsPartsHorizons) {
   }
 }
 
-/// The horizon of a terrain from n x n tiles that share the posts on their seams, each swept by
-/// itself; creases of the whole only.
+// The horizon of a terrain from n x n tiles that share the posts on their seams, each swept by
+// itself; creases of the whole only.
 Named HorizonByTiles(const Dem& dem, std::int32_t n) {
   const Terrain whole = *Terrain::Build(dem);
   std::vector<Segment> joined;

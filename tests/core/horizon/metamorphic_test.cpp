@@ -47,7 +47,7 @@ INSTANTIATE_TEST_SUITE_P(Engines, Metamorphic,
                                          NamedEngine{"Kinetic", FindKinetically}),
                          [](const auto& engine) { return engine.param.name; });
 
-/// A random DEM that has a surface; fractal every tenth time.
+// A random DEM that has a surface; fractal every tenth time.
 Dem SomeDem(int round, std::int32_t max_side, std::mt19937& random) {
   if (round % 10 == 0)
     return FractalDem(19 + round % 7, 300, 100, static_cast<std::uint32_t>(random()));
@@ -123,7 +123,7 @@ TEST_P(Metamorphic, IsTheSameInAFrameWithoutData) {
   }
 }
 
-/// The same surface on a grid `times` as fine, heights `times` as high so that they stay whole.
+// The same surface on a grid `times` as fine, heights `times` as high so that they stay whole.
 Dem Refined(const Dem& dem, std::int32_t times) {
   return MakeDem(
       (dem.columns - 1) * times + 1, (dem.rows - 1) * times + 1,
@@ -142,7 +142,7 @@ Dem Refined(const Dem& dem, std::int32_t times) {
       });
 }
 
-/// The edges of the coarse grid that fine edges are parts of. Requires: those lie on coarse ones.
+// The edges of the coarse grid that fine edges are parts of. Requires: those lie on coarse ones.
 std::vector<Edge> Coarse(const std::vector<Edge>& fine, const Dem& fine_dem, const Dem& dem,
                          std::int32_t times) {
   std::vector<Edge> edges;
@@ -178,7 +178,7 @@ TEST_P(Metamorphic, IsTheSameForTheSurfaceOnAFinerGrid) {
   }
 }
 
-/// `mesh` with its plan under a matrix, shifted back to where columns and rows begin.
+// `mesh` with its plan under a matrix, shifted back to where columns and rows begin.
 OracleMesh MapMesh(OracleMesh mesh, const GridMap& map) {
   std::int32_t left = 0;
   std::int32_t top = 0;
@@ -191,7 +191,7 @@ OracleMesh MapMesh(OracleMesh mesh, const GridMap& map) {
   return mesh;
 }
 
-/// The horizon edges of any mesh, by the adaptive engine's decisions alone.
+// The horizon edges of any mesh, by the adaptive engine's decisions alone.
 std::vector<Edge> HorizonOfCreases(const OracleMesh& mesh) {
   const std::vector<Edge> creases = CreasesOf(mesh);
   std::vector<Segment> segments;
@@ -248,8 +248,8 @@ TEST(MetamorphicSegments, FollowEveryIntegerMatrixInTheDefinitionToo) {
   }
 }
 
-/// The mesh over a grid whose cells are split along the other diagonal, from (column + 1, row) to
-/// (column, row + 1).
+// The mesh over a grid whose cells are split along the other diagonal, from (column + 1, row) to
+// (column, row + 1).
 OracleMesh OtherDiagonalMesh(const Dem& dem) {
   OracleMesh mesh;
   for (VertexId v = 0; v < dem.columns * dem.rows; ++v) {

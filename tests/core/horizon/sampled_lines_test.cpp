@@ -24,7 +24,7 @@ struct Direction2i {
   std::int32_t dr;
 };
 
-/// Every direction in integers up to `size`, once.
+// Every direction in integers up to `size`, once.
 std::vector<Direction2i> DirectionsUpTo(std::int32_t size) {
   std::vector<Direction2i> directions;
   for (std::int32_t dr = 0; dr <= size; ++dr) {
@@ -36,7 +36,7 @@ std::vector<Direction2i> DirectionsUpTo(std::int32_t size) {
   return directions;
 }
 
-/// The segment that alone is highest over the line; nullopt where there are several.
+// The segment that alone is highest over the line; nullopt where there are several.
 std::optional<std::size_t> OnlyHighest(const std::vector<Segment>& segments, const PlanLine& line) {
   std::optional<ExactHeight> highest;
   std::optional<std::size_t> found;
@@ -52,7 +52,7 @@ std::optional<std::size_t> OnlyHighest(const std::vector<Segment>& segments, con
   return found;
 }
 
-/// The edges that a z-buffer of these directions finds, lines being half a post apart.
+// The edges that a z-buffer of these directions finds, lines being half a post apart.
 std::set<std::size_t> ZBuffer(const Terrain& terrain, const std::vector<Segment>& segments,
                               const std::vector<Direction2i>& directions) {
   std::set<std::size_t> found;

@@ -31,9 +31,9 @@ std::optional<Witness> FindLineOfSight(Extent extent, const Segment& segment,
   return occluders.FindLineOfSight({.segment = segment, .ties = ties}).witness;
 }
 
-/// FindLineOfSight finds a line of sight exactly where the definition has one, and nothing is above
-/// the line that it finds. Where ties block, that line may still touch an end or a point of equal
-/// height, if the lines beside it do not.
+// FindLineOfSight finds a line of sight exactly where the definition has one, and nothing is above
+// the line that it finds. Where ties block, that line may still touch an end or a point of equal
+// height, if the lines beside it do not.
 testing::AssertionResult MatchesTheDefinition(Extent extent, const Segment& segment,
                                               const std::vector<Segment>& all, Ties ties) {
   const auto fails = [&](const std::vector<Segment>& set) {
@@ -53,7 +53,7 @@ testing::AssertionResult MatchesTheDefinition(Extent extent, const Segment& segm
   return failure << LineOfSightIsClear(*witness, segment, few, Ties::kPass).message();
 }
 
-/// Random segments of one of many kinds.
+// Random segments of one of many kinds.
 class SegmentSource {
  public:
   SegmentSource(std::int32_t side, std::int32_t max_height, std::uint32_t seed)
@@ -64,14 +64,14 @@ class SegmentSource {
   }
   Point3i AnyPoint() { return {Below(side_), Below(side_), Below(max_height_ + 1)}; }
 
-  /// Anywhere: on small grids chords cross, pass over each other's ends and overlap.
+  // Anywhere: on small grids chords cross, pass over each other's ends and overlap.
   Segment Chord() {
     for (;;) {
       const Segment s{AnyPoint(), AnyPoint()};
       if (s.a.x != s.b.x || s.a.y != s.b.y) return s;
     }
   }
-  /// Between neighbours in the grid.
+  // Between neighbours in the grid.
   Segment GridEdge() {
     for (;;) {
       const Segment s{AnyPoint(), AnyPoint()};
@@ -80,7 +80,7 @@ class SegmentSource {
       if (std::max(std::abs(dx), std::abs(dy)) == 1) return s;
     }
   }
-  /// On the line of `other` in plan, inside it or beyond it, at its height or near it.
+  // On the line of `other` in plan, inside it or beyond it, at its height or near it.
   Segment InLineWith(const Segment& other) {
     const std::int32_t from = Below(4) - 1;
     const std::int32_t to = from + 1 + Below(2);
@@ -181,7 +181,7 @@ TEST(FindLineOfSight, IsTheDefinitionInALargePlanAtTheLimitsOfHeight) {
   }
 }
 
-/// Chords between feet and tops that are 2^29 to 2^31 quanta apart and differ by single ones.
+// Chords between feet and tops that are 2^29 to 2^31 quanta apart and differ by single ones.
 void ExpectTheDefinitionOnCliffs(std::int32_t side, int occluders, int rounds, std::uint32_t seed) {
   SegmentSource source(side, 3, seed);
   constexpr std::int32_t kTop = (1 << 30) - 4;
