@@ -11,6 +11,12 @@ struct PredicateCounts {
   std::int64_t tied = 0;      ///< integers: the two sides are equal
 
   [[nodiscard]] std::int64_t Sum() const { return filtered + exact + tied; }
+  PredicateCounts& operator+=(const PredicateCounts& more) {
+    filtered += more.filtered;
+    exact += more.exact;
+    tied += more.tied;
+    return *this;
+  }
 };
 
 }  // namespace farhorizon

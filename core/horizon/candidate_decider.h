@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "core/base/progress.h"
@@ -15,28 +14,35 @@
 
 namespace farhorizon {
 
-/// Decides candidates, each by looking for a line of sight over all others: exactly, as they make the same
-/// skyline as the terrain. The answers are the same for any number of threads.
+/// Decides which candidates are horizon edges: those that are visible over all other candidates,
+/// which make the same skyline as the terrain (core/horizon/README.md, corollary 2a). Exact; the
+/// answers are the same for any number of threads.
 class CandidateDecider {
  public:
   /// Requires: all three outlive it.
   CandidateDecider(const Terrain& terrain, const Candidates& candidates, const Watch& watch);
 
-  /// Decides all, or leaves all undecided where that takes more than the budget: a sum, so that the
-  /// threads do not matter. False where the watch said stop.
+  /// Decides all candidates, or, if that takes more decisions than `budget`, leaves all undecided.
+  /// Decisions are summed over all threads, so their number does not matter.
   /// share: of the stage's progress that this is; the rest is left to DecideSome.
-  bool DecideAll(int threads, std::int64_t budget, PredicateCounts& counts, double share = 1);
+  /// False where a stop was requested.
+  bool DecideAll(int threads, std::int64_t budget, double share = 1);
 
-  /// Decides what the budget suffices for. Every undecided candidate may take an equal share of what is
-  /// left of it; what the easy ones leave over makes the next round's share larger, until none is
-  /// undecided or it no longer doubles. False where the watch said stop.
-  bool DecideSome(int threads, std::int64_t budget, PredicateCounts& counts);
+  /// Starts again and decides as many candidates as `budget` suffices for. In each round every
+  /// undecided candidate may take an equal share of what is left of the budget. Rounds end when no
+  /// candidate is undecided or the share is less than twice that of the round before.
+  /// False where a stop was requested.
+  bool DecideSome(int threads, std::int64_t budget);
 
   [[nodiscard]] std::int64_t undecided() const {
     return static_cast<std::int64_t>(undecided_.size());
   }
 
-  /// Appends the edges that have a line of sight, or are undecided, and their virtual occluders.
+  /// The decisions that were taken, those of DecideAll left out once DecideSome was called.
+  [[nodiscard]] const PredicateCounts& counts() const { return counts_; }
+
+  /// Appends the edges that are visible or undecided, and their virtual occluders. A witness need
+  /// not be exact.
   void AppendEdges(Horizon& horizon) const;
 
  private:
@@ -44,26 +50,23 @@ class CandidateDecider {
     std::int64_t each = 0;  ///< decisions about one candidate
     std::int64_t all = 0;   ///< about all of them
   };
-  struct Blockers {
-    std::vector<OccluderSet::Id> likely;  ///< of the last hidden candidate
-    std::vector<OccluderSet::Id> found;
-  };
-  // Brings the stage's progress to `done`.
-  void Round(int threads, Limits limits, PredicateCounts& counts, double done);
-  void DecideBatch(std::size_t begin, std::size_t end, std::int64_t most, PredicateCounts& counts);
-  /// It has a line of sight, or is undecided.
+  /// Brings the stage's progress to `done`.
+  void DecideRound(int threads, Limits limits, double done);
+  PredicateCounts DecideBatch(std::size_t begin, std::size_t end, std::int64_t limit);
+  Visibility Decide(std::size_t i, std::span<const OccluderId> likely, std::int64_t limit);
+  [[nodiscard]] Segment SegmentOf(const Candidate& candidate) const;
+  /// Whether candidate i is visible or undecided.
   [[nodiscard]] bool IsKept(std::size_t i) const { return decided_[i] == 0 || witnesses_[i]; }
-  void Decide(std::size_t i, std::int64_t most, Blockers& blockers, PredicateCounts& counts);
 
   const Terrain& terrain_;
-  const std::vector<Candidate>& candidates_;
-  std::span<const Segment> virtual_occluders_;
+  const Candidates& candidates_;
   const Watch& watch_;
-  OccluderSet occluders_;
+  OccluderSet occluders_;  ///< the candidates, by their indices
   std::vector<std::optional<Witness>> witnesses_;
-  std::vector<char> decided_;  ///< each its own byte: threads write side by side
+  std::vector<char> decided_;  ///< a byte each, so that threads can write side by side
   std::vector<std::size_t> undecided_;
-  double done_ = 0;                     ///< of the stage's progress
+  double done_ = 0;  ///< of the stage's progress
+  PredicateCounts counts_;
   std::atomic<std::int64_t> spent_{0};  ///< decisions in this round
 };
 

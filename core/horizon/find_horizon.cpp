@@ -1,7 +1,12 @@
-// The exact set of edges on the distant horizon, definition D2 of [Archambault05]'s problem:
-// creases that attain the greatest height over a line of sight on an open set of lines. The sweep
-// (hull_sweep.h, candidates.h) leaves candidates, which contain every horizon edge and so make the same
-// skyline as the whole terrain; each is then sighted over the others, exactly (candidate_decider.h).
+// The exact set of edges on the distant horizon: definition D2 (core/horizon/README.md, section 2)
+// of the problem of [Archambault03] and [Archambault05].
+//
+// Adaptive engine: the sweep (hull_sweep.h, candidates.h) leaves candidates. They contain every
+// horizon edge, so they make the same skyline as the whole terrain (theorem 2), and each candidate
+// is decided against the others, exactly (candidate_decider.h).
+//
+// Kinetic engine: only the edges that it finds stay candidates. Each must then be visible over the
+// others, and its witness must hold over the whole terrain.
 #include "core/horizon/find_horizon.h"
 
 #include <algorithm>
@@ -39,14 +44,14 @@ Error OverBudget(std::int64_t budget, std::size_t candidates) {
           "work-budget"};
 }
 
-std::string Doubt(const Horizon& horizon) {
+std::string ApproximationWarning(const Horizon& horizon) {
   return "approximate: the work budget of " + std::to_string(horizon.statistics.work_budget) +
          " decisions leaves " + std::to_string(horizon.statistics.undecided) + " of " +
          std::to_string(horizon.edges.size()) + " edges undecided; they are kept, and marked";
 }
 
-// Leaves of the candidates the edges that the kinetic engine finds: they make the same skyline as the
-// terrain, so they do for obstacles, too.
+// Removes the candidates that the kinetic engine does not find. Those that stay make the same
+// skyline as the terrain, so they suffice as occluders, too.
 Result<EventCounts> KeepKineticEdges(const Terrain& terrain, Candidates& candidates,
                                      const Watch& watch, std::optional<std::int64_t> work_budget) {
   Result<KineticHorizon> kinetic = FindHorizonKinetic(terrain, watch, work_budget);
@@ -59,7 +64,7 @@ Result<EventCounts> KeepKineticEdges(const Terrain& terrain, Candidates& candida
   return kinetic->events;
 }
 
-void Tell(const EventCounts& events, HorizonStatistics& statistics) {
+void SetCounts(HorizonStatistics& statistics, const EventCounts& events) {
   statistics.peaks = events.peak;
   statistics.births = events.peak;
   statistics.regular = events.regular;
@@ -95,23 +100,23 @@ Result<Horizon> FindHorizon(const Terrain& terrain, const HorizonOptions& option
   if (kinetic) {
     Result<EventCounts> events = KeepKineticEdges(terrain, *candidates, watch, options.work_budget);
     if (!events) return std::move(events.error());
-    Tell(*events, horizon.statistics);
+    SetCounts(horizon.statistics, *events);
   } else {
     budget = options.work_budget.value_or(budget);
   }
   horizon.statistics.work_budget = budget;
   watch.Report(Stage::kDecide, 0);
   CandidateDecider decider(terrain, *candidates, watch);
-  PredicateCounts& counts = horizon.statistics.predicates;
-  bool goes_on = decider.DecideAll(options.threads, budget, counts, options.approximate ? 0.5 : 1);
-  if (goes_on && decider.undecided() > 0) {
+  bool completed = decider.DecideAll(options.threads, budget, options.approximate ? 0.5 : 1);
+  if (completed && decider.undecided() > 0) {
     if (!options.approximate) return OverBudget(budget, candidates->edges.size());
-    goes_on = decider.DecideSome(options.threads, budget, counts);
+    completed = decider.DecideSome(options.threads, budget);
   }
-  if (!goes_on) return Error{ErrorCode::kCancelled, "stopped while deciding horizon edges"};
+  if (!completed) return Error{ErrorCode::kCancelled, "stopped while deciding horizon edges"};
+  horizon.statistics.predicates = decider.counts();
   horizon.statistics.undecided = decider.undecided();
   decider.AppendEdges(horizon);
-  if (decider.undecided() > 0) watch.Tell(Doubt(horizon));
+  if (decider.undecided() > 0) watch.Tell(ApproximationWarning(horizon));
   Check(!kinetic || horizon.edges.size() == candidates->edges.size(),
         "every edge of the kinetic engine has a line of sight");
   for (const HorizonEdge& e : horizon.edges) {

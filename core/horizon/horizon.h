@@ -1,30 +1,31 @@
 #pragma once
 
-#include <cstddef>
 #include <vector>
 
-#include "core/geometry/segment.h"
 #include "core/horizon/hull_merge_tree.h"
 #include "core/horizon/statistics.h"
+#include "core/horizon/virtual_occluder_table.h"
 #include "core/horizon/witness.h"
 #include "core/terrain/mesh.h"
 
 namespace farhorizon {
 
-/// An edge of the terrain that lies on the distant horizon of some horizontal line of sight, with
-/// one such line. witness.t runs from a to b.
+/// An edge of the terrain on the distant horizon, with a line of sight that shows it.
 struct HorizonEdge {
   Edge edge;
-  Witness witness;
-  bool undecided = false;  ///< kept because the work budget ran out: the witness says nothing
+  Witness witness;  ///< t runs from edge.a to edge.b
+  /// The edge is kept because the work budget ran out before it was decided: `witness` has no
+  /// meaning.
+  bool undecided = false;
 };
 
+/// What FindHorizon finds.
 struct Horizon {
   std::vector<HorizonEdge> edges;  ///< by rising (a, b)
-  /// For the edge i those from virtual_occluder_ends[i - 1] (0 for the first) up to virtual_occluder_ends[i]: segments that
-  /// do not rise above the skyline and hide much of what the edge cannot see. They only save time.
-  std::vector<Segment> virtual_occluders;
-  std::vector<std::size_t> virtual_occluder_ends;
+  /// For each edge: segments that do not rise above the skyline and that occlude most of the
+  /// directions in which the edge is not visible. They save time where more is asked about an edge;
+  /// no answer depends on them (core/horizon/README.md, corollary 2a).
+  VirtualOccluderTable virtual_occluders;
   HorizonStatistics statistics;
   HullMergeTree hulls;
 };

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <tuple>
+#include <utility>
+
+#include "core/horizon/visibility/occluder_set.h"
 
 namespace farhorizon {
 namespace {
@@ -22,8 +25,10 @@ Result<std::vector<std::size_t>> FindHorizonSegments(const std::vector<Segment>&
     if (i % kSegmentsBetweenChecks == 0 && watch.StopRequested()) {
       return Error{ErrorCode::kCancelled, "stopped while joining horizons"};
     }
-    const auto self = static_cast<OccluderSet::Id>(i);
-    if (occluders.FindLineOfSight(segments[i], Ties::kPass, self)) kept.push_back(i);
+    const auto self = static_cast<OccluderId>(i);
+    if (occluders.FindLineOfSight({.segment = segments[i], .except = self}).witness) {
+      kept.push_back(i);
+    }
   }
   return kept;
 }

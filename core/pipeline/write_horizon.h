@@ -15,6 +15,6 @@ namespace farhorizon {
 /// Errors: kInvalidArgument for another ending; those of reading, placing and sweeping the DEM.
 Status WriteHorizonEdges(const std::filesystem::path& dem, const std::filesystem::path& out,
                          const BuildOptions& options, const Watch& watch,
-                         Engine engine = Engine::kAuto);
+                         Engine engine = Engine::kAdaptive);
 
 }  // namespace farhorizon

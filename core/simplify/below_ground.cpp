@@ -84,7 +84,7 @@ class Walk {
           std::max(HeightAt(static_cast<double>(i) / n), HeightAt(static_cast<double>(i + 1) / n));
       const VertexId u = PostAt(p_.x + i * step_x, p_.y + i * step_y);
       const VertexId w = PostAt(p_.x + (i + 1) * step_x, p_.y + (i + 1) * step_y);
-      if (!hulls_.Hides(u, w, height)) return false;
+      if (!hulls_.Occludes(u, w, height)) return false;
     }
     return true;
   }
@@ -128,9 +128,9 @@ class Walk {
     const double from = std::max((c - p_.x) / dx, by_row_from);
     const double to = std::min((c + 1 - p_.x) / dx, by_row_to);
     const std::int32_t height = std::max(HeightAt(from), HeightAt(to));
-    return hulls_.Hides(corners[0], corners[1], height) &&
-           hulls_.Hides(corners[0], corners[2], height) &&
-           hulls_.Hides(corners[0], corners[3], height);
+    return hulls_.Occludes(corners[0], corners[1], height) &&
+           hulls_.Occludes(corners[0], corners[2], height) &&
+           hulls_.Occludes(corners[0], corners[3], height);
   }
 
   const Terrain& terrain_;

@@ -145,8 +145,9 @@ bool RidgeNetwork::ProveNearby(std::int32_t e, const Segment& lowered,
       std::swap(virtual_occluder.a, virtual_occluder.b);
     virtual_occluders_.push_back(virtual_occluder);
   }
-  if (nothing_.FindLineOfSight(lowered, Ties::kBlock, std::nullopt,
-                               {virtual_occluders_, {}, std::nullopt})) {
+  const VisibilityQuery query{
+      .segment = lowered, .ties = Ties::kBlock, .hints = {.virtual_occluders = virtual_occluders_}};
+  if (nothing_.FindLineOfSight(query).witness) {
     return false;
   }
   std::sort(nearby.begin(), nearby.end());

@@ -119,7 +119,8 @@ Result<double> SilhouetteBound(const Terrain& terrain, const Horizon& horizon,
   Status below = search.Include(
       lost.size(),
       [&](std::size_t i, std::int32_t steps) {
-        return !occluders.FindLineOfSight(Lowered(lost[i], steps), Ties::kBlock).has_value();
+        const Segment lowered = Lowered(lost[i], steps);
+        return !occluders.FindLineOfSight({.segment = lowered, .ties = Ties::kBlock}).witness;
       },
       watch);
   if (!below) return std::move(below.error());

@@ -31,10 +31,10 @@ bool SkylineGuard::IsOccluded(VertexId p, VertexId q, std::int32_t steps_lower) 
   const Point3i at_q = terrain_->Point(q);
   // Whole quanta only, rounded towards the safe side: what hides the higher hides the lower.
   const std::int32_t whole = steps_lower >> scale_.bits;
-  if (hulls_->Hides(p, q, std::max(at_p.z, at_q.z) - whole)) return true;
+  if (hulls_->Occludes(p, q, std::max(at_p.z, at_q.z) - whole)) return true;
   if (GroundCovers(*terrain_, *hulls_, scale_, p, q, steps_lower)) return true;
   const Segment segment = Lowered({scale_.Scale(at_p), scale_.Scale(at_q)}, steps_lower);
-  return !occluders_.FindLineOfSight(segment, Ties::kBlock).has_value();
+  return !occluders_.FindLineOfSight({.segment = segment, .ties = Ties::kBlock}).witness;
 }
 
 }  // namespace farhorizon

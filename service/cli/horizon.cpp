@@ -24,8 +24,8 @@ struct Call {
 };
 
 Engine EngineOf(const std::string& name) {
-  if (name == "kinetic") return Engine::kKinetic;
-  return name == "adaptive" ? Engine::kAdaptive : Engine::kAuto;
+  // "auto" is the adaptive engine, which is the faster one on large terrain.
+  return name == "kinetic" ? Engine::kKinetic : Engine::kAdaptive;
 }
 
 Workflow WorkflowOf(const Call& call) {

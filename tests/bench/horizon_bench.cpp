@@ -27,7 +27,7 @@ void MeasureHorizon(benchmark::State& state, const Dem& dem, int threads) {
   HorizonStatistics statistics;
   std::size_t found = 0;
   for (auto _ : state) {
-    Result<Horizon> horizon = FindHorizon(*terrain, threads, {});
+    Result<Horizon> horizon = FindHorizon(*terrain, {.threads = threads}, {});
     if (!horizon) {
       state.SkipWithError(horizon.error().message.c_str());
       return;

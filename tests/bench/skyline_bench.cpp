@@ -49,7 +49,7 @@ int Measure(const char* path, int directions) {
     return 1;
   }
   const Terrain terrain = *Terrain::Build(*dem);
-  Result<Horizon> horizon = FindHorizon(terrain, 1, {});
+  Result<Horizon> horizon = FindHorizon(terrain, {}, {});
   if (!horizon) {
     std::fprintf(stderr, "skyline_bench: %s\n", horizon.error().message.c_str());
     return 1;

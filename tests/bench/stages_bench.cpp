@@ -113,11 +113,12 @@ Row Report(const Dem& dem, int repetitions) {
   const Cost candidates =
       Measure(repetitions, [&] { static_cast<void>(FindCandidates(terrain, swept, 1, {})); });
   const auto find = [&](int threads) {
-    return Measure(repetitions, [&] { static_cast<void>(FindHorizon(terrain, threads, {})); });
+    return Measure(repetitions,
+                   [&] { static_cast<void>(FindHorizon(terrain, {.threads = threads}, {})); });
   };
   const Cost whole = find(1);
   const Cost two = find(2);
-  const Horizon horizon = std::move(*FindHorizon(terrain, 1, {}));
+  const Horizon horizon = std::move(*FindHorizon(terrain, {}, {}));
   const Cost sights =
       Measure(repetitions, [&] { static_cast<void>(FindLinesOfSight(terrain, horizon, 1, {})); });
   // As closely as horizon.geojson has them; once, as it takes longest.

@@ -12,7 +12,7 @@ namespace farhorizon {
 /// The engines to be compared: the library's own unless a test of the comparison says otherwise.
 struct Engines {
   std::function<Result<Horizon>(const Terrain&)> adaptive = [](const Terrain& terrain) {
-    return FindHorizon(terrain, 1, {});
+    return FindHorizon(terrain, {}, {});
   };
   std::function<Result<KineticHorizon>(const Terrain&)> kinetic = [](const Terrain& terrain) {
     return FindHorizonKinetic(terrain, {});

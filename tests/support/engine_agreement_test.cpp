@@ -19,7 +19,7 @@ using testing::HasSubstr;
 Engines WithAdaptive(const std::function<void(Horizon&)>& change) {
   Engines engines;
   engines.adaptive = [change](const Terrain& terrain) {
-    Horizon horizon = *FindHorizon(terrain, 1, {});
+    Horizon horizon = *FindHorizon(terrain, {}, {});
     change(horizon);
     return Result<Horizon>(std::move(horizon));
   };
@@ -82,7 +82,7 @@ TEST(EngineOffence, SeesAnApproximateSetThatIsNoSupersetOrDecidesWrongly) {
     horizon.edges.pop_back();
     return Result<KineticHorizon>(std::move(horizon));
   };
-  engines.approximate = [](const Terrain& terrain) { return FindHorizon(terrain, 1, {}); };
+  engines.approximate = [](const Terrain& terrain) { return FindHorizon(terrain, {}, {}); };
   EXPECT_EQ(EngineOffence(pyramid, engines),
             "the approximate set has decided for an edge that is not on the horizon");
 }

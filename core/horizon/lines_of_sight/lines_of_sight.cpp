@@ -56,9 +56,8 @@ Result<std::vector<LinesOfSight>> FindLinesOfSight(const Terrain& terrain, const
     const SegmentIndex::Item& item = index.item(static_cast<std::int32_t>(i));
     const TargetSegment edge{item.low, item.high, Ties::kPass};
     VisibleRegion region(edge, WedgeOf(terrain, horizon.edges[i].edge));
-    for (std::size_t j = i == 0 ? 0 : horizon.virtual_occluder_ends[i - 1];
-         j < horizon.virtual_occluder_ends[i]; ++j) {
-      region.AddOccluder({horizon.virtual_occluders[j].a, horizon.virtual_occluders[j].b});
+    for (const Segment& segment : horizon.virtual_occluders.Of(i)) {
+      region.AddOccluder({segment.a, segment.b});
     }
     region.AddOccluders(index, static_cast<std::int32_t>(i));
     Check(!region.cells().empty(), "a horizon edge has lines of sight");

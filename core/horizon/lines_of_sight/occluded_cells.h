@@ -4,6 +4,7 @@
 
 #include "core/horizon/lines_of_sight/strip_cell.h"
 #include "core/horizon/visibility/segment_index.h"
+#include "core/horizon/visibility/target_segment.h"
 
 namespace farhorizon {
 

@@ -31,10 +31,7 @@ class SkylineDrops::LoweredEdge {
   LoweredEdge(const SkylineDrops& all, std::size_t i)
       : all_(all), i_(static_cast<std::int32_t>(i)), edge_(all.horizon_.edges[i].edge) {
     const Horizon& horizon = all.horizon_;
-    for (std::size_t j = i == 0 ? 0 : horizon.virtual_occluder_ends[i - 1];
-         j < horizon.virtual_occluder_ends[i]; ++j) {
-      AddVirtualOccluder(horizon.virtual_occluders[j]);
-    }
+    for (const Segment& segment : horizon.virtual_occluders.Of(i)) AddVirtualOccluder(segment);
     const Terrain::Faces faces = all.terrain_.FacesOf(edge_);
     for (const std::optional<VertexId> third : {faces.left, faces.right}) {
       if (!third) continue;
@@ -74,17 +71,18 @@ class SkylineDrops::LoweredEdge {
   OccludedRange LowerAt(const WideDyadic& t) {
     for (;;) {
       const Segment own{all_.terrain_.Point(edge_.a), all_.terrain_.Point(edge_.b)};
-      const Segment lowered = Lowered(all_.Scaled(own), depth_ + 1);
-      const OcclusionHints hints{virtual_occluders_, likely_, std::nullopt};
-      std::vector<std::int32_t> blockers;
-      PointQuery search(all_.skyline_, lowered, Ties::kPass, i_, hints, &blockers, nullptr);
-      const PointAnswer finding = search.LookAt(t);
-      if (!finding.sight) {
+      const VisibilityQuery query{
+          .segment = Lowered(all_.Scaled(own), depth_ + 1),
+          .except = i_,
+          .hints = {.virtual_occluders = virtual_occluders_, .likely = likely_}};
+      PointQuery points(all_.skyline_, query);
+      const PointAnswer point = points.AnswerAt(t);
+      if (!point.witness) {
         // What occludes one point is likely to occlude the next.
-        likely_ = std::move(blockers);
-        return finding.hidden;
+        likely_ = points.occluders();
+        return point.occluded;
       }
-      LowerAlong(finding.sight->t, finding.middle);
+      LowerAlong(point.witness->t, point.free_direction);
     }
   }
 

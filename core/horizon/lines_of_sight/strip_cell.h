@@ -6,7 +6,7 @@
 
 #include "core/exact/isolated_root.h"
 #include "core/geometry/vector.h"
-#include "core/horizon/visibility/point_view.h"
+#include "core/horizon/visibility/moving_vector.h"
 
 namespace farhorizon {
 

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "core/horizon/lines_of_sight/strip_cell.h"
+#include "core/horizon/visibility/target_segment.h"
 
 namespace farhorizon {
 

@@ -154,39 +154,19 @@ void VisibleRegion::AddOccluder(const SegmentIndex::Item& item) {
 }
 
 void VisibleRegion::AddOccluders(const SegmentIndex& index, std::int32_t except) {
-  struct Pending {
-    SegmentIndex::Place place;
-    double distance;
-  };
-  const double x = 0.5 * (edge_.low.x + static_cast<double>(edge_.high.x));
-  const double y = 0.5 * (edge_.low.y + static_cast<double>(edge_.high.y));
-  std::array<Pending, 128> stack;
-  std::size_t depth = 0;
-  stack[depth++] = {index.Root(), 0};
-  while (depth > 0) {
-    const SegmentIndex::Place place = stack[--depth].place;
-    const SegmentIndex::Node& node = index.At(place);
-    if (node.top <= edge_.low.z) continue;
+  const auto may_occlude = [this](const SegmentIndex::Node& node) {
     const std::array<StripFilter::Corner, 4> box = {
         filter_.CornerAt(node.min_x, node.min_y), filter_.CornerAt(node.max_x, node.min_y),
         filter_.CornerAt(node.max_x, node.max_y), filter_.CornerAt(node.min_x, node.max_y)};
-    if (!MayOcclude(box, node.top)) continue;
-    for (std::int32_t id = node.first; id >= 0; id = index.item(id).next) {
-      if (id != except && index.item(id).alive) AddOccluder(index.item(id));
-    }
-    if (place.level == 0) continue;
-    const std::size_t base = depth;
-    for (std::int32_t child = 0; child < 4; ++child) {
-      const SegmentIndex::Place below{place.level - 1, 2 * place.x + (child & 1),
-                                      2 * place.y + (child >> 1)};
-      if (!index.Exists(below) || index.At(below).top <= edge_.low.z) continue;
-      stack[depth++] = {below, index.At(below).SquaredDistance(x, y)};
-    }
-    // The nearest child last, so that it is the next.
-    std::sort(stack.begin() + static_cast<std::ptrdiff_t>(base),
-              stack.begin() + static_cast<std::ptrdiff_t>(depth),
-              [](const Pending& a, const Pending& b) { return a.distance > b.distance; });
-  }
+    return MayOcclude(box, node.top);
+  };
+  const auto add = [this, except](std::int32_t id, const SegmentIndex::Item& item) {
+    if (id != except) AddOccluder(item);
+    return true;
+  };
+  index.VisitNearFirst(0.5 * (edge_.low.x + static_cast<double>(edge_.high.x)),
+                       0.5 * (edge_.low.y + static_cast<double>(edge_.high.y)),
+                       std::int64_t{edge_.low.z} + 1, may_occlude, add);
 }
 
 }  // namespace farhorizon

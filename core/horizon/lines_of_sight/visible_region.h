@@ -8,6 +8,7 @@
 #include "core/horizon/lines_of_sight/strip_filter.h"
 #include "core/horizon/visibility/face_wedge.h"
 #include "core/horizon/visibility/segment_index.h"
+#include "core/horizon/visibility/target_segment.h"
 
 namespace farhorizon {
 

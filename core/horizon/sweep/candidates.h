@@ -1,19 +1,19 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "core/base/progress.h"
 #include "core/base/result.h"
+#include "core/geometry/segment.h"
 #include "core/horizon/sweep/hull_sweep.h"
-#include "core/horizon/visibility/occluder_set.h"
 #include "core/terrain/terrain.h"
 
 namespace farhorizon {
 
-/// An edge that the hulls of the sweep do not rule out, and what they hide of it.
-/// virtual occluders: level segments between corners of one hull, at or above the edge: every line of sight that
-/// crosses one meets ground of its height or more.
+/// An edge that the hulls of the sweep do not rule out. Its virtual occluders are those of
+/// Candidates from `first_virtual_occluder` on.
 struct Candidate {
   Edge edge;
   std::size_t first_virtual_occluder = 0;
@@ -22,16 +22,24 @@ struct Candidate {
 
 struct Candidates {
   std::vector<Candidate> edges;  ///< by rising (a, b); contains every horizon edge
+  /// Horizontal segments between two corners of one hull, at or above the edge: every line of sight
+  /// across one meets ground at its height or above (core/horizon/README.md, section 3).
   std::vector<Segment> virtual_occluders;
+
+  [[nodiscard]] std::span<const Segment> OccludersOf(const Candidate& candidate) const {
+    return std::span(virtual_occluders)
+        .subspan(candidate.first_virtual_occluder, candidate.virtual_occluder_count);
+  }
 };
 
-/// Leaves as candidates the edges between whose faces a line of sight can pass, whose lower end is outside
-/// the hull that their upper end joins, and of which the hulls at the level of their upper end do not
-/// hide all directions (edge_occlusion.h).
+/// The edges that three culls leave: their faces leave directions free (theorem 7 of
+/// core/horizon/README.md), their two ends are not in one hull of ground at or above the edge
+/// (theorem 5), and the hulls at the height of their upper end do not occlude all directions
+/// (theorem 6; edge_occlusion.h).
 ///
-/// The sweep's changes are gone through again, a part of them by each thread. Errors: kCancelled. The
-/// same for any `threads`.
-/// Cost: O(n), and for each edge outside the hulls their number.
+/// The changes of the sweep are replayed, from each checkpoint to the next by one thread. The same
+/// for any number of threads. Errors: kCancelled.
+/// Cost: O(n) and, for each edge that the first two culls leave, the number of hulls.
 Result<Candidates> FindCandidates(const Terrain& terrain, const HullSweep& sweep, int threads,
                                   const Watch& watch);
 

@@ -1,7 +1,27 @@
+// Slopes that hulls occlude from all points of an edge e, run from low to high
+// (core/horizon/README.md, theorem 6):
+//
+//               L   hull on the left                 slopes of directions, counter-clockwise:
+//              / \                                   -infinity along e, 0 across it to the left,
+//        - - - - - - - - - - - - - - - - - -         +infinity against e
+//     B        low ----e----> high         A
+//        - - - - - - - - - - - - - - - - - -         A and B cross e's line
+//                 \ /
+//                  R   hull on the right
+//
+//     L  from its right corner seen from high     to its left corner seen from low
+//     R  from its right corner seen from low      to its left corner seen from high
+//     A  all but from its left corner             to its right corner, seen from low
+//     B  all but from its left corner             to its right corner, seen from high
+//
+// The left and right corner of a silhouette are those at its counter-clockwise and clockwise end.
+// What is left is kept as one interval of slopes. Occluded intervals inside it wait until one of
+// its ends reaches them, so a free interval between two of them is found at the end (Finish).
 #include "core/horizon/sweep/edge_occlusion.h"
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/horizon/sweep/virtual_occluders.h"
 
@@ -17,18 +37,24 @@ EdgeOcclusion::EdgeOcclusion(Point2i low, Point2i high, const std::optional<Face
       high_(high),
       dx_(high.x - low.x),
       dy_(high.y - low.y),
-      rest_{{-kInfinite, 0}, {kInfinite, 0}} {
+      free_{{-kInfinite, 0}, {kInfinite, 0}} {
   if (wedge) {
     const Slope first =
         SlopeOf(static_cast<double>(wedge->first.x), static_cast<double>(wedge->first.y));
     const Slope last =
         SlopeOf(static_cast<double>(wedge->last.x), static_cast<double>(wedge->last.y));
-    if (first.denominator > 0) rest_.from = first;
-    if (last.denominator > 0) rest_.to = last;
+    if (first.denominator > 0) free_.from = first;
+    if (last.denominator > 0) free_.to = last;
   }
-  SetRays();
+  UpdateBounds();
 }
 
+// Exact in doubles for all slopes that are compared. With a post's slope: a product of integers
+// below 2^35 and 2^18 is below 2^53. With an infinite slope: the products are 0 and a numerator.
+// The two slopes of the wedge are compared by IsOccluded only. Each is of climb * to - rise * along
+// with cross(along, to) = 1 for one face and -1 for the other, so both have the denominator
+// `climb`; their numerators, integers below 2^35, differ by more than 2^-35 of themselves if at
+// all, and products with one factor keep their order through a rounding of 2^-53.
 bool EdgeOcclusion::Less(const Slope& a, const Slope& b) {
   if (a.denominator == 0 && b.denominator == 0) return a.numerator < b.numerator;
   return a.numerator * b.denominator < b.numerator * a.denominator;
@@ -40,114 +66,118 @@ EdgeOcclusion::Slope EdgeOcclusion::SlopeOf(double x, double y) const {
   return across >= 0 ? Slope{-along, across} : Slope{along, -across};
 }
 
-EdgeOcclusion::View EdgeOcclusion::ViewFrom(Point2i eye,
-                                            const ConvexPolygon::Silhouette& silhouette) const {
-  const auto side = [&](Point2i p) {
-    const double across = dx_ * (p.y - eye.y) - dy_ * (p.x - eye.x);
+EdgeOcclusion::SilhouetteSlopes EdgeOcclusion::SlopesFrom(
+    Point2i viewpoint, const ConvexPolygon::Silhouette& silhouette) const {
+  const auto side_of = [&](Point2i p) {
+    const double across = dx_ * (p.y - viewpoint.y) - dy_ * (p.x - viewpoint.x);
     return static_cast<int>(across > 0) - static_cast<int>(across < 0);
   };
-  const int right_side = side(silhouette.right);
-  const int left_side = side(silhouette.left);
-  View view{Side::kNowhere, SlopeOf(silhouette.right.x - eye.x, silhouette.right.y - eye.y),
-            SlopeOf(silhouette.left.x - eye.x, silhouette.left.y - eye.y)};
-  if (right_side == 0 && left_side == 0) return view;
+  const int right_side = side_of(silhouette.right);
+  const int left_side = side_of(silhouette.left);
+  SilhouetteSlopes slopes{
+      Position::kInLine,
+      SlopeOf(silhouette.right.x - viewpoint.x, silhouette.right.y - viewpoint.y),
+      SlopeOf(silhouette.left.x - viewpoint.x, silhouette.left.y - viewpoint.y)};
+  if (right_side == 0 && left_side == 0) return slopes;
   if (right_side == left_side) {
-    view.side = right_side > 0 ? Side::kLeft : Side::kRight;
-  } else if (left_side > right_side) {
-    view.side = Side::kAhead;
-    if (right_side == 0) view.right = {kInfinite, 0};
-    if (left_side == 0) view.left = {-kInfinite, 0};
-  } else {
-    view.side = Side::kBehind;
-    if (right_side == 0) view.right = {kInfinite, 0};
-    if (left_side == 0) view.left = {-kInfinite, 0};
+    slopes.position = right_side > 0 ? Position::kLeft : Position::kRight;
+    return slopes;
   }
-  return view;
+  slopes.position = left_side > right_side ? Position::kAhead : Position::kBehind;
+  if (right_side == 0) slopes.right = {kInfinite, 0};
+  if (left_side == 0) slopes.left = {-kInfinite, 0};
+  return slopes;
 }
 
-void EdgeOcclusion::SetRays() {
-  const auto ray = [this](const Slope& slope) -> Ray {
+void EdgeOcclusion::UpdateBounds() {
+  const auto vector_of = [this](const Slope& slope) -> PlanVector {
     const double size = std::abs(slope.numerator) + slope.denominator;
     const double along = -slope.numerator / size;
     const double across = slope.denominator / size;
     return {along * dx_ - across * dy_, along * dy_ + across * dx_};
   };
-  first_ray_ = ray(rest_.from);
-  last_ray_ = ray(rest_.to);
+  first_free_ = vector_of(free_.from);
+  last_free_ = vector_of(free_.to);
 }
 
-// Hidden from everywhere: cuts off an end of the rest, or is kept for when it does.
-void EdgeOcclusion::Hide(const Range& range) {
-  if (!Less(range.from, range.to)) return;
-  const bool cuts_first = !Less(rest_.from, range.from);
-  const bool cuts_last = !Less(range.to, rest_.to);
+// The interval is occluded from all points: it cuts off an end of what is free, or waits until it
+// does.
+void EdgeOcclusion::Occlude(const SlopeInterval& interval) {
+  if (!Less(interval.from, interval.to)) return;
+  const bool cuts_first = !Less(free_.from, interval.from);
+  const bool cuts_last = !Less(interval.to, free_.to);
   if (!cuts_first && !cuts_last) {
-    inside_.push_back(range);
+    inner_.push_back(interval);
     return;
   }
-  if (cuts_first && Less(rest_.from, range.to)) rest_.from = range.to;
-  if (cuts_last && Less(range.from, rest_.to)) rest_.to = range.from;
-  SetRays();
+  if (cuts_first && Less(free_.from, interval.to)) free_.from = interval.to;
+  if (cuts_last && Less(interval.from, free_.to)) free_.to = interval.from;
+  UpdateBounds();
 }
 
-// Whether some of the hull's box may be in a direction of the rest from some point of the edge: what is
-// on one side of both lines that bound it is not.
-bool EdgeOcclusion::ShowsInRest(const ConvexPolygon& hull) const {
+// Whether, from some point of the edge, part of the hull's box may lie in a free direction. It does
+// not if the box, widened by the edge, is on one side of both lines that bound the free directions.
+bool EdgeOcclusion::MayOcclude(const ConvexPolygon& hull) const {
+  // Any value is sound: hulls that are left out only leave more candidates. This one is above what
+  // rounding does, less than 2^-30 with coordinates below 2^17 and vectors that are 2^-50 off, so
+  // it leaves out no hull that matters; and it is far below the distance of two posts.
   constexpr double kMargin = 1e-6;
   const double x = 0.5 * (hull.least().x + hull.most().x - low_.x - high_.x);
   const double y = 0.5 * (hull.least().y + hull.most().y - low_.y - high_.y);
   const double half_width = 0.5 * (hull.most().x - hull.least().x + std::abs(dx_));
   const double half_height = 0.5 * (hull.most().y - hull.least().y + std::abs(dy_));
-  const auto beside = [&](const Ray& ray) -> int {
-    const double center = ray.x * y - ray.y * x;
-    const double reach = std::abs(ray.x) * half_height + std::abs(ray.y) * half_width + kMargin;
+  const auto side_of = [&](const PlanVector& v) -> int {
+    const double center = v.x * y - v.y * x;
+    const double reach = std::abs(v.x) * half_height + std::abs(v.y) * half_width + kMargin;
     return static_cast<int>(center > reach) - static_cast<int>(center < -reach);
   };
-  const int side = beside(first_ray_);
-  return side == 0 || beside(last_ray_) != side;
+  const int side = side_of(first_free_);
+  return side == 0 || side_of(last_free_) != side;
 }
 
 void EdgeOcclusion::Add(const ConvexPolygon& hull) {
-  if (hull.corners().size() < 2 || IsFull() || !ShowsInRest(hull)) return;
+  if (hull.corners().size() < 2 || IsOccluded() || !MayOcclude(hull)) return;
   const bool has_low = hull.Contains(low_);
   const bool has_high = hull.Contains(high_);
-  if (has_low && has_high) return;  // hides all of it, which is for others to find
-  // From the end that is outside a hull with the other end in it, the hull looks smallest.
+  if (has_low && has_high) return;
+  // A hull that contains one end occludes least as seen from the other end.
   const Point2i from_low = has_low ? high_ : low_;
   const Point2i from_high = has_high ? low_ : high_;
   const ConvexPolygon::Silhouette silhouette = hull.SilhouetteFrom(from_low);
   silhouettes_.push_back(silhouette);
-  const View low = ViewFrom(from_low, silhouette);
-  const View high = ViewFrom(from_high, hull.SilhouetteFrom(from_high));
-  if (low.side != high.side) return;
-  switch (low.side) {
-    case Side::kLeft:
-      return Hide({high.right, low.left});
-    case Side::kRight:
-      return Hide({low.right, high.left});
-    case Side::kAhead:
-      Hide({{-kInfinite, 0}, low.left});
-      return Hide({low.right, {kInfinite, 0}});
-    case Side::kBehind:
-      Hide({{-kInfinite, 0}, high.left});
-      return Hide({high.right, {kInfinite, 0}});
-    case Side::kNowhere:
+  const SilhouetteSlopes low = SlopesFrom(from_low, silhouette);
+  const SilhouetteSlopes high = SlopesFrom(from_high, hull.SilhouetteFrom(from_high));
+  if (low.position != high.position) return;
+  switch (low.position) {
+    case Position::kLeft:
+      return Occlude({high.right, low.left});
+    case Position::kRight:
+      return Occlude({low.right, high.left});
+    case Position::kAhead:
+      Occlude({{-kInfinite, 0}, low.left});
+      return Occlude({low.right, {kInfinite, 0}});
+    case Position::kBehind:
+      Occlude({{-kInfinite, 0}, high.left});
+      return Occlude({high.right, {kInfinite, 0}});
+    case Position::kInLine:
       return;
   }
 }
 
-bool EdgeOcclusion::IsComplete() {
-  std::sort(inside_.begin(), inside_.end(),
-            [](const Range& a, const Range& b) { return Less(a.from, b.from); });
-  const std::vector<Range> ranges = std::move(inside_);
-  inside_.clear();
-  for (const Range& range : ranges) Hide(range);
-  return IsFull();
+// By rising starts, one pass is enough: where an interval begins beyond free_.from, no later one
+// occludes the slopes between the two.
+bool EdgeOcclusion::Finish() {
+  std::sort(inner_.begin(), inner_.end(),
+            [](const SlopeInterval& a, const SlopeInterval& b) { return Less(a.from, b.from); });
+  const std::vector<SlopeInterval> intervals = std::move(inner_);
+  inner_.clear();
+  for (const SlopeInterval& interval : intervals) Occlude(interval);
+  return IsOccluded();
 }
 
-void EdgeOcclusion::AppendVirtualOccluders(std::int32_t level,
+void EdgeOcclusion::AppendVirtualOccluders(std::int32_t height,
                                            std::vector<Segment>& virtual_occluders) const {
-  SelectVirtualOccluders(low_, level, silhouettes_, virtual_occluders);
+  SelectVirtualOccluders(low_, height, silhouettes_, virtual_occluders);
 }
 
 }  // namespace farhorizon

@@ -5,75 +5,80 @@
 #include <vector>
 
 #include "core/geometry/convex_polygon.h"
+#include "core/geometry/segment.h"
 #include "core/horizon/visibility/face_wedge.h"
-#include "core/horizon/visibility/occluder_set.h"
 
 namespace farhorizon {
 
-/// What hulls of higher ground hide of one edge: the directions in which they do so from all of its points,
-/// and the segments ("virtual occluders") that say the same to the exact decision, which looks from one point
-/// at a time.
+/// The directions in which hulls of higher ground occlude all points of one edge, and virtual
+/// occluders, which hand the same hulls on to the exact decision.
 ///
-/// Directions are those of the half turn from the edge's own, lower end to higher, to its opposite, by
-/// their slope: minus the cotangent of their angle from the edge, which rises with it. The slope of a
-/// post as seen from the edge's point at t is linear in t, and rises on the left of the edge, falls
-/// on the right; so the two ends of the edge tell what is hidden from everywhere. Exact.
+/// A direction of the half turn from the edge's own, lower end to higher, to its opposite is given
+/// by its slope: minus the cotangent of its angle from the edge, which rises with the angle. The
+/// slope of a post seen from the edge's point at t is linear in t and rises on the left of the
+/// edge, falls on the right. So the two ends of the edge decide what is occluded from all of its
+/// points (core/horizon/README.md, theorem 6). Exact; what it calls occluded is occluded, the
+/// converse need not hold.
 class EdgeOcclusion {
  public:
-  /// wedge: as WedgeOf(low, high).
+  /// Requires: low and high are neighbours in the grid. wedge: WedgeOf(low, high).
   EdgeOcclusion(Point2i low, Point2i high, const std::optional<FaceWedge>& wedge);
 
-  /// Takes away what a hull hides; sooner so for those that hide much.
-  /// Cost: the hull's corners, if it shows in what is left.
+  /// Removes the directions that `hull` occludes. Add hulls that occlude most first: later ones
+  /// then cost less. A hull that contains both ends is ignored: theorem 5 has ruled out such edges.
+  /// Cost: the hull's corners, where a direction is left in which the hull can be seen.
   void Add(const ConvexPolygon& hull);
 
-  /// Whether nothing is left to hide, as far as that is known by now.
-  [[nodiscard]] bool IsFull() const { return !Less(rest_.from, rest_.to); }
+  /// Whether all directions are occluded, by what is known so far.
+  [[nodiscard]] bool IsOccluded() const { return !Less(free_.from, free_.to); }
 
-  /// Whether all directions are hidden from every point. Requires: no more hulls to come.
-  [[nodiscard]] bool IsComplete();
+  /// Applies what Add has put off; whether all directions are occluded. Requires: no hull is added
+  /// after it.
+  [[nodiscard]] bool Finish();
 
-  /// Appends the virtual occluders at `level` of the hulls that showed in the rest, beside wider ones (virtual_occluders.h).
-  void AppendVirtualOccluders(std::int32_t level, std::vector<Segment>& virtual_occluders) const;
+  /// Appends virtual occluders at `height` for the hulls that could be seen in a direction that was
+  /// left (virtual_occluders.h).
+  void AppendVirtualOccluders(std::int32_t height, std::vector<Segment>& virtual_occluders) const;
 
  private:
-  /// A slope as a fraction, denominator >= 0; infinite where that is 0. Whole numbers below 2^35, those
-  /// of posts below 2^18: products of two of which one is a post's are exact.
+  /// A slope as a fraction; denominator >= 0, infinite where it is 0. Both are integers: below 2^35
+  /// for the wedge, below 2^18 for posts.
   struct Slope {
     double numerator;
     double denominator;
   };
-  struct Range {
+  struct SlopeInterval {
     Slope from;
     Slope to;
   };
-  /// A silhouette's corner in the edge's frame, and where the silhouette is from the edge.
-  enum class Side { kLeft, kRight, kAhead, kBehind, kNowhere };
-  struct View {
-    Side side;
+  /// Where a hull is from the edge, and the slopes of its silhouette's corners.
+  enum class Position { kLeft, kRight, kAhead, kBehind, kInLine };
+  struct SilhouetteSlopes {
+    Position position;
     Slope right;
     Slope left;
+  };
+  struct PlanVector {
+    double x;
+    double y;
   };
 
   static bool Less(const Slope& a, const Slope& b);
   [[nodiscard]] Slope SlopeOf(double x, double y) const;
-  [[nodiscard]] View ViewFrom(Point2i eye, const ConvexPolygon::Silhouette& silhouette) const;
-  [[nodiscard]] bool ShowsInRest(const ConvexPolygon& hull) const;
-  void Hide(const Range& range);
-  void SetRays();
+  [[nodiscard]] SilhouetteSlopes SlopesFrom(Point2i viewpoint,
+                                            const ConvexPolygon::Silhouette& silhouette) const;
+  [[nodiscard]] bool MayOcclude(const ConvexPolygon& hull) const;
+  void Occlude(const SlopeInterval& interval);
+  void UpdateBounds();
 
   Point2i low_;
   Point2i high_;
   double dx_;
   double dy_;
-  Range rest_;  ///< nothing beyond is left
-  struct Ray {
-    double x;
-    double y;
-  };
-  Ray first_ray_;  ///< the directions of its ends
-  Ray last_ray_;
-  std::vector<Range> inside_;  ///< hidden parts of the rest
+  SlopeInterval free_;                ///< all directions outside it are occluded
+  PlanVector first_free_;             ///< in the direction free_.from
+  PlanVector last_free_;              ///< in the direction free_.to
+  std::vector<SlopeInterval> inner_;  ///< occluded, with free directions on both sides
   std::vector<ConvexPolygon::Silhouette> silhouettes_;
 };
 

@@ -12,21 +12,21 @@ void HullIndex::Add(const ConvexPolygon& hull) {
   Link(static_cast<std::int32_t>(entries_.size()) - 1);
 }
 
-void HullIndex::Grow(std::int32_t place, const ConvexPolygon& hull) {
-  Entry& entry = At(place);
+void HullIndex::Grow(std::int32_t slot, const ConvexPolygon& hull) {
+  Entry& entry = At(slot);
   entry.least = hull.least();
   entry.most = hull.most();
   if (ListOf(entry) == entry.list) return;
-  Unlink(place);
-  Link(place);
+  Unlink(slot);
+  Link(slot);
 }
 
-void HullIndex::Drop(std::int32_t place) {
-  Unlink(place);
+void HullIndex::Drop(std::int32_t slot) {
+  Unlink(slot);
   const auto last = static_cast<std::int32_t>(entries_.size()) - 1;
-  if (place != last) {
-    At(place) = At(last);
-    Rename(place);
+  if (slot != last) {
+    At(slot) = At(last);
+    Relink(slot);
   }
   entries_.pop_back();
 }
@@ -36,24 +36,24 @@ std::size_t HullIndex::ListOf(const Entry& entry) const {
   return small ? CellAt(entry.least.x / kCell, entry.least.y / kCell) : heads_.size() - 1;
 }
 
-void HullIndex::Link(std::int32_t place) {
-  Entry& entry = At(place);
+void HullIndex::Link(std::int32_t slot) {
+  Entry& entry = At(slot);
   entry.list = ListOf(entry);
   entry.previous = kNone;
   entry.next = heads_[entry.list];
-  Rename(place);
+  Relink(slot);
 }
 
-void HullIndex::Unlink(std::int32_t place) {
-  const Entry& entry = At(place);
+void HullIndex::Unlink(std::int32_t slot) {
+  const Entry& entry = At(slot);
   (entry.previous == kNone ? heads_[entry.list] : At(entry.previous).next) = entry.next;
   if (entry.next != kNone) At(entry.next).previous = entry.previous;
 }
 
-void HullIndex::Rename(std::int32_t place) {
-  const Entry& entry = At(place);
-  (entry.previous == kNone ? heads_[entry.list] : At(entry.previous).next) = place;
-  if (entry.next != kNone) At(entry.next).previous = place;
+void HullIndex::Relink(std::int32_t slot) {
+  const Entry& entry = At(slot);
+  (entry.previous == kNone ? heads_[entry.list] : At(entry.previous).next) = slot;
+  if (entry.next != kNone) At(entry.next).previous = slot;
 }
 
 }  // namespace farhorizon

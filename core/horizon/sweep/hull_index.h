@@ -9,30 +9,31 @@
 
 namespace farhorizon {
 
-/// The boxes of a scene's hulls, by where they are: those up to kCell posts wide and high in the cell of their
-/// least corner, the others, of which disjoint hulls leave room for few, in a list of their own. Where a
-/// thousand small hulls stand, what is near one of them is found without a look at all.
+/// The bounding boxes of the hulls of a HullScene, by their slots. Boxes up to kCell posts wide and
+/// high are in the cell of their least corner; all others, of which disjoint hulls leave room for
+/// few, are in a list of their own. So the hulls near a place are found without scanning every
+/// hull.
 class HullIndex {
  public:
   static constexpr std::int32_t kCell = 32;
 
   HullIndex(std::int32_t columns, std::int32_t rows);
 
-  /// The hull at the next place.
+  /// Adds the hull of the next slot.
   void Add(const ConvexPolygon& hull);
-  /// The one at `place` became larger.
-  void Grow(std::int32_t place, const ConvexPolygon& hull);
-  /// The one at `place` is gone, the last one takes its place.
-  void Drop(std::int32_t place);
+  /// The hull at `slot` has become larger.
+  void Grow(std::int32_t slot, const ConvexPolygon& hull);
+  /// Removes the hull at `slot`; the last hull moves to this slot.
+  void Drop(std::int32_t slot);
 
-  /// Whether the box of the hull at `place` and the one given have a point in common.
-  [[nodiscard]] bool Meets(std::int32_t place, Point2i least, Point2i most) const {
-    const Entry& e = entries_[static_cast<std::size_t>(place)];
+  /// Whether the box of the hull at `slot` and the box [least, most] have a point in common.
+  [[nodiscard]] bool BoxIntersects(std::int32_t slot, Point2i least, Point2i most) const {
+    const Entry& e = entries_[static_cast<std::size_t>(slot)];
     return e.least.x <= most.x && e.most.x >= least.x && e.least.y <= most.y && e.most.y >= least.y;
   }
 
-  /// The first place that accept(place) is true for, of the hulls whose boxes meet the one given; -1 if none.
-  /// The same order for the same changes.
+  /// The first slot for which accept(slot) is true, of the hulls whose boxes intersect the box
+  /// [least, most]; -1 if there is none. The order depends only on the sequence of changes.
   template <typename Accept>
   [[nodiscard]] std::int32_t Find(Point2i least, Point2i most, const Accept& accept) const {
     std::int32_t found = FindInList(heads_.size() - 1, least, most, accept);
@@ -54,35 +55,35 @@ class HullIndex {
     Point2i least;
     Point2i most;
     std::size_t list = 0;
-    std::int32_t previous = kNone;  ///< in the list
+    std::int32_t previous = kNone;  ///< slot in the list
     std::int32_t next = kNone;
   };
 
   template <typename Accept>
   [[nodiscard]] std::int32_t FindInList(std::size_t list, Point2i least, Point2i most,
                                         const Accept& accept) const {
-    std::int32_t place = heads_[list];
-    while (place != kNone && !(Meets(place, least, most) && accept(place))) {
-      place = entries_[static_cast<std::size_t>(place)].next;
+    std::int32_t slot = heads_[list];
+    while (slot != kNone && !(BoxIntersects(slot, least, most) && accept(slot))) {
+      slot = entries_[static_cast<std::size_t>(slot)].next;
     }
-    return place;
+    return slot;
   }
 
   [[nodiscard]] std::size_t CellAt(std::int32_t column, std::int32_t row) const {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
            static_cast<std::size_t>(column);
   }
-  [[nodiscard]] Entry& At(std::int32_t place) { return entries_[static_cast<std::size_t>(place)]; }
+  [[nodiscard]] Entry& At(std::int32_t slot) { return entries_[static_cast<std::size_t>(slot)]; }
   [[nodiscard]] std::size_t ListOf(const Entry& entry) const;
-  void Link(std::int32_t place);
-  void Unlink(std::int32_t place);
-  /// The neighbours in its list know it by this place.
-  void Rename(std::int32_t place);
+  void Link(std::int32_t slot);
+  void Unlink(std::int32_t slot);
+  /// Makes the neighbours in the list refer to the entry by this slot.
+  void Relink(std::int32_t slot);
 
   std::int32_t columns_;
   std::int32_t rows_;
-  std::vector<std::int32_t> heads_;  ///< of the cells, row by row, and of the large ones
-  std::vector<Entry> entries_;       ///< by place
+  std::vector<std::int32_t> heads_;  ///< of the lists: cells row by row, then large boxes
+  std::vector<Entry> entries_;       ///< by slot
 };
 
 }  // namespace farhorizon

@@ -9,30 +9,31 @@
 
 namespace farhorizon {
 
-/// One step of the descending plane: a hull is born from a post, grows by a post, or joins another.
+/// One change of the hulls while the plane falls: a hull starts at a post, is extended by a post,
+/// or absorbs another hull.
 struct HullChange {
-  enum class Kind { kBirth, kGrowth, kMerge };
-  Kind kind = Kind::kBirth;
-  std::int32_t hull = 0;   ///< its place; the new last one for a birth
-  std::int32_t other = 0;  ///< kMerge: the one that is lost; the last one takes its place
-  Point2i post;            ///< kBirth, kGrowth
+  enum class Kind { kStart, kExtension, kMerge };
+  Kind kind = Kind::kStart;
+  std::int32_t hull = 0;   ///< its slot; kStart: the slot after the last
+  std::int32_t other = 0;  ///< kMerge: the slot of the absorbed hull; the last hull moves to it
+  Point2i post;            ///< kStart, kExtension
 };
 
-/// The merged hulls of the ground at or above a level, none of which meet: a state of the sweep, which the
-/// changes that led to it lead to again.
+/// The merged hulls of the ground at or above one height, which are disjoint: a state of the sweep.
+/// The same changes lead to the same state, slots included.
 class HullScene {
  public:
-  /// None yet, of a DEM of so many posts.
+  /// No hulls, over a DEM of columns x rows posts.
   HullScene(std::int32_t columns, std::int32_t rows) : index_(columns, rows) {}
 
   [[nodiscard]] const std::vector<ConvexPolygon>& hulls() const { return hulls_; }
-  [[nodiscard]] const ConvexPolygon& hull(std::int32_t place) const {
-    return hulls_[static_cast<std::size_t>(place)];
+  [[nodiscard]] const ConvexPolygon& hull(std::int32_t slot) const {
+    return hulls_[static_cast<std::size_t>(slot)];
   }
 
   [[nodiscard]] const HullIndex& index() const { return index_; }
 
-  /// Cost: O(c) for growth, O(c log c) for a merge, for hulls of c corners.
+  /// Cost: O(c) for an extension, O(c log c) for a merge, for hulls of c corners.
   void Apply(const HullChange& change);
 
  private:

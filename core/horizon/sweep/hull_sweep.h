@@ -12,32 +12,32 @@
 
 namespace farhorizon {
 
-/// What a plane that descends through the terrain, past its vertices by falling height and rising number,
-/// saw of the merged hulls of the ground at or above it.
-///
-/// Its changes can be made again from each of its checkpoints on.
+/// The history of the merged hulls of the ground at or above a plane that falls through the terrain
+/// past its vertices, by falling height and rising number (core/horizon/README.md, theorem 4). The
+/// changes can be replayed from each checkpoint on.
 struct HullSweep {
   struct Change {
     HullChange hulls;
-    VertexId by = 0;  ///< the vertex that the plane met
+    VertexId by = 0;  ///< the vertex at which it happened
   };
+  /// A state of the sweep.
   struct Checkpoint {
-    VertexId vertex = 0;          ///< that comes next
-    std::size_t next_change = 0;  ///< the first that it, or a later one, makes
-    HullScene scene;              ///< before it
+    VertexId vertex = 0;          ///< the next vertex
+    std::size_t next_change = 0;  ///< the first change at that vertex or a later one
+    HullScene scene;              ///< the hulls before that vertex
   };
 
   std::vector<Change> changes;          ///< in order
-  std::vector<Checkpoint> checkpoints;  ///< in order; the first one is the summit
+  std::vector<Checkpoint> checkpoints;  ///< in order; the first is at the summit
   HullMergeTree hulls;
   HorizonStatistics statistics;
 };
 
 /// Sweeps the terrain from its summit down.
 ///
-/// The same for any `threads`, which share what can be known of a vertex by itself.
-/// Cost: O(n log n) plus, for each vertex that enlarges a hull, the size of the hull and the hulls
-/// apart. Errors: kCancelled.
+/// The same for any number of threads, which only sort the vertices.
+/// Cost: O(n log n) and, for each vertex that extends a hull, the size of the hull and the hulls
+/// nearby. Errors: kCancelled.
 Result<HullSweep> SweepHulls(const Terrain& terrain, int threads, const Watch& watch);
 
 }  // namespace farhorizon

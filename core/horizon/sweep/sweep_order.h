@@ -10,22 +10,22 @@
 
 namespace farhorizon {
 
-/// In which order a plane that descends through the terrain meets its vertices: by falling height and rising
-/// number.
+/// The vertices in the order in which a falling plane passes them: by falling height, then by
+/// rising number.
 struct SweepOrder {
-  /// Which of a vertex's neighbours come before it.
-  struct Around {
-    std::uint16_t before = 0;  ///< bit i: the neighbour at offsets[i]
-    bool some_after = false;   ///< neither: a post that is no vertex
+  /// Which neighbours of a post come before it. A post that is no vertex has no neighbours.
+  struct NeighbourOrder {
+    std::uint16_t before = 0;  ///< bit i: the neighbour at offsets[i] comes before the post
+    bool some_after = false;   ///< some neighbour comes after the post
   };
 
   std::vector<VertexId> vertices;
-  std::vector<Around> around;  ///< a post each
-  std::array<VertexId, 9>
-      offsets{};  ///< of the posts around, row by row, to their number in the DEM
+  std::vector<NeighbourOrder> neighbour_orders;  ///< per post
+  /// From a post's number to those of the 3 x 3 posts around it, row by row.
+  std::array<VertexId, 9> offsets{};
 };
 
-/// Empty where the watch said stop. The same for any `threads`.
+/// nullopt where a stop was requested. The same for any number of threads.
 /// Cost: O(n); O(n log n) where the heights take more than 4 n values.
 std::optional<SweepOrder> OrderOfSweep(const Terrain& terrain, int threads, const Watch& watch);
 

@@ -7,7 +7,8 @@
 namespace farhorizon {
 namespace {
 
-struct Shade {
+// The directions that a silhouette takes. They may go on at the start of the half turn.
+struct SilhouetteArc {
   double from;  // keys as in direction.h: the half turn is 2
   double width;
   const ConvexPolygon::Silhouette* silhouette;
@@ -15,9 +16,9 @@ struct Shade {
 
 constexpr double kHalfTurn = 2;
 
-double KeyOf(Point2i eye, Point2i p) {
-  double x = p.x - eye.x;
-  double y = p.y - eye.y;
+double KeyOf(Point2i viewpoint, Point2i p) {
+  double x = p.x - viewpoint.x;
+  double y = p.y - viewpoint.y;
   if (y < 0 || (y == 0 && x < 0)) {
     x = -x;
     y = -y;
@@ -25,36 +26,35 @@ double KeyOf(Point2i eye, Point2i p) {
   return 1 - x / (std::abs(x) + y);
 }
 
-// Whether an interval of directions, which may cross the start, is inside one of those that are kept.
-bool Hidden(const std::vector<Shade>& kept, const Shade& shade) {
-  return std::any_of(kept.begin(), kept.end(), [&shade](const Shade& k) {
-    double start = shade.from - k.from;
+bool IsInsideOneOf(const std::vector<SilhouetteArc>& wider, const SilhouetteArc& arc) {
+  return std::any_of(wider.begin(), wider.end(), [&arc](const SilhouetteArc& w) {
+    double start = arc.from - w.from;
     if (start < 0) start += kHalfTurn;
-    return start + shade.width <= k.width;
+    return start + arc.width <= w.width;
   });
 }
 
 }  // namespace
 
-void SelectVirtualOccluders(Point2i eye, std::int32_t level,
+void SelectVirtualOccluders(Point2i viewpoint, std::int32_t height,
                             const std::vector<ConvexPolygon::Silhouette>& silhouettes,
                             std::vector<Segment>& virtual_occluders) {
-  std::vector<Shade> shades;
+  std::vector<SilhouetteArc> arcs;
   for (const ConvexPolygon::Silhouette& s : silhouettes) {
-    const double from = KeyOf(eye, s.right);
-    double width = KeyOf(eye, s.left) - from;
+    const double from = KeyOf(viewpoint, s.right);
+    double width = KeyOf(viewpoint, s.left) - from;
     if (width < 0) width += kHalfTurn;
-    if (s.right != s.left) shades.push_back({from, width, &s});
+    if (s.right != s.left) arcs.push_back({from, width, &s});
   }
-  std::sort(shades.begin(), shades.end(), [](const Shade& a, const Shade& b) {
+  std::sort(arcs.begin(), arcs.end(), [](const SilhouetteArc& a, const SilhouetteArc& b) {
     return std::pair(-a.width, a.from) < std::pair(-b.width, b.from);
   });
-  std::vector<Shade> kept;
-  for (const Shade& shade : shades) {
-    if (Hidden(kept, shade)) continue;
-    kept.push_back(shade);
-    const ConvexPolygon::Silhouette& s = *shade.silhouette;
-    virtual_occluders.push_back({{s.right.x, s.right.y, level}, {s.left.x, s.left.y, level}});
+  std::vector<SilhouetteArc> kept;
+  for (const SilhouetteArc& arc : arcs) {
+    if (IsInsideOneOf(kept, arc)) continue;
+    kept.push_back(arc);
+    const ConvexPolygon::Silhouette& s = *arc.silhouette;
+    virtual_occluders.push_back({{s.right.x, s.right.y, height}, {s.left.x, s.left.y, height}});
   }
 }
 

@@ -4,14 +4,14 @@
 #include <vector>
 
 #include "core/geometry/convex_polygon.h"
-#include "core/horizon/visibility/occluder_set.h"
+#include "core/geometry/segment.h"
 
 namespace farhorizon {
 
-/// Appends to `virtual occluders` a level segment at `level` for each silhouette that shows from `eye` beside the
-/// wider ones: the fewer, the faster a sight over them is decided. Which are left out never changes an
-/// answer, so floating point is good enough to choose.
-void SelectVirtualOccluders(Point2i eye, std::int32_t level,
+/// Appends to `virtual_occluders` a horizontal segment at `height` for each silhouette, except
+/// those that wider ones occlude as seen from `viewpoint`: the fewer segments, the faster the
+/// decision. No answer depends on the selection, so it is made in floating point.
+void SelectVirtualOccluders(Point2i viewpoint, std::int32_t height,
                             const std::vector<ConvexPolygon::Silhouette>& silhouettes,
                             std::vector<Segment>& virtual_occluders);
 

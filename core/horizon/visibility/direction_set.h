@@ -7,67 +7,71 @@
 
 namespace farhorizon {
 
-/// A box and a segment of the plan in plain numbers, as seen from the origin.
+/// A box of the plan, in doubles, relative to a point of view.
 struct PlanBox {
   double center_x;
   double center_y;
   double half_width;
   double half_height;
 };
-struct PlanStroke {
+/// A segment of the plan, in doubles, relative to a point of view.
+struct PlanSegment {
   double from_x;
   double from_y;
   double to_x;
   double to_y;
 };
 
-/// A growing set of directions of sight: closed arcs, kept apart and in order. Exact.
+/// A growing set of directions: disjoint closed arcs of the half turn, in order. Exact.
 template <typename Int>
 class BasicDirectionSet {
  public:
   using Direction = BasicDirection<Int>;
 
-  /// Adds the closed arc that turns counter-clockwise from `from` to `to` (less than half a turn;
-  /// the two may be one direction). `crosses_start`: the arc passes the half turn's end and goes on
-  /// at its beginning.
+  /// Adds the closed arc that turns counter-clockwise from `from` to `to`, by less than half a
+  /// turn; the two may be one direction.
+  /// crosses_start: the arc passes the end of the half turn and goes on at its start.
   void Add(const Direction& from, const Direction& to, bool crosses_start, PredicateCounts* counts);
 
+  /// Whether the set is the whole half turn.
   [[nodiscard]] bool IsComplete() const { return complete_; }
 
-  /// True only if the directions to all points of a box, or of a segment, are in the set. For pruning:
-  /// coordinates, counted from the eye, of up to 10^5 that are 10^-8 off do no harm.
+  /// True only if the directions to all points of the box, or of the segment, are in the set. May
+  /// be false for some of which this is so. Requires: coordinates are below 2^17 and no more than
+  /// 10^-8 off.
   [[nodiscard]] bool SurelyContains(const PlanBox& box) const;
-  [[nodiscard]] bool SurelyContains(const PlanStroke& stroke) const;
+  [[nodiscard]] bool SurelyContains(const PlanSegment& segment) const;
 
-  /// The widest open range of directions that is not in the set, as vectors a positive turn of at
-  /// most half a turn apart; nullopt where the set is complete.
-  struct Gap {
+  /// An open arc of directions outside the set: from `from` counter-clockwise to `to`, by half a
+  /// turn at most.
+  struct FreeArc {
     BasicVector<Int> from;
     BasicVector<Int> to;
   };
-  [[nodiscard]] std::optional<Gap> WidestGap() const;
+  /// The widest one, by the keys of its ends; nullopt where the set is complete.
+  [[nodiscard]] std::optional<FreeArc> WidestFreeArc() const;
 
  private:
-  struct Interval {
+  struct Arc {
     Direction from;
     Direction to;
   };
-  /// A vector of about unit size in plain numbers.
-  struct Ray {
+  /// A vector with |x| + |y| = 1, about.
+  struct UnitVector {
     double x;
     double y;
   };
-  /// An open range of directions that is not in the set.
-  struct Opening {
-    Ray from;
-    Ray to;
+  /// A FreeArc in doubles.
+  struct ApproximateFreeArc {
+    UnitVector from;
+    UnitVector to;
   };
-  void AddInterval(const Direction& from, const Direction& to, PredicateCounts* counts);
-  void FindOpenings();
-  static Ray RayOf(const Direction& direction);
+  void AddWithinHalfTurn(const Direction& from, const Direction& to, PredicateCounts* counts);
+  void UpdateFreeArcs();
+  static UnitVector UnitVectorOf(const Direction& direction);
 
-  std::vector<Interval> intervals_;
-  std::vector<Opening> openings_;  ///< once there are intervals
+  std::vector<Arc> arcs_;
+  std::vector<ApproximateFreeArc> free_arcs_;  ///< up to date once arcs_ is not empty
   bool complete_ = false;
 };
 using DirectionSet = BasicDirectionSet<Int128>;

@@ -1,3 +1,14 @@
+// The wedge of directions that the two faces beside an edge leave free (core/horizon/README.md,
+// theorem 7):
+//
+//                    last         first      `first`: the contour of the face on the left. Further
+//                       \         /          clockwise, that face rises above the edge's point p.
+//            left face   \  free /           `last`: the opposite of the contour of the face on
+//                         \     /            the right. Further counter-clockwise, the line comes
+//                          \   /             from higher ground on the right.
+//     low ----------------- p ----------------> high
+//                          /   \             One face missing: its contour is the edge itself.
+//            right face   /     \            A valley: last comes before first, nothing is free.
 #include "core/horizon/visibility/face_wedge.h"
 
 #include <utility>
@@ -5,6 +16,7 @@
 #include "core/geometry/direction.h"
 
 namespace farhorizon {
+
 std::optional<FaceWedge> WedgeOf(const Point3i& low, const Point3i& high,
                                  const std::optional<Point3i>& c, const std::optional<Point3i>& d) {
   const std::int64_t climb = std::int64_t{high.z} - low.z;
@@ -13,7 +25,7 @@ std::optional<FaceWedge> WedgeOf(const Point3i& low, const Point3i& high,
   FaceWedge wedge{along, {-along.x, -along.y}};
   for (const std::optional<Point3i>& third : {c, d}) {
     if (!third) continue;
-    // climb * to - rise * along does not climb; it points to the third post's side.
+    // climb * to - rise * along has no rise in the face: a contour, towards the third post.
     const ShortVector to{third->x - low.x, third->y - low.y};
     const std::int64_t rise = std::int64_t{third->z} - low.z;
     const ShortVector contour{climb * to.x - rise * along.x, climb * to.y - rise * along.y};

@@ -7,17 +7,18 @@
 
 namespace farhorizon {
 
-/// The directions, counter-clockwise from `first` to `last`, in which the ground right beside an edge does
-/// not rise above it: the same at all its points. Both lie in the half turn from the direction of
-/// the edge, lower end to higher, to its opposite, ends included; first comes before last.
+/// The directions, counter-clockwise from `first` to `last`, in which the ground right beside an
+/// edge does not rise above the edge (core/horizon/README.md, theorem 7): the same at all its
+/// points. Both lie in the half turn from the direction of the edge, lower end to higher, to the
+/// opposite direction, ends included; `first` comes before `last`.
 struct FaceWedge {
   ShortVector first;
   ShortVector last;
 };
 
-/// Between the contours of the two faces beside low -> high, whose third posts are `c` and `d`, one on each
-/// side; an edge of the border has one. nullopt for a level edge (none of its faces hides it) and for one
-/// that is no ridge. Exact.
+/// The wedge between the contours of the two faces beside low -> high. c, d: their third posts, one
+/// on each side; a border edge has one of them. nullopt for a horizontal edge, which no wedge
+/// describes, and for an edge that is no ridge. Exact.
 std::optional<FaceWedge> WedgeOf(const Point3i& low, const Point3i& high,
                                  const std::optional<Point3i>& c, const std::optional<Point3i>& d);
 

@@ -1,3 +1,19 @@
+// A covered point is covered with its surroundings (core/horizon/README.md, theorem 9). Of the arcs
+// that cover the half turn at t, a minimal chain is taken, each arc of which begins before the one
+// before it ends:
+//
+//      start |----- directions counter-clockwise ----->| half a turn: the start again
+//      ======1===>                                ======1    the first arc contains the start
+//              ======2=====>
+//                       ========3======>
+//                                    =====4========>         the last one reaches the first
+//
+// The chain covers the half turn at every t at which these hold: each arc turns counter-clockwise
+// (cross(from, to) >= 0), each arc's `from` is not beyond the `to` before it, each occluder is
+// higher than the point, and the point is on the same side of the height of its lower end. Each
+// condition is q(t) >= 0 for a polynomial q of degree two at most; the range is narrowed to where
+// all of them hold. A vector is a boundary of the half turn in one of its two senses; the sense
+// that it has at t is used for all t, so a vector that turns through the start changes no sign.
 #include "core/horizon/visibility/occluded_range.h"
 
 #include <algorithm>
@@ -8,19 +24,19 @@
 namespace farhorizon {
 namespace {
 
-// Points in the numbers that roots are compared with.
+// t in the numbers that roots are compared with.
 Dyadic ForRoots(const ShortDyadic& t) { return {t.n, t.k}; }
 Dyadic ForRoots(const Dyadic& t) { return t; }
 WideDyadic ForRoots(const WideDyadic& t) { return t; }
 
-// Narrows a range around t to where polynomials that are not negative at t stay so.
+// Narrows [0, 1] around t to where polynomials that are not negative at t stay so.
 template <typename Point>
 class RangeNarrower {
  public:
   explicit RangeNarrower(const Point& t)
       : t_(t), range_{QuadraticRoot::At(Dyadic{0, 0}), QuadraticRoot::At(Dyadic{1, 0})} {}
 
-  void Keep(const Quadratic& q) {
+  void KeepNonNegative(const Quadratic& q) {
     if (BernsteinNonNegative(q)) return;
     const NonNegativeRange allowed = NonNegativeAround(q, t_);
     if (allowed.point) range_ = {QuadraticRoot::At(t_), QuadraticRoot::At(t_)};
@@ -43,26 +59,28 @@ class RangeNarrower {
 
 Quadratic Negated(const Quadratic& q) { return {-q.c0, -q.c1, -q.c2}; }
 
-// Heights: the point at t is not above the obstacle's top, and not past its lower end on the side
-// that the arc was made for.
+// The point is not above the occluder's upper end, and above or below its lower end as at t.
 template <typename Int, typename Point>
-void KeepHeights(const TargetSegment& e, const BasicArc<Int>& arc, RangeNarrower<Point>& narrower) {
-  if (arc.obstacle == kFaces) return;
+void KeepHeightOrder(const TargetSegment& e, const BasicOccluderArc<Int>& arc,
+                     RangeNarrower<Point>& narrower) {
+  if (arc.occluder == kAdjacentFaces) return;
   const Int128 climb = Int128{e.high.z} - e.low.z;
-  narrower.Keep({Int128{arc.high_z} - e.low.z, -climb, 0});
+  narrower.KeepNonNegative({Int128{arc.high_z} - e.low.z, -climb, 0});
   if (arc.sliced) {
-    narrower.Keep({Int128{e.low.z} - arc.low_z, climb, 0});
+    narrower.KeepNonNegative({Int128{e.low.z} - arc.low_z, climb, 0});
   } else {
-    narrower.Keep({Int128{arc.low_z} - e.low.z, -climb, 0});
+    narrower.KeepNonNegative({Int128{arc.low_z} - e.low.z, -climb, 0});
   }
 }
 
-// A chain of arcs that covers the half turn; the first contains the start, or begins at it.
+// Arcs that cover the half turn, each but the first beginning on the one before. The first contains
+// the start, or begins there. Greedy: of the arcs that begin on the last one, the one that ends
+// furthest is next.
 template <typename Int>
-std::vector<const BasicArc<Int>*> Thin(const std::vector<BasicArc<Int>>& arcs,
-                                       PredicateCounts* counts) {
-  using Arc = BasicArc<Int>;
-  const auto at_start = [](const Arc& arc) {
+std::vector<const BasicOccluderArc<Int>*> MinimalChain(
+    const std::vector<BasicOccluderArc<Int>>& arcs, PredicateCounts* counts) {
+  using Arc = BasicOccluderArc<Int>;
+  const auto contains_start = [](const Arc& arc) {
     return arc.crosses_start || SignOf(arc.from_direction.v.y) == 0;
   };
   const auto ends_later = [counts](const Arc* a, const Arc* b) {
@@ -72,13 +90,13 @@ std::vector<const BasicArc<Int>*> Thin(const std::vector<BasicArc<Int>>& arcs,
   std::vector<const Arc*> by_start;
   const Arc* first = nullptr;
   for (const Arc& arc : arcs) {
-    if (at_start(arc) &&
+    if (contains_start(arc) &&
         (first == nullptr || CompareAngle(arc.to_direction, first->to_direction, counts) > 0)) {
       first = &arc;
     }
     by_start.push_back(&arc);
   }
-  Check(first != nullptr, "some arc of a cover contains the start");
+  Check(first != nullptr, "some arc contains the start where all directions are covered");
   std::sort(by_start.begin(), by_start.end(), [counts](const Arc* a, const Arc* b) {
     return CompareAngle(a->from_direction, b->from_direction, counts) < 0;
   });
@@ -95,76 +113,72 @@ std::vector<const BasicArc<Int>*> Thin(const std::vector<BasicArc<Int>>& arcs,
          ++next) {
       if (best == nullptr || ends_later(by_start[next], best)) best = by_start[next];
     }
-    Check(best != nullptr, "a cover has an arc that goes on where another ends");
+    Check(best != nullptr, "some arc begins on the last one where all directions are covered");
     chain.push_back(best);
   }
 }
 
-// Cross products with each vector taken in the sense that its direction had at t.
+// The cross product of two vectors, each taken in the sense that its direction has at t.
 Quadratic CrossOf(const MovingVector& a, bool a_turned, const MovingVector& b, bool b_turned) {
   const Quadratic cross = Cross(a, b);
   return a_turned == b_turned ? cross : Negated(cross);
 }
 
 template <typename Int, typename Point>
-void KeepChain(const std::vector<const BasicArc<Int>*>& chain, RangeNarrower<Point>& narrower) {
-  using Arc = BasicArc<Int>;
-  for (const Arc* arc : chain) narrower.Keep(Cross(arc->from, arc->to));
+void KeepChain(const std::vector<const BasicOccluderArc<Int>*>& chain,
+               RangeNarrower<Point>& narrower) {
+  using Arc = BasicOccluderArc<Int>;
+  for (const Arc* arc : chain) narrower.KeepNonNegative(Cross(arc->from, arc->to));
   for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
-    // The next begins no later than this one ends, both in the upper half plane.
-    narrower.Keep(CrossOf(chain[i + 1]->from, chain[i + 1]->from_direction.turned, chain[i]->to,
-                          chain[i]->to_direction.turned));
+    // The next arc's `from` is not beyond this one's `to`; both directions are in the half turn.
+    narrower.KeepNonNegative(CrossOf(chain[i + 1]->from, chain[i + 1]->from_direction.turned,
+                                     chain[i]->to, chain[i]->to_direction.turned));
   }
   const Arc& first = *chain.front();
   const Arc& last = *chain.back();
-  // Around the start: the last one's end, half a turn on if it crosses, against the first one's
-  // beginning, half a turn on if that one does not cross.
+  // Around the start: the first arc's `from` is not beyond the last one's `to`. Where the first arc
+  // crosses the start, its `from` is before the half turn's end; where the last one crosses it, its
+  // `to` is half a turn further on.
   const bool half_turn_apart = last.crosses_start == first.crosses_start;
   const Quadratic closing =
       CrossOf(first.from, first.from_direction.turned, last.to, last.to_direction.turned);
   if (first.crosses_start) {
-    narrower.Keep(half_turn_apart ? Negated(closing) : closing);
+    narrower.KeepNonNegative(half_turn_apart ? Negated(closing) : closing);
   } else {
-    narrower.Keep(closing);
+    narrower.KeepNonNegative(closing);
   }
 }
 
 }  // namespace
 
 template <typename Int>
-OccludedRange OccludedRangeAround(const TargetSegment& target, const BasicPointView<Int>& sample,
-                                  PointOutcome outcome, const BasicDyadic<Int>& at,
-                                  std::vector<std::int32_t>* blockers, PredicateCounts* counts) {
-  using Arc = BasicArc<Int>;
-  const auto& t = ForRoots(at);
-  if (outcome == PointOutcome::kAmbiguous) {
+OccludedRange OccludedRangeAround(const BasicPointView<Int>& view,
+                                  std::vector<OccluderId>& occluders) {
+  using Arc = BasicOccluderArc<Int>;
+  const auto& t = ForRoots(view.t());
+  if (view.outcome() == PointOutcome::kAmbiguous) {
     return {QuadraticRoot::At(t), QuadraticRoot::At(t)};
   }
   RangeNarrower narrower(t);
-  if (outcome == PointOutcome::kEnclosed) {
-    const Arc& arc = sample.arcs().front();
-    KeepHeights(target, arc, narrower);
-    if (!arc.from.IsZero()) narrower.Keep(Negated(Dot(arc.from, arc.to)));
-    if (blockers != nullptr && arc.obstacle >= 0) blockers->push_back(arc.obstacle);
+  if (view.outcome() == PointOutcome::kOccludedByOne) {
+    const Arc& arc = view.arcs().front();
+    KeepHeightOrder(view.target(), arc, narrower);
+    // The point stays between the ends of the part that is above it.
+    if (!arc.from.IsZero()) narrower.KeepNonNegative(Negated(Dot(arc.from, arc.to)));
+    if (arc.occluder >= 0) occluders.push_back(arc.occluder);
     return narrower.range();
   }
-  const std::vector<const Arc*> chain = Thin(sample.arcs(), counts);
+  const std::vector<const Arc*> chain = MinimalChain(view.arcs(), view.counts());
   for (const Arc* arc : chain) {
-    KeepHeights(target, *arc, narrower);
-    if (blockers != nullptr && arc->obstacle >= 0) blockers->push_back(arc->obstacle);
+    KeepHeightOrder(view.target(), *arc, narrower);
+    if (arc->occluder >= 0) occluders.push_back(arc->occluder);
   }
   KeepChain(chain, narrower);
   return narrower.range();
 }
 
-template OccludedRange OccludedRangeAround(const TargetSegment&, const ShortPointView&,
-                                           PointOutcome, const ShortDyadic&,
-                                           std::vector<std::int32_t>*, PredicateCounts*);
-template OccludedRange OccludedRangeAround(const TargetSegment&, const PointView&, PointOutcome,
-                                           const Dyadic&, std::vector<std::int32_t>*,
-                                           PredicateCounts*);
-template OccludedRange OccludedRangeAround(const TargetSegment&, const WidePointView&, PointOutcome,
-                                           const WideDyadic&, std::vector<std::int32_t>*,
-                                           PredicateCounts*);
+template OccludedRange OccludedRangeAround(const ShortPointView&, std::vector<OccluderId>&);
+template OccludedRange OccludedRangeAround(const PointView&, std::vector<OccluderId>&);
+template OccludedRange OccludedRangeAround(const WidePointView&, std::vector<OccluderId>&);
 
 }  // namespace farhorizon

@@ -1,15 +1,16 @@
-// Whether a segment can be sighted over a set of others.
-// Its points are asked one at a time: a point in sight answers the question; a point that is hidden
-// is hidden together with a whole range around it, as far as the obstacles that hide it go on doing
-// so. What the ranges leave open is asked next. Ranges end at roots of quadratics, compared
-// exactly, so that ranges which only just meet do meet; each range ends at a real change of what
-// hides the segment, of which there are finitely many.
-// A sight that cannot be said in plain numbers is kept while a few more points are asked for another.
+// Whether a segment is visible over a set of others. The points of the segment are asked one at a
+// time (core/horizon/README.md, theorems 8 and 9). A visible point answers the query. An occluded
+// point is occluded together with a range around it, on which the same occluders go on covering all
+// directions. Points that no range contains are asked next.
+// Termination: each range ends at 0, at 1 or at a root of one of finitely many quadratics, and ends
+// are compared exactly, so ranges that just touch leave no gap between them.
+// A witness that a double and two 53-bit integers cannot represent is kept while a few more points
+// are asked for a simpler one.
 #include "core/horizon/visibility/occluder_set.h"
 
 #include <deque>
+#include <utility>
 
-#include "core/base/result.h"
 #include "core/exact/quadratic.h"
 #include "core/horizon/visibility/point_query.h"
 #include "core/horizon/visibility/segment_index.h"
@@ -17,16 +18,10 @@
 namespace farhorizon {
 namespace {
 
-// How many sights in awkward directions are looked at for the simplest: enough to meet the middle of
-// what is free around the first.
-constexpr int kMostSights = 32;
-
-// Whether the decisions are past those that the limit allows; it is told so.
-bool IsReached(DecisionLimit* limit, const PredicateCounts* counts, std::int64_t most) {
-  if (limit == nullptr || counts == nullptr || counts->Sum() < most) return false;
-  limit->reached = true;
-  return true;
-}
+// How many witnesses with long numbers are compared for the simplest one. Any value is sound: it
+// only decides which witness is returned. This one is enough to reach the middle of the free
+// directions around the first.
+constexpr int kMostLongWitnesses = 32;
 
 }  // namespace
 
@@ -40,42 +35,46 @@ OccluderSet::~OccluderSet() = default;
 OccluderSet::OccluderSet(OccluderSet&&) noexcept = default;
 OccluderSet& OccluderSet::operator=(OccluderSet&&) noexcept = default;
 
-OccluderSet::Id OccluderSet::Insert(const Segment& segment) {
-  return index_->segments.Insert(segment);
-}
-void OccluderSet::Erase(Id id) { index_->segments.Erase(id); }
+OccluderId OccluderSet::Insert(const Segment& segment) { return index_->segments.Insert(segment); }
+void OccluderSet::Erase(OccluderId id) { index_->segments.Erase(id); }
 std::int64_t OccluderSet::size() const { return index_->segments.alive(); }
 
-std::optional<Witness> OccluderSet::FindLineOfSight(
-    const Segment& segment, Ties ties, std::optional<Id> except, const OcclusionHints& hints,
-    std::vector<Id>* blockers, PredicateCounts* counts, DecisionLimit* limit) const {
-  PointQuery search(index_->segments, segment, ties, except, hints, blockers, counts);
+Visibility OccluderSet::FindLineOfSight(const VisibilityQuery& query) const {
+  PointQuery points(index_->segments, query);
+  Visibility answer;
   std::deque<OccludedRange> open = {
       {QuadraticRoot::At(Dyadic{0, 0}), QuadraticRoot::At(Dyadic{1, 0})}};
-  std::optional<Witness> best;
-  int sights = 0;
-  Check(limit == nullptr || counts != nullptr, "what is limited is counted");
-  const std::int64_t most =
-      limit != nullptr && counts != nullptr ? counts->Sum() + limit->decisions : 0;
-  while (!open.empty() && sights < kMostSights && !IsReached(limit, counts, most)) {
-    // One sight is looked for in depth, a simpler one everywhere.
-    const OccludedRange gap = best ? open.front() : open.back();
-    best ? open.pop_front() : open.pop_back();
-    const std::optional<WideDyadic> t = Between(gap.from, gap.to);
-    if (!t) continue;
-    PointAnswer finding = search.LookAt(*t);
-    if (finding.sight) {
-      if (IsPlain(*finding.sight)) return finding.sight;
-      if (!best || Simpler(*finding.sight, *best)) best = finding.sight;
-      // This is the coarsest number in the gap: where it has too many digits, so have all others.
-      if (!search.FitsDouble(*t) || t->k > kMaxDyadicBits) continue;
-      ++sights;
-      finding.hidden = {QuadraticRoot::At(*t), QuadraticRoot::At(*t)};
+  int long_witnesses = 0;
+  while (!open.empty() && long_witnesses < kMostLongWitnesses) {
+    if (query.decision_limit && points.counts().Sum() >= *query.decision_limit) {
+      answer.gave_up = true;
+      break;
     }
-    open.push_back({gap.from, finding.hidden.from});
-    open.push_back({finding.hidden.to, gap.to});
+    // The first witness is searched for depth first, a simpler one breadth first.
+    const OccludedRange range = answer.witness ? open.front() : open.back();
+    answer.witness ? open.pop_front() : open.pop_back();
+    const std::optional<WideDyadic> t = Between(range.from, range.to);
+    if (!t) continue;
+    PointAnswer point = points.AnswerAt(*t);
+    if (point.witness) {
+      const bool plain = IsPlain(*point.witness);
+      if (plain || !answer.witness || IsSimpler(*point.witness, *answer.witness)) {
+        answer.witness = point.witness;
+      }
+      if (plain) break;
+      // t is the coarsest number in the range: where t has too many digits, all others have.
+      if (!points.FitsDouble(*t) || t->k > kMaxDyadicBits) continue;
+      ++long_witnesses;
+      point.occluded = {QuadraticRoot::At(*t), QuadraticRoot::At(*t)};
+    } else if (query.want_occluders) {
+      answer.occluders.insert(answer.occluders.end(), points.occluders().begin(),
+                              points.occluders().end());
+    }
+    open.push_back({range.from, point.occluded.from});
+    open.push_back({point.occluded.to, range.to});
   }
-  return best;
+  answer.counts = points.counts();
+  return answer;
 }
 
 }  // namespace farhorizon

@@ -1,3 +1,6 @@
+// One point of a segment, asked in the smallest of three sizes of numbers that hold it. Nearly all
+// points have few bits. A view counts t from the lower end of the segment, a witness from its
+// first end; MakeWitness converts one into the other.
 #include "core/horizon/visibility/point_query.h"
 
 #include <algorithm>
@@ -7,9 +10,8 @@
 namespace farhorizon {
 namespace {
 
-// What a double holds exactly, here and in the JSON of others.
-constexpr int kDoubleBits = 53;
-constexpr int kDirectionBits = 62;
+constexpr int kDoubleBits = 53;     // of integers that a double holds exactly
+constexpr int kDirectionBits = 62;  // of a witness's direction (witness.h)
 
 // The bits of |value|.
 template <typename Int>
@@ -23,7 +25,7 @@ int DirectionBits(const Witness& witness) {
   return std::max(BitsOf(Int128{witness.dc}), BitsOf(Int128{witness.dr}));
 }
 
-// t as it is counted from the segment's first end, in lowest terms.
+// t counted from the segment's first end, in lowest terms.
 template <typename Int>
 BasicDyadic<Int> FromFirstEnd(bool from_high, const BasicDyadic<Int>& t) {
   BasicDyadic<Int> where = t;
@@ -35,15 +37,16 @@ BasicDyadic<Int> FromFirstEnd(bool from_high, const BasicDyadic<Int>& t) {
 }
 
 template <typename Int>
-Witness MakeWitness(bool from_high, const BasicDyadic<Int>& t, const BasicVector<Int>& sight) {
+Witness MakeWitness(bool from_high, const BasicDyadic<Int>& t, const BasicVector<Int>& direction) {
   const BasicDyadic<Int> where = FromFirstEnd(from_high, t);
-  const int excess = std::max({BitsOf(sight.x), BitsOf(sight.y), kDirectionBits}) - kDirectionBits;
-  return {where.ToDouble(), static_cast<std::int64_t>(sight.x >> excess),
-          static_cast<std::int64_t>(sight.y >> excess),
+  const int excess =
+      std::max({BitsOf(direction.x), BitsOf(direction.y), kDirectionBits}) - kDirectionBits;
+  return {where.ToDouble(), static_cast<std::int64_t>(direction.x >> excess),
+          static_cast<std::int64_t>(direction.y >> excess),
           BitsOf(where.n) <= kDoubleBits && excess == 0};
 }
 
-// Half way between two directions, the second counter-clockwise of the first by half a turn at most.
+// Half way from one direction to another, which is counter-clockwise of it by half a turn at most.
 template <typename Int>
 std::array<double, 2> MiddleOf(const BasicVector<Int>& from, const BasicVector<Int>& to) {
   const auto unit = [](const BasicVector<Int>& v) {
@@ -55,8 +58,11 @@ std::array<double, 2> MiddleOf(const BasicVector<Int>& from, const BasicVector<I
   const std::array<double, 2> u = unit(from);
   const std::array<double, 2> v = unit(to);
   const std::array<double, 2> sum = {u[0] + v[0], u[1] + v[1]};
-  // Opposite to each other: all directions, of which the middle is a quarter turn on.
-  if (std::hypot(sum[0], sum[1]) < 1e-9) return {-u[1], u[0]};
+  // Opposite vectors, whose sum is what rounding leaves, below 2^-51: half way is a quarter turn
+  // on. Any limit is sound, as the middle is only where a search in doubles begins. Below this one
+  // the sum has lost more than half of its digits.
+  constexpr double kOpposite = 1e-9;
+  if (std::hypot(sum[0], sum[1]) < kOpposite) return {-u[1], u[0]};
   return sum;
 }
 
@@ -66,36 +72,31 @@ bool IsPlain(const Witness& witness) {
   return witness.exact && DirectionBits(witness) <= kDoubleBits;
 }
 
-bool Simpler(const Witness& a, const Witness& b) {
+bool IsSimpler(const Witness& a, const Witness& b) {
   if (a.exact != b.exact) return a.exact;
   return DirectionBits(a) < DirectionBits(b);
 }
 
-PointQuery::PointQuery(const SegmentIndex& index, const Segment& segment, Ties ties,
-                       std::optional<std::int32_t> except, const OcclusionHints& hints,
-                       std::vector<std::int32_t>* blockers, PredicateCounts* counts)
+PointQuery::PointQuery(const SegmentIndex& index, const VisibilityQuery& query)
     : index_(index),
-      from_high_(segment.a.z > segment.b.z),
-      target_{segment.a, segment.b, ties},
-      except_(except),
-      hints_(hints),
-      likely_(hints.likely.begin(), hints.likely.end()),
-      blockers_(blockers),
-      counts_(counts),
-      short_sample_(index, target_, except, hints, counts) {
+      query_(query),
+      from_high_(query.segment.a.z > query.segment.b.z),
+      target_{query.segment.a, query.segment.b, query.ties},
+      short_view_(index, target_, query, &counts_),
+      likely_(query.hints.likely.begin(), query.hints.likely.end()) {
   if (from_high_) std::swap(target_.low, target_.high);
 }
 
-PointAnswer PointQuery::LookAt(const WideDyadic& t) {
+PointAnswer PointQuery::AnswerAt(const WideDyadic& t) {
   if (t.k <= kMaxShortBits) {
-    return LookWith(short_sample_, ShortDyadic{static_cast<std::int64_t>(t.n), t.k});
+    return AnswerFrom(short_view_, ShortDyadic{static_cast<std::int64_t>(t.n), t.k});
   }
   if (t.k <= kMaxDyadicBits) {
-    PointView sample(index_, target_, except_, hints_, counts_);
-    return LookWith(sample, Narrowed(t));
+    PointView view(index_, target_, query_, &counts_);
+    return AnswerFrom(view, Narrowed(t));
   }
-  WidePointView sample(index_, target_, except_, hints_, counts_);
-  return LookWith(sample, t);
+  WidePointView view(index_, target_, query_, &counts_);
+  return AnswerFrom(view, t);
 }
 
 bool PointQuery::FitsDouble(const WideDyadic& t) const {
@@ -103,19 +104,17 @@ bool PointQuery::FitsDouble(const WideDyadic& t) const {
 }
 
 template <typename Int>
-PointAnswer PointQuery::LookWith(BasicPointView<Int>& sample, const BasicDyadic<Int>& t) {
-  const PointOutcome outcome = sample.Look(t, likely_);
-  if (outcome == PointOutcome::kVisible) {
-    return {MakeWitness(from_high_, t, sample.sight()),
-            MiddleOf(sample.gap().from, sample.gap().to),
+PointAnswer PointQuery::AnswerFrom(BasicPointView<Int>& view, const BasicDyadic<Int>& t) {
+  occluders_.clear();
+  if (view.Evaluate(t, likely_) == PointOutcome::kVisible) {
+    return {MakeWitness(from_high_, t, view.direction()),
+            MiddleOf(view.free_arc().from, view.free_arc().to),
             {}};
   }
-  chain_.clear();
-  const OccludedRange hidden = OccludedRangeAround(target_, sample, outcome, t, &chain_, counts_);
-  if (blockers_ != nullptr) blockers_->insert(blockers_->end(), chain_.begin(), chain_.end());
-  // What hides one point is likely to hide the next.
-  if (!chain_.empty()) likely_ = chain_;
-  return {std::nullopt, {}, hidden};
+  const OccludedRange occluded = OccludedRangeAround(view, occluders_);
+  // Occluders of one point are likely to occlude the next.
+  if (!occluders_.empty()) likely_ = occluders_;
+  return {std::nullopt, {}, occluded};
 }
 
 }  // namespace farhorizon

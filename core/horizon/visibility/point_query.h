@@ -1,62 +1,67 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <optional>
 #include <vector>
 
 #include "core/exact/quadratic.h"
 #include "core/horizon/visibility/occluded_range.h"
-#include "core/horizon/visibility/occluder_set.h"
 #include "core/horizon/visibility/point_view.h"
 #include "core/horizon/visibility/segment_index.h"
+#include "core/horizon/visibility/target_segment.h"
+#include "core/horizon/visibility/visibility_query.h"
 
 namespace farhorizon {
 
-/// What one point of a segment told: a sight, or a range around it that is hidden.
+/// What is known of one point of a segment: a witness, or the range around it that is occluded.
 struct PointAnswer {
-  std::optional<Witness> sight;
-  /// The middle of the free directions around the sight, about: columns and rows.
-  std::array<double, 2> middle = {};
-  OccludedRange hidden;
+  std::optional<Witness> witness;
+  /// Where there is a witness: about the middle of the widest free arc, in columns and rows.
+  std::array<double, 2> free_direction = {};
+  OccludedRange occluded;  ///< where there is none
 };
 
-/// Asks points of one segment whether they can be sighted over the members of an index, in the numbers
-/// that each needs. What hid one point is tried first at the next.
+/// Asks points of one segment whether they are visible over the members of an index, each in the
+/// smallest numbers that suffice. Occluders of one point are tried first at the next.
 class PointQuery {
  public:
-  /// except, hints, blockers, counts: as OccluderSet::FindLineOfSight. All of them must outlive the search.
-  PointQuery(const SegmentIndex& index, const Segment& segment, Ties ties,
-             std::optional<std::int32_t> except, const OcclusionHints& hints,
-             std::vector<std::int32_t>* blockers, PredicateCounts* counts);
+  /// Of the query, decision_limit and want_occluders do not matter here.
+  /// Requires: both outlive this.
+  PointQuery(const SegmentIndex& index, const VisibilityQuery& query);
   PointQuery(const PointQuery&) = delete;
   PointQuery& operator=(const PointQuery&) = delete;
 
-  /// t: as TargetSegment counts it, from the lower end; in [0, 1]. Exact.
-  PointAnswer LookAt(const WideDyadic& t);
+  /// t: along the TargetSegment, from the segment's lower end; in [0, 1]. Exact.
+  PointAnswer AnswerAt(const WideDyadic& t);
 
-  /// Whether a witness at t can be said in a double.
+  /// The members whose arcs cover all directions at the point that was asked last; empty where it
+  /// is visible. Virtual occluders and the ground beside the segment are left out.
+  [[nodiscard]] const std::vector<OccluderId>& occluders() const { return occluders_; }
+
+  /// All decisions so far.
+  [[nodiscard]] const PredicateCounts& counts() const { return counts_; }
+
+  /// Whether a double can hold the t of a witness at `t`.
   [[nodiscard]] bool FitsDouble(const WideDyadic& t) const;
 
  private:
   template <typename Int>
-  PointAnswer LookWith(BasicPointView<Int>& sample, const BasicDyadic<Int>& t);
+  PointAnswer AnswerFrom(BasicPointView<Int>& view, const BasicDyadic<Int>& t);
 
   const SegmentIndex& index_;
-  bool from_high_;  // the lower end is the segment's second
+  const VisibilityQuery& query_;
+  bool from_high_;  // the segment's first end is the higher one
   TargetSegment target_;
-  std::optional<std::int32_t> except_;
-  const OcclusionHints& hints_;
-  std::vector<std::int32_t> likely_;
-  std::vector<std::int32_t> chain_;
-  std::vector<std::int32_t>* blockers_;
-  PredicateCounts* counts_;
-  ShortPointView short_sample_;
+  PredicateCounts counts_;
+  ShortPointView short_view_;
+  std::vector<OccluderId> likely_;
+  std::vector<OccluderId> occluders_;
 };
 
-/// Whether a double and two integers that others' JSON reads exactly say it all.
+/// Whether the witness is exact and its direction is of integers that every JSON reader holds:
+/// below 2^53.
 bool IsPlain(const Witness& witness);
-/// Whether a says its line in fewer digits.
-bool Simpler(const Witness& a, const Witness& b);
+/// Whether `a` is exact and `b` is not, or, where that is equal, has a direction of fewer bits.
+bool IsSimpler(const Witness& a, const Witness& b);
 
 }  // namespace farhorizon

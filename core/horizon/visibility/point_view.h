@@ -8,127 +8,103 @@
 #include "core/exact/quadratic.h"
 #include "core/geometry/direction.h"
 #include "core/horizon/visibility/direction_set.h"
+#include "core/horizon/visibility/moving_vector.h"
 #include "core/horizon/visibility/segment_index.h"
+#include "core/horizon/visibility/target_segment.h"
+#include "core/horizon/visibility/visibility_query.h"
 
 namespace farhorizon {
 
-/// The segment that is asked about, from its lower end (t = 0) to its higher one (t = 1).
-struct TargetSegment {
-  Point3i low;
-  Point3i high;
-  Ties ties = Ties::kPass;
+/// What stands in an arc for the id of a member: a virtual occluder of the hints; the two faces
+/// beside the target itself.
+inline constexpr OccluderId kVirtualOccluder = -1;
+inline constexpr OccluderId kAdjacentFaces = -2;
 
-  [[nodiscard]] bool IsHorizontal() const { return low.z == high.z; }
-};
-
-/// A direction that moves linearly with t: from the point of the segment at t to a fixed point, or
-/// to where an obstacle rises through that point's height (times the obstacle's rise, a positive
-/// number).
-struct MovingVector {
-  std::int64_t ax = 0;
-  std::int64_t ay = 0;
-  std::int64_t bx = 0;
-  std::int64_t by = 0;
-
-  /// The vector at t, times 2^k.
-  template <typename Int>
-  [[nodiscard]] BasicVector<Int> At(const BasicDyadic<Int>& t) const {
-    return {(Int{ax} << t.k) + Int{bx} * t.n, (Int{ay} << t.k) + Int{by} * t.n};
-  }
-  [[nodiscard]] bool IsZero() const { return ax == 0 && ay == 0 && bx == 0 && by == 0; }
-  friend bool operator==(const MovingVector&, const MovingVector&) = default;
-};
-
-/// From the point of the segment at t to `v`.
-MovingVector ToPoint(const TargetSegment& e, const Point3i& v);
-/// From there to the point of low -> high at the height of the segment's point, times the rise of
-/// low -> high. Requires: low.z < high.z.
-MovingVector ToSlice(const TargetSegment& e, const Point3i& low, const Point3i& high);
-
-/// Cross and dot product of two moving vectors.
-Quadratic Cross(const MovingVector& a, const MovingVector& b);
-Quadratic Dot(const MovingVector& a, const MovingVector& b);
-
-/// What hides instead of a member: a virtual occluder, the faces beside the segment itself.
-inline constexpr std::int32_t kVirtualOccluder = -1;
-inline constexpr std::int32_t kFaces = -2;
-
-/// A MovingVector's numbers are below 2^50 (17 bits of plan, 31 of height, a sum of two), so at a
-/// point of so many bits it stays below 2^62.
+/// A MovingVector is a + b t with |a|, |b| < 2^50, so at t = n / 2^k with k <= 11 its components
+/// times 2^k are below 2 * 2^50 * 2^11 = 2^62, as ShortVector requires.
 inline constexpr int kMaxShortBits = 11;
 
-/// What one obstacle hides at one t: directions from `from` counter-clockwise to `to`.
+/// The directions that one occluder occludes from one point: from `from` counter-clockwise to `to`.
 template <typename Int>
-struct BasicArc {
+struct BasicOccluderArc {
   MovingVector from;
   MovingVector to;
   BasicDirection<Int> from_direction;
   BasicDirection<Int> to_direction;
-  bool crosses_start = false;
-  bool sliced = false;        ///< one of the two is where the obstacle rises through the height
-  std::int32_t obstacle = 0;  ///< its id; kVirtualOccluder; kFaces
-  std::int32_t low_z = 0;     ///< the obstacle's heights
+  bool crosses_start = false;  ///< passes the end of the half turn and goes on at its start
+  bool sliced = false;         ///< one end is the occluder's slice point, not its lower end
+  OccluderId occluder = 0;     ///< or kVirtualOccluder, kAdjacentFaces
+  std::int32_t low_z = 0;      ///< the occluder's heights
   std::int32_t high_z = 0;
 };
 
 enum class PointOutcome {
-  kVisible,    ///< `sight` is a direction in which nothing rises above the point
-  kOccluded,   ///< `arcs` together hide every direction
-  kEnclosed,   ///< `arcs` has one, whose obstacle passes over the point and hides everything
-  kAmbiguous,  ///< the point stands under a corner or a crossing: ask at another t
+  kVisible,        ///< in the direction `direction` nothing is higher than the point
+  kOccluded,       ///< `arcs` together cover all directions
+  kOccludedByOne,  ///< `arcs` has one arc, whose occluder passes over the point in plan
+  kAmbiguous,      ///< the point is, in plan, at an end of an occluder or on one: ask another t
 };
 
-/// What an observer at one point of the segment sees of the obstacles: the directions that they
-/// hide. Int: std::int64_t for points at a ShortDyadic of at most kMaxShortBits, Int128 for those at a
+/// The directions that occluders leave free at one point of a target (core/horizon/README.md,
+/// section 4).
+/// Int: std::int64_t for points at a ShortDyadic of kMaxShortBits at most, Int128 for those at a
 /// Dyadic, Int1280 for those at a WideDyadic.
 template <typename Int>
 class BasicPointView {
  public:
-  using Arc = BasicArc<Int>;
-  using Vector = BasicVector<Int>;
+  using Arc = BasicOccluderArc<Int>;
+  using FreeArc = typename BasicDirectionSet<Int>::FreeArc;
 
-  /// hints: must outlive the sample; its `likely` are not looked at.
+  /// Of the query, only `except` and the hints other than `likely` are used.
+  /// Requires: all four outlive the view.
   BasicPointView(const SegmentIndex& index, const TargetSegment& target,
-                 std::optional<std::int32_t> except, const OcclusionHints& hints,
-                 PredicateCounts* counts);
+                 const VisibilityQuery& query, PredicateCounts* counts);
 
-  /// likely: obstacles that are tried before all others.
-  PointOutcome Look(const BasicDyadic<Int>& t, std::span<const std::int32_t> likely);
+  /// Decides the point of the target at t; all accessors then are about this point.
+  /// likely: members that are tried before all others.
+  PointOutcome Evaluate(const BasicDyadic<Int>& t, std::span<const OccluderId> likely);
 
+  [[nodiscard]] const TargetSegment& target() const { return target_; }
+  [[nodiscard]] PredicateCounts* counts() const { return counts_; }
+  [[nodiscard]] const BasicDyadic<Int>& t() const { return t_; }
+  [[nodiscard]] PointOutcome outcome() const { return outcome_; }
   [[nodiscard]] const std::vector<Arc>& arcs() const { return arcs_; }
-  [[nodiscard]] const Vector& sight() const { return sight_; }
-  /// The widest range of directions that is free, where there is a sight.
-  [[nodiscard]] const typename BasicDirectionSet<Int>::Gap& gap() const { return gap_; }
+  /// kVisible: the simplest direction of the widest free arc, not parallel to the target.
+  [[nodiscard]] const BasicVector<Int>& direction() const { return direction_; }
+  /// kVisible: the widest free arc.
+  [[nodiscard]] const FreeArc& free_arc() const { return free_arc_; }
 
  private:
+  using Vector = BasicVector<Int>;
+
+  void MoveTo(const BasicDyadic<Int>& t);
+  void AddAdjacentFaces();
   // False where the outcome is settled.
-  bool Visit(const SegmentIndex::Node& node);
-  bool AddIfVisible(std::int32_t id, const SegmentIndex::Item& item);
-  bool AddObstacle(std::int32_t id, const SegmentIndex::Item& item);
-  void AddFaces();
   bool AddVirtualOccluders();
-  void AddArc(Arc arc, const Vector& from, const Vector& to);
+  bool AddMembers(std::span<const OccluderId> likely);
+  bool AddUnlessOccluded(OccluderId id, const SegmentIndex::Item& item);
+  bool AddOccluder(OccluderId id, const SegmentIndex::Item& item);
   bool AddCollinear(const Arc& arc, const Vector& from, const Vector& to);
+  void AddArc(Arc arc, const Vector& from, const Vector& to);
   [[nodiscard]] bool SurelyOccluded(const SegmentIndex::Node& node) const;
   [[nodiscard]] bool SurelyOccluded(const SegmentIndex::Item& item) const;
 
   const SegmentIndex& index_;
   const TargetSegment& target_;
-  std::optional<std::int32_t> except_;
-  const OcclusionHints& hints_;
+  const VisibilityQuery& query_;
   PredicateCounts* counts_;
 
   BasicDyadic<Int> t_;
-  double x_ = 0;
+  double x_ = 0;  ///< of the point, in plan
   double y_ = 0;
-  std::int64_t whole_z_ = 0;    ///< height of the point, rounded down
-  double part_z_ = 0;           ///< the rest: doubles of great heights would be off by a lot of it
-  Int scaled_z_{};              ///< height of the point times 2^k
-  std::int64_t least_top_ = 0;  ///< obstacles whose top is lower do not matter
-  BasicDirectionSet<Int> cover_;
+  std::int64_t whole_z_ = 0;    ///< the point's height, rounded down
+  double fractional_z_ = 0;     ///< the rest: a double of a great height would lose most of it
+  Int scaled_z_{};              ///< the point's height times 2^k
+  std::int64_t least_top_ = 0;  ///< occluders whose top is lower occlude nothing
+  BasicDirectionSet<Int> occluded_;
   std::vector<Arc> arcs_;
-  Vector sight_;
-  typename BasicDirectionSet<Int>::Gap gap_;
+  Vector direction_;
+  FreeArc free_arc_;
   PointOutcome outcome_ = PointOutcome::kVisible;
 };
 using ShortPointView = BasicPointView<std::int64_t>;

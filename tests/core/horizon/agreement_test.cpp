@@ -15,7 +15,7 @@
 namespace farhorizon {
 namespace {
 
-/// White noise is where the kinetic engine is slow: small grids of it only.
+// White noise is where the kinetic engine is slow: small grids of it only.
 Dem AnyLargeDem(std::mt19937& random) {
   return random() % 5 == 0 ? AnyRandomDem(17, 25, random) : AnyLandscape(17, 65, random);
 }
@@ -33,7 +33,7 @@ TEST(EnginesLong, AgreeOnHundredsOfRandomGridsOfUpTo65Posts) {
   ExpectAgreementOnRandomGrids(Rounds(500), 2);
 }
 
-/// The posts of `dem` in the middle, side x side at most.
+// The posts of `dem` in the middle, side x side at most.
 Dem Middle(const Dem& dem, std::int32_t side) {
   const std::int32_t columns = std::min(side, dem.columns);
   const std::int32_t rows = std::min(side, dem.rows);

@@ -14,14 +14,14 @@
 namespace farhorizon {
 namespace {
 
-/// Every edge's witness holds, and no random line finds an edge that is left out.
+// Every edge's witness holds, and no random line finds an edge that is left out.
 void ExpectTheHorizon(const std::string& name, int lines) {
   const std::filesystem::path path = std::filesystem::path(FARHORIZON_DEM_DIR) / name;
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "no " << name << " in FARHORIZON_DEM_DIR";
   Result<Dem> dem = ReadDem(path, {});
   ASSERT_TRUE(dem) << dem.error().message;
   const Terrain terrain = *Terrain::Build(*dem);
-  const Horizon horizon = *FindHorizon(terrain, 2, {});
+  const Horizon horizon = *FindHorizon(terrain, {.threads = 2}, {});
   std::vector<Edge> edges;
   for (const HorizonEdge& e : horizon.edges) {
     ASSERT_TRUE(WitnessHolds(terrain, e.edge, e.witness)) << e.edge.a << '-' << e.edge.b;

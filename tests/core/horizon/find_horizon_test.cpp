@@ -16,7 +16,7 @@ namespace farhorizon {
 namespace {
 
 Horizon HorizonOf(const Terrain& terrain, int threads = 1) {
-  return *FindHorizon(terrain, threads, {});
+  return *FindHorizon(terrain, {.threads = threads}, {});
 }
 
 std::vector<Edge> EdgesOf(const Horizon& horizon) {
@@ -34,27 +34,27 @@ testing::AssertionResult EveryWitnessHolds(const Terrain& terrain, const Horizon
     testing::AssertionResult clear = LineOfSightIsClear(e.witness, segment, all, Ties::kPass);
     if (!clear) return clear << "edge " << e.edge.a << '-' << e.edge.b;
     if (!WitnessHolds(terrain, e.edge, e.witness)) {
-      return testing::AssertionFailure()
-             << "WitnessHolds denies a line that is clear, edge " << e.edge.a << '-' << e.edge.b;
+      return testing::AssertionFailure() << "WitnessHolds is false for a line that is clear, edge "
+                                         << e.edge.a << '-' << e.edge.b;
     }
   }
   return testing::AssertionSuccess();
 }
 
-/// The n-th DEM of columns x rows posts with heights 0 ... levels - 1.
-Dem NthDem(std::int32_t columns, std::int32_t rows, std::int32_t levels, std::int32_t n) {
+// The n-th DEM of columns x rows posts with heights 0 ... heights - 1.
+Dem NthDem(std::int32_t columns, std::int32_t rows, std::int32_t heights, std::int32_t n) {
   return MakeDem(columns, rows, [&](std::int32_t, std::int32_t) {
-    const std::int32_t height = n % levels;
-    n /= levels;
+    const std::int32_t height = n % heights;
+    n /= heights;
     return height;
   });
 }
 
-void ExpectTheDefinitionOnEvery(std::int32_t columns, std::int32_t rows, std::int32_t levels) {
+void ExpectTheDefinitionOnEvery(std::int32_t columns, std::int32_t rows, std::int32_t heights) {
   std::int32_t count = 1;
-  for (std::int32_t i = 0; i < columns * rows; ++i) count *= levels;
+  for (std::int32_t i = 0; i < columns * rows; ++i) count *= heights;
   for (std::int32_t n = 0; n < count; ++n) {
-    ASSERT_TRUE(MatchesBruteForce(NthDem(columns, rows, levels, n), Find)) << "number " << n;
+    ASSERT_TRUE(MatchesBruteForce(NthDem(columns, rows, heights, n), Find)) << "number " << n;
   }
 }
 
@@ -81,18 +81,18 @@ TEST(FindHorizon, FindsEveryAxisEdgeOfALargeDome) {
   EXPECT_EQ(Find(*Terrain::Build(dem)).size(), 8320U);
 }
 
-TEST(FindHorizon, IsTheDefinitionOnEvery3x3TerrainOfTwoLevels) {
+TEST(FindHorizon, IsTheDefinitionOnEvery3x3TerrainOfTwoHeights) {
   ExpectTheDefinitionOnEvery(3, 3, 2);
 }
 
-TEST(FindHorizon, IsTheDefinitionOnEvery2x2And2x3TerrainOfThreeLevels) {
+TEST(FindHorizon, IsTheDefinitionOnEvery2x2And2x3TerrainOfThreeHeights) {
   ExpectTheDefinitionOnEvery(2, 2, 3);
   ExpectTheDefinitionOnEvery(2, 3, 3);
   ExpectTheDefinitionOnEvery(3, 2, 3);
 }
 
 // 19,683 and 4,096 terrains.
-TEST(FindHorizonLong, IsTheDefinitionOnEvery3x3TerrainOfThreeLevelsAnd4x3OfTwo) {
+TEST(FindHorizonLong, IsTheDefinitionOnEvery3x3TerrainOfThreeHeightsAnd4x3OfTwo) {
   ExpectTheDefinitionOnEvery(3, 3, 3);
   ExpectTheDefinitionOnEvery(4, 3, 2);
 }
@@ -131,7 +131,7 @@ TEST(FindHorizon, IsTheDefinitionOnGreatHeightsAndCliffs) {
   for (int round = 0; round < Rounds(300); ++round) {
     const std::int32_t n = 3 + round % 3;
     const Dem dem = MakeDem(n, n, [&](std::int32_t, std::int32_t) {
-      // All over the range; or cliffs whose tops and feet are a quantum apart: the narrowest gaps.
+      // All over the range; or cliffs whose tops and feet are quanta apart: the narrowest gaps.
       if (round % 2 == 0) return static_cast<std::int32_t>(random() >> 1U) - kLimit;
       const std::int32_t end = random() % 2 == 0 ? 0 : kCliff;
       return end + static_cast<std::int32_t>(random() % 3);
@@ -212,7 +212,7 @@ TEST(FindHorizon, StopsWhenAskedTo) {
   const Dem dem = FractalDem(65, 900, 100, 12);
   std::stop_source source;
   source.request_stop();
-  Result<Horizon> horizon = FindHorizon(*Terrain::Build(dem), 1, {.stop = source.get_token()});
+  Result<Horizon> horizon = FindHorizon(*Terrain::Build(dem), {}, {.stop = source.get_token()});
   ASSERT_FALSE(horizon);
   EXPECT_EQ(horizon.error().code, ErrorCode::kCancelled);
 }
@@ -234,7 +234,7 @@ TEST(FindHorizon, EndsWithAnErrorWhereTheWorkBudgetDoesNotSuffice) {
     EXPECT_EQ(enough->statistics.undecided, 0);
     Result<Horizon> scarce =
         FindHorizon(terrain, {.threads = threads, .work_budget = needed - 1}, {});
-    ASSERT_FALSE(scarce) << "of the very sum, whatever the threads";
+    ASSERT_FALSE(scarce) << "the sum over all threads is what counts";
     EXPECT_EQ(scarce.error().code, ErrorCode::kResourceExhausted);
     EXPECT_EQ(scarce.error().kind, "work-budget");
     EXPECT_THAT(scarce.error().message, testing::HasSubstr(std::to_string(needed - 1)));
@@ -247,8 +247,8 @@ TEST(FindHorizon, KeepsAMarkedSupersetWhereItMayBeApproximate) {
   const Terrain terrain = *Terrain::Build(dem);
   const Horizon exact = HorizonOf(terrain);
   std::int64_t least_undecided = exact.statistics.candidates;
-  for (const std::int64_t part : {1000, 30, 3}) {
-    const std::int64_t budget = exact.statistics.predicates.Sum() / part;
+  for (const std::int64_t divisor : {1000, 30, 3}) {
+    const std::int64_t budget = exact.statistics.predicates.Sum() / divisor;
     Result<Horizon> some = FindHorizon(terrain, {.work_budget = budget, .approximate = true}, {});
     ASSERT_TRUE(some);
     const std::vector<Edge> kept = EdgesOf(*some);
@@ -263,7 +263,7 @@ TEST(FindHorizon, KeepsAMarkedSupersetWhereItMayBeApproximate) {
     }
     EXPECT_GT(undecided, 0);
     EXPECT_EQ(undecided, some->statistics.undecided);
-    EXPECT_LE(undecided, least_undecided) << "more work, fewer doubts";
+    EXPECT_LE(undecided, least_undecided) << "more work, fewer undecided edges";
     least_undecided = undecided;
   }
   EXPECT_LT(3 * least_undecided, 2 * exact.statistics.candidates);
@@ -333,11 +333,11 @@ TEST(WitnessHolds, IsTheDefinitionOnRandomLines) {
   EXPECT_GT(denied, Rounds(1'000));
 }
 
-// What the forest says is hidden is hidden: no line that crosses the segment passes over the terrain
-// without meeting ground at or above it.
-TEST(HullMergeTree, HidesOnlyWhatNoLineOfSightSees) {
+// Where the tree says that a segment is occluded, no line across it passes over the terrain without
+// meeting ground at or above its height.
+TEST(HullMergeTree, OccludesOnlyWhatIsOnNoLineOfSight) {
   std::mt19937 random(14);
-  int hidden = 0;
+  int occluded = 0;
   for (int round = 0; round < Rounds(1'000); ++round) {
     const Dem dem = AnyRandomDem(3, 7, random);
     Result<Terrain> terrain = Terrain::Build(dem);
@@ -349,17 +349,17 @@ TEST(HullMergeTree, HidesOnlyWhatNoLineOfSightSees) {
       const auto w = static_cast<VertexId>(random() % dem.heights.size());
       if (u == w || !terrain->IsVertex(u) || !terrain->IsVertex(w)) continue;
       Segment segment{terrain->Point(u), terrain->Point(w)};
-      const std::int32_t level =
+      const std::int32_t height =
           std::max(segment.a.z, segment.b.z) - static_cast<std::int32_t>(random() % 3);
-      segment.a.z = level;
-      segment.b.z = level;
-      if (!horizon.hulls.Hides(u, w, level)) continue;
-      ++hidden;
+      segment.a.z = height;
+      segment.b.z = height;
+      if (!horizon.hulls.Occludes(u, w, height)) continue;
+      ++occluded;
       ASSERT_FALSE(LineOfSightByBruteForce(segment, ground, Ties::kBlock))
           << DrawAscii(dem) << DrawSegments({segment});
     }
   }
-  EXPECT_GT(hidden, Rounds(100));
+  EXPECT_GT(occluded, Rounds(100));
 }
 
 }  // namespace

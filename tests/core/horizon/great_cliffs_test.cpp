@@ -1,14 +1,16 @@
 // Cliffs of thousands to 2^31 quanta whose tops and feet differ by single quanta: lines of sight
-// through gaps of a hair's breadth. The set of edges is the definition's at any height; witnesses are
-// there as long as doubles can say them.
+// pass through very narrow gaps. The set of edges is the definition's at any height; witnesses are
+// exact as long as doubles can represent them.
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <random>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "core/horizon/candidate_decider.h"
 #include "core/horizon/find_horizon.h"
 #include "core/horizon/sweep/candidates.h"
 #include "tests/oracles/horizon_brute_force.h"
@@ -20,64 +22,51 @@
 namespace farhorizon {
 namespace {
 
-/// Feet and tops of cliffs; each post is one of them and up to 3 quanta.
-using Levels = std::vector<std::int32_t>;
+// Heights of the feet and tops of cliffs. Each post is at one of them, or up to 3 quanta above.
+using CliffHeights = std::vector<std::int32_t>;
 
 constexpr std::int32_t kTop = (1 << 30) - 4;
 
-Dem CliffDem(std::int32_t columns, std::int32_t rows, const Levels& levels, std::mt19937& random) {
+Dem CliffDem(std::int32_t columns, std::int32_t rows, const CliffHeights& heights,
+             std::mt19937& random) {
   return MakeDem(columns, rows, [&](std::int32_t, std::int32_t) {
-    return levels[random() % levels.size()] + static_cast<std::int32_t>(random() % 4);
+    return heights[random() % heights.size()] + static_cast<std::int32_t>(random() % 4);
   });
 }
 
-struct Sighting {
-  Edge edge;
-  Witness witness;
-};
-
-/// What FindHorizon decides, whether or not all witnesses are exact.
-std::vector<Sighting> Sightings(const Terrain& terrain) {
-  const Candidates sweep = *FindCandidates(terrain, *SweepHulls(terrain, 1, {}), 1, {});
-  OccluderSet occluders(terrain.dem().columns, terrain.dem().rows);
-  std::vector<Edge> edges;
-  for (const Candidate& c : sweep.edges) edges.push_back(c.edge);
-  const std::vector<Segment> segments = SegmentsOf(terrain, edges);
-  for (const Segment& s : segments) occluders.Insert(s);
-  std::vector<Sighting> sightings;
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    const Candidate& c = sweep.edges[i];
-    const std::optional<Witness> sight =
-        occluders.FindLineOfSight(segments[i], Ties::kPass, static_cast<OccluderSet::Id>(i),
-                                  {std::span<const Segment>(sweep.virtual_occluders)
-                                       .subspan(c.first_virtual_occluder, c.virtual_occluder_count),
-                                   {},
-                                   WedgeOf(terrain, edges[i])});
-    if (sight) sightings.push_back({edges[i], *sight});
-  }
-  return sightings;
+// What FindHorizon decides, whether or not all witnesses are exact.
+Horizon DecideAll(const Terrain& terrain) {
+  const Candidates candidates = *FindCandidates(terrain, *SweepHulls(terrain, 1, {}), 1, {});
+  const Watch watch;
+  CandidateDecider decider(terrain, candidates, watch);
+  decider.DecideAll(1, std::numeric_limits<std::int64_t>::max());
+  Horizon horizon;
+  decider.AppendEdges(horizon);
+  return horizon;
 }
 
 std::vector<Edge> FindEvenInexact(const Terrain& terrain) {
   std::vector<Edge> edges;
-  for (const Sighting& s : Sightings(terrain)) edges.push_back(s.edge);
+  const Horizon horizon = DecideAll(terrain);
+  for (const HorizonEdge& e : horizon.edges) edges.push_back(e.edge);
   return edges;
 }
 
 struct Tally {
-  int exact = 0;            ///< witnesses
-  int inexact = 0;          ///< sights that no witness says
-  int long_directions = 0;  ///< of 2^53 and more
+  int exact = 0;            // witnesses
+  int inexact = 0;          // edges whose witness cannot be represented
+  int long_directions = 0;  // of 2^53 and more
 };
 
-/// The set is the definition's, every witness that claims to be exact holds by two checks, and
-/// FindHorizon gives all of it or names an edge without.
+// The set of edges is the definition's, every exact witness holds by two checks, and FindHorizon
+// returns all edges or an error where a witness is not exact.
 void ExpectTheDefinition(const Dem& dem, Tally& tally) {
   ASSERT_TRUE(MatchesBruteForce(dem, FindEvenInexact));
   const Terrain terrain = *Terrain::Build(dem);
   const std::vector<Segment> all = SegmentsOf(terrain, terrain.Edges());
   int inexact = 0;
-  for (const Sighting& s : Sightings(terrain)) {
+  const Horizon decided = DecideAll(terrain);
+  for (const HorizonEdge& s : decided.edges) {
     if (!s.witness.exact) {
       ++inexact;
       EXPECT_FALSE(WitnessHolds(terrain, s.edge, s.witness));
@@ -92,7 +81,7 @@ void ExpectTheDefinition(const Dem& dem, Tally& tally) {
         << DrawAscii(dem) << "edge " << s.edge.a << '-' << s.edge.b;
   }
   tally.inexact += inexact;
-  Result<Horizon> horizon = FindHorizon(terrain, 1, {});
+  Result<Horizon> horizon = FindHorizon(terrain, {}, {});
   ASSERT_EQ(horizon.has_value(), inexact == 0) << DrawAscii(dem);
   if (!horizon) {
     EXPECT_EQ(horizon.error().code, ErrorCode::kUnsupportedData);
@@ -100,7 +89,7 @@ void ExpectTheDefinition(const Dem& dem, Tally& tally) {
   }
 }
 
-Tally ExpectTheDefinitionOn(const Levels& levels, int rounds, std::uint32_t seed) {
+Tally ExpectTheDefinitionOn(const CliffHeights& heights, int rounds, std::uint32_t seed) {
   std::mt19937 random(seed);
   Tally tally;
   for (int round = 0; round < rounds && !testing::Test::HasFatalFailure(); ++round) {
@@ -110,7 +99,7 @@ Tally ExpectTheDefinitionOn(const Levels& levels, int rounds, std::uint32_t seed
     };
     const std::int32_t columns = side();
     const std::int32_t rows = side();
-    ExpectTheDefinition(CliffDem(columns, rows, levels, random), tally);
+    ExpectTheDefinition(CliffDem(columns, rows, heights, random), tally);
   }
   return tally;
 }
@@ -163,8 +152,8 @@ TEST(GreatCliffsLong, AreTheDefinitionOnTensOfThousandsOfTerrains) {
   ExpectTheDefinitionOn({-kTop - 3, 0, 1 << 15, kTop}, Rounds(10'000), 201);
 }
 
-// Where the sample's place in doubles was on the level of a corner, or on the corner, and the true one
-// was not, what hides the rest of the directions was passed over as hidden itself.
+// Where the height of the viewpoint in doubles was that of a corner, or the viewpoint was on the
+// corner, and the true one was not, the occluder of all other directions was skipped as occluded.
 TEST(GreatCliffs, OnceLedToLinesThatMeetHigherGround) {
   Tally tally;
   ExpectTheDefinition(AsciiDem("134217725         0 134217725         1\n"
@@ -188,7 +177,7 @@ TEST(GreatCliffs, GiveAnErrorThatNamesTheEdgeWhereNoDoubleIsInTheGap) {
       "536870915 536870912         1     32768\n"
       "536870914         3         3     32771");
   const Terrain terrain = *Terrain::Build(dem);
-  Result<Horizon> horizon = FindHorizon(terrain, 2, {});
+  Result<Horizon> horizon = FindHorizon(terrain, {.threads = 2}, {});
   ASSERT_FALSE(horizon);
   EXPECT_EQ(horizon.error().code, ErrorCode::kUnsupportedData);
   EXPECT_EQ(horizon.error().kind, "sight-too-narrow");
@@ -196,15 +185,16 @@ TEST(GreatCliffs, GiveAnErrorThatNamesTheEdgeWhereNoDoubleIsInTheGap) {
       << horizon.error().message;
 }
 
-// A witness is one line: what doubles and 64-bit integers can say, the check can decide.
+// The check decides every line that a double and 64-bit integers can represent.
 TEST(WitnessHolds, IsTheDefinitionForTheFinestNumbers) {
   std::mt19937 random(7);
   std::mt19937_64 random64(7);
   int held = 0;
   int denied = 0;
   for (int round = 0; round < Rounds(1'500); ++round) {
-    const Levels levels = round % 2 == 0 ? Levels{0, 4} : Levels{-kTop - 3, kTop};
-    const Dem dem = CliffDem(3, 3, levels, random);
+    const CliffHeights heights =
+        round % 2 == 0 ? CliffHeights{0, 4} : CliffHeights{-kTop - 3, kTop};
+    const Dem dem = CliffDem(3, 3, heights, random);
     const Terrain terrain = *Terrain::Build(dem);
     const std::vector<Edge> edges = terrain.Edges();
     const std::vector<Segment> all = SegmentsOf(terrain, edges);
@@ -214,12 +204,12 @@ TEST(WitnessHolds, IsTheDefinitionForTheFinestNumbers) {
         const auto value = static_cast<std::int64_t>(random64() >> (2 + random64() % 60));
         return random64() % 2 == 0 ? value : -value;
       };
-      const std::array<double, 4> places = {
+      const std::array<double, 4> positions = {
           std::ldexp(static_cast<double>(1 + random64() % 1000), -400),
           std::ldexp(static_cast<double>(1 + random64() % 1000), -200),
           1 - std::ldexp(static_cast<double>(1 + random64() % 1000), -53),
           std::ldexp(static_cast<double>(random64() >> 11U | 1U), -53)};
-      const Witness witness{places[random() % 4], any(), any()};
+      const Witness witness{positions[random() % 4], any(), any()};
       if (witness.dc == 0 && witness.dr == 0) continue;
       const Segment& e = all[i];
       if (Int128{e.b.x - e.a.x} * witness.dr == Int128{e.b.y - e.a.y} * witness.dc) continue;
@@ -234,7 +224,7 @@ TEST(WitnessHolds, IsTheDefinitionForTheFinestNumbers) {
   EXPECT_GT(denied, Rounds(500));
 }
 
-// Beside the summit of a pyramid the line is clear where it crosses the next ridge further down.
+// Beside the summit of a pyramid, the line is clear if it crosses the next ridge further down.
 TEST(WitnessHolds, DecidesBesideAPostByTheLeastNumberThatADoubleHolds) {
   const Dem dem = AsciiDem(".0.\n010\n.0.");
   const Terrain terrain = *Terrain::Build(dem);

@@ -67,9 +67,9 @@ TEST(JoinHorizons, TheHorizonOfAWholeIsThatOfItsPartsHorizons) {
     std::vector<Segment> a;
     std::vector<Segment> b;
     for (const Segment& s : whole) {
-      const auto where = random() % 5;  // some in both
-      if (where < 3) a.push_back(s);
-      if (where > 1) b.push_back(s);
+      const auto which = random() % 5;  // some in both
+      if (which < 3) a.push_back(s);
+      if (which > 1) b.push_back(s);
     }
     const auto horizon = [](const std::vector<Segment>& set) {
       return *JoinHorizons(set, {}, 9, 9, {});
@@ -79,19 +79,17 @@ TEST(JoinHorizons, TheHorizonOfAWholeIsThatOfItsPartsHorizons) {
   }
 }
 
-/// The horizon of a terrain from parts x parts tiles that share the posts on their seams, each swept by
-/// itself; creases of the whole only.
-Named HorizonByTiles(const Dem& dem, std::int32_t parts) {
+// The horizon of a terrain from n x n tiles that share the posts on their seams, each swept by
+// itself; creases of the whole only.
+Named HorizonByTiles(const Dem& dem, std::int32_t n) {
   const Terrain whole = *Terrain::Build(dem);
   std::vector<Segment> joined;
-  const auto cut = [parts](std::int32_t posts, std::int32_t part) {
-    return part * (posts - 1) / parts;
-  };
-  for (std::int32_t part = 0; part < parts * parts; ++part) {
-    const std::int32_t left = cut(dem.columns, part % parts);
-    const std::int32_t top = cut(dem.rows, part / parts);
-    const std::int32_t right = cut(dem.columns, part % parts + 1);
-    const std::int32_t bottom = cut(dem.rows, part / parts + 1);
+  const auto cut = [n](std::int32_t posts, std::int32_t i) { return i * (posts - 1) / n; };
+  for (std::int32_t i = 0; i < n * n; ++i) {
+    const std::int32_t left = cut(dem.columns, i % n);
+    const std::int32_t top = cut(dem.rows, i / n);
+    const std::int32_t right = cut(dem.columns, i % n + 1);
+    const std::int32_t bottom = cut(dem.rows, i / n + 1);
     Dem tile = dem;
     tile.columns = right - left + 1;
     tile.rows = bottom - top + 1;
@@ -103,7 +101,7 @@ Named HorizonByTiles(const Dem& dem, std::int32_t parts) {
     Result<Terrain> terrain = Terrain::Build(tile);
     if (!terrain) continue;  // a tile of nothing but holes
     std::vector<Segment> found;
-    const Horizon horizon = *FindHorizon(*terrain, 1, {});
+    const Horizon horizon = *FindHorizon(*terrain, {}, {});
     for (const HorizonEdge& h : horizon.edges) {
       Segment s{terrain->Point(h.edge.a), terrain->Point(h.edge.b)};
       for (Point3i* p : {&s.a, &s.b}) *p = {p->x + left, p->y + top, p->z};
@@ -122,7 +120,7 @@ Named HorizonByTiles(const Dem& dem, std::int32_t parts) {
 Named HorizonAtOnce(const Dem& dem) {
   const Terrain terrain = *Terrain::Build(dem);
   std::vector<Edge> edges;
-  const Horizon horizon = *FindHorizon(terrain, 1, {});
+  const Horizon horizon = *FindHorizon(terrain, {}, {});
   for (const HorizonEdge& h : horizon.edges) edges.push_back(h.edge);
   return NamesOf(SegmentsOf(terrain, edges));
 }

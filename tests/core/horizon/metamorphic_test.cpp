@@ -1,8 +1,8 @@
-// What must not change the answer: horizon edges stay where they are under every invertible affine map of
-// the plan, under scaling and lifting of heights, under a finer triangulation of the same surface
-// (horizon.md, section 3). Both engines where the map of a grid is a grid again; elsewhere the maps are of
-// segments, which have no diagonals, and the answer on the grid is the kinetic engine's as much as the
-// adaptive one's.
+// Maps under which the answer does not change: horizon edges follow every invertible affine map of
+// the plan, scaled and lifted heights, and a finer triangulation of the same surface
+// (core/horizon/README.md, "Invariance"). Where the image of a grid is a grid, both engines are
+// run. Elsewhere segments are mapped, which have no diagonals, and the answer on the grid comes
+// from either engine.
 #include <algorithm>
 #include <array>
 #include <random>
@@ -24,7 +24,7 @@ namespace {
 
 std::vector<Edge> FindAdaptively(const Terrain& terrain) {
   std::vector<Edge> edges;
-  const Horizon horizon = *FindHorizon(terrain, 1, {});
+  const Horizon horizon = *FindHorizon(terrain, {}, {});
   for (const HorizonEdge& e : horizon.edges) edges.push_back(e.edge);
   return edges;
 }
@@ -47,7 +47,7 @@ INSTANTIATE_TEST_SUITE_P(Engines, Metamorphic,
                                          NamedEngine{"Kinetic", FindKinetically}),
                          [](const auto& engine) { return engine.param.name; });
 
-/// A random DEM that has a surface; fractal every tenth time.
+// A random DEM that has a surface; fractal every tenth time.
 Dem SomeDem(int round, std::int32_t max_side, std::mt19937& random) {
   if (round % 10 == 0)
     return FractalDem(19 + round % 7, 300, 100, static_cast<std::uint32_t>(random()));
@@ -67,8 +67,8 @@ std::int32_t HeightAt(const Dem& dem, std::int32_t c, std::int32_t r) {
   return dem.heights[static_cast<std::size_t>(v)];
 }
 
-// The sixth turns and their mirror images take the triangulated grid to itself, but a cell that lost a post
-// to something that is no cell.
+// Turns by 60 degrees and their mirror images map the triangulated grid to itself, except a cell
+// without data at one post.
 TEST_P(Metamorphic, FollowsTheTwelveMapsOfTheTriangulatedGrid) {
   std::mt19937 random(1);
   for (int round = 0; round < Rounds(50); ++round) {
@@ -123,7 +123,7 @@ TEST_P(Metamorphic, IsTheSameInAFrameWithoutData) {
   }
 }
 
-/// The same surface on a grid `times` as fine, heights `times` as high so that they stay whole.
+// The same surface on a grid `times` as fine, heights `times` as high so that they stay whole.
 Dem Refined(const Dem& dem, std::int32_t times) {
   return MakeDem(
       (dem.columns - 1) * times + 1, (dem.rows - 1) * times + 1,
@@ -142,7 +142,7 @@ Dem Refined(const Dem& dem, std::int32_t times) {
       });
 }
 
-/// The edges of the coarse grid that fine edges are parts of. Requires: those lie on coarse ones.
+// The edges of the coarse grid that fine edges are parts of. Requires: those lie on coarse ones.
 std::vector<Edge> Coarse(const std::vector<Edge>& fine, const Dem& fine_dem, const Dem& dem,
                          std::int32_t times) {
   std::vector<Edge> edges;
@@ -178,7 +178,7 @@ TEST_P(Metamorphic, IsTheSameForTheSurfaceOnAFinerGrid) {
   }
 }
 
-/// `mesh` with its plan under a matrix, shifted back to where columns and rows begin.
+// `mesh` with its plan under a matrix, shifted back to where columns and rows begin.
 OracleMesh MapMesh(OracleMesh mesh, const GridMap& map) {
   std::int32_t left = 0;
   std::int32_t top = 0;
@@ -191,7 +191,7 @@ OracleMesh MapMesh(OracleMesh mesh, const GridMap& map) {
   return mesh;
 }
 
-/// The horizon edges of any mesh, by the adaptive engine's decisions alone.
+// The horizon edges of any mesh, by the adaptive engine's decisions alone.
 std::vector<Edge> HorizonOfCreases(const OracleMesh& mesh) {
   const std::vector<Edge> creases = CreasesOf(mesh);
   std::vector<Segment> segments;
@@ -210,7 +210,7 @@ std::vector<Edge> HorizonOfCreases(const OracleMesh& mesh) {
   return edges;
 }
 
-// Quarter turns, reflections, shears, and maps that change areas: none but the first few take a grid to a
+// Quarter turns, reflections, shears, and maps that change areas: most of them map no grid to a
 // grid with the same diagonals.
 TEST(MetamorphicSegments, FollowEveryIntegerMatrixFromBothEnginesAnswers) {
   constexpr std::array<GridMap, 10> kMaps{{{0, -1, 1, 0},
@@ -248,8 +248,8 @@ TEST(MetamorphicSegments, FollowEveryIntegerMatrixInTheDefinitionToo) {
   }
 }
 
-/// The mesh over a grid whose cells are split along the other diagonal, from (column + 1, row) to
-/// (column, row + 1).
+// The mesh over a grid whose cells are split along the other diagonal, from (column + 1, row) to
+// (column, row + 1).
 OracleMesh OtherDiagonalMesh(const Dem& dem) {
   OracleMesh mesh;
   for (VertexId v = 0; v < dem.columns * dem.rows; ++v) {
@@ -268,7 +268,7 @@ OracleMesh OtherDiagonalMesh(const Dem& dem) {
   return mesh;
 }
 
-// The other four symmetries of the square: they exchange the two diagonals.
+// The four symmetries of the square that exchange its two diagonals.
 TEST(MetamorphicSegments, FollowQuarterTurnsAndReflectionsToTheOtherDiagonal) {
   std::mt19937 random(8);
   for (int round = 0; round < Rounds(100); ++round) {

@@ -1,5 +1,6 @@
-// What sampling sees of a horizon, against the exact set: ground that is alone at the top over one line
-// belongs to it (oracles O11 and O12: tools that march along directions, and z-buffers).
+// Sampled lines against the exact set: an edge that alone is highest over one line belongs to the
+// horizon (oracles O11 and O12 of tests/oracles/README.md: tools that march along directions, and
+// z-buffers).
 #include <algorithm>
 #include <numeric>
 #include <optional>
@@ -23,7 +24,7 @@ struct Direction2i {
   std::int32_t dr;
 };
 
-/// Every direction in integers up to `size`, once.
+// Every direction in integers up to `size`, once.
 std::vector<Direction2i> DirectionsUpTo(std::int32_t size) {
   std::vector<Direction2i> directions;
   for (std::int32_t dr = 0; dr <= size; ++dr) {
@@ -35,7 +36,7 @@ std::vector<Direction2i> DirectionsUpTo(std::int32_t size) {
   return directions;
 }
 
-/// The segment that alone is highest over the line; nullopt where several are.
+// The segment that alone is highest over the line; nullopt where there are several.
 std::optional<std::size_t> OnlyHighest(const std::vector<Segment>& segments, const PlanLine& line) {
   std::optional<ExactHeight> highest;
   std::optional<std::size_t> found;
@@ -51,14 +52,14 @@ std::optional<std::size_t> OnlyHighest(const std::vector<Segment>& segments, con
   return found;
 }
 
-/// The edges that a z-buffer of these directions finds, lines being half a post apart.
+// The edges that a z-buffer of these directions finds, lines being half a post apart.
 std::set<std::size_t> ZBuffer(const Terrain& terrain, const std::vector<Segment>& segments,
                               const std::vector<Direction2i>& directions) {
   std::set<std::size_t> found;
   const std::int32_t columns = terrain.dem().columns;
   const std::int32_t rows = terrain.dem().rows;
   for (const Direction2i d : directions) {
-    // Through a row of half posts, or a column: whichever the direction is steep to.
+    // Lines start at a row of half posts, or at a column: whichever the direction crosses steeply.
     const bool along_row = d.dr >= std::abs(d.dc);
     const std::int32_t reach = 2 * std::max(columns, rows);
     for (std::int32_t i = -reach; i <= 2 * reach; ++i) {
@@ -77,34 +78,35 @@ std::vector<Edge> EdgesOf(const Horizon& horizon) {
   return edges;
 }
 
-// O12. On a real DEM 2880 directions miss 0.7 percent (horizon.md, section 9); a small one needs fewer.
-TEST(ZBuffer, FindsOnlyEdgesOfTheHorizonAndMissesFewerTheMoreDirectionsItLooksIn) {
+// O12 (tests/oracles/README.md). On a real DEM 2880 directions miss 0.7 percent; a small one needs
+// fewer.
+TEST(ZBuffer, FindsOnlyEdgesOfTheHorizonAndMissesFewerWithMoreDirections) {
   const Dem dem = FractalDem(25, 600, 100, 21);
   const Terrain terrain = *Terrain::Build(dem);
-  const std::vector<Edge> horizon = EdgesOf(*FindHorizon(terrain, 1, {}));
+  const std::vector<Edge> horizon = EdgesOf(*FindHorizon(terrain, {}, {}));
   const std::vector<Edge> edges = terrain.Edges();
   const std::vector<Segment> segments = SegmentsOf(terrain, edges);
   double missed_before = 1;
   for (const std::int32_t size : {1, 4, 20}) {
-    const std::set<std::size_t> seen = ZBuffer(terrain, segments, DirectionsUpTo(size));
-    for (const std::size_t i : seen) {
+    const std::set<std::size_t> found = ZBuffer(terrain, segments, DirectionsUpTo(size));
+    for (const std::size_t i : found) {
       ASSERT_TRUE(std::binary_search(horizon.begin(), horizon.end(), edges[i]))
           << edges[i].a << '-' << edges[i].b;
     }
     const double missed =
-        1 - static_cast<double>(seen.size()) / static_cast<double>(horizon.size());
+        1 - static_cast<double>(found.size()) / static_cast<double>(horizon.size());
     EXPECT_LT(missed, missed_before) << size;
     missed_before = missed;
   }
   EXPECT_LT(missed_before, 0.15);
 }
 
-// O11. A post that stands alone above all ground along a line through it, before and behind, is what
-// r.horizon says has no horizon above it at either azimuth; edges of the horizon end there.
+// O11. Along a line through a post that is above all other ground of the line, r.horizon finds no
+// horizon above the post at either azimuth. Edges of the horizon end at such a post.
 void ExpectEdgesAtEveryPostAboveItsLine(const Dem& dem) {
   const Terrain terrain = *Terrain::Build(dem);
   std::set<VertexId> ends;
-  const Horizon horizon = *FindHorizon(terrain, 1, {});
+  const Horizon horizon = *FindHorizon(terrain, {}, {});
   for (const HorizonEdge& e : horizon.edges) {
     ends.insert(e.edge.a);
     ends.insert(e.edge.b);

@@ -28,7 +28,7 @@ struct Viewed {
 
 std::vector<Viewed> ViewsOf(const Dem& dem, const GroundStep& step) {
   const Terrain terrain = *Terrain::Build(dem);
-  const Horizon horizon = *FindHorizon(terrain, 1, {});
+  const Horizon horizon = *FindHorizon(terrain, {}, {});
   const std::vector<LinesOfSight> sights = *FindLinesOfSight(terrain, horizon, 1, {});
   std::vector<Viewed> views;
   for (std::size_t i = 0; i < sights.size(); ++i) {

@@ -35,7 +35,7 @@ struct Chain {
 
 Chain Build(const Dem& dem, const std::vector<LevelBudget>& budgets) {
   Terrain terrain = *Terrain::Build(dem);
-  Horizon horizon = *FindHorizon(terrain, 1, {});
+  Horizon horizon = *FindHorizon(terrain, {}, {});
   std::vector<Lod> levels = *BuildLodChain(terrain, horizon, budgets, {});
   return {dem, terrain, std::move(horizon), std::move(levels)};
 }

@@ -37,7 +37,7 @@ Measured OnPosts(const Terrain& terrain, const std::vector<Triangle>& triangles)
 }
 
 Result<MeshError> Measure(const Terrain& terrain, const Measured& m, double asked_m = 1) {
-  const Horizon horizon = *FindHorizon(terrain, 1, {});
+  const Horizon horizon = *FindHorizon(terrain, {}, {});
   return MeasureMeshError(terrain, horizon, m.mesh, m.posts, asked_m, {});
 }
 
@@ -58,7 +58,7 @@ TEST(MeshError, IsZeroForTheTerrainItself) {
 TEST(MeshError, OfEveryLevelIsWithinItsBudgetsAndNotBelowTheErrorOnAnyLine) {
   const Dem dem = FractalDem(5, 2);
   const Terrain terrain = *Terrain::Build(dem);
-  const Horizon horizon = *FindHorizon(terrain, 1, {});
+  const Horizon horizon = *FindHorizon(terrain, {}, {});
   const std::vector<LevelBudget> budgets = {{10, 0, 0, 0}, {20, 2.5, 0, 0}, {80, 10, 0, 0}};
   const std::vector<Lod> levels = *BuildLodChain(terrain, horizon, budgets, {});
   const std::vector<Triangle> full = terrain.Triangles();

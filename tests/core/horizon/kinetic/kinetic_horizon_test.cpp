@@ -24,7 +24,7 @@ std::vector<Edge> Find(const Terrain& terrain) { return (*FindHorizonKinetic(ter
 
 std::vector<Edge> FindAdaptively(const Terrain& terrain) {
   std::vector<Edge> edges;
-  const Horizon horizon = *FindHorizon(terrain, 1, {});
+  const Horizon horizon = *FindHorizon(terrain, {}, {});
   for (const HorizonEdge& e : horizon.edges) edges.push_back(e.edge);
   return edges;
 }
@@ -195,7 +195,7 @@ TEST(FindHorizon, GivesTheKineticEnginesEdgesWitnessesThatHold) {
     const Dem dem = AnyRandomDem(3, 12, random);
     Result<Terrain> terrain = Terrain::Build(dem);
     if (!terrain) continue;
-    const Horizon horizon = *FindHorizon(*terrain, 1, {}, Engine::kKinetic);
+    const Horizon horizon = *FindHorizon(*terrain, {.engine = Engine::kKinetic}, {});
     std::vector<Edge> edges;
     for (const HorizonEdge& e : horizon.edges) {
       EXPECT_TRUE(WitnessHolds(*terrain, e.edge, e.witness));

@@ -75,7 +75,7 @@ TEST(DirectionalSkylines, AreTheEnvelopesOfAllEdgesOfTheTerrain) {
   for (int round = 0; round < Rounds(1000); ++round) {
     const Dem dem = AnyDemWithGround(5, random);
     const Terrain terrain = *Terrain::Build(dem);
-    const Horizon horizon = *FindHorizon(terrain, 1, {});
+    const Horizon horizon = *FindHorizon(terrain, {}, {});
     const DirectionalSkylines skylines(terrain, horizon,
                                        *FindLinesOfSight(terrain, horizon, 1, {}));
     for (int i = 0; i < 3; ++i) {
@@ -89,7 +89,7 @@ TEST(DirectionalSkylines, AreTheEnvelopesOfAllEdgesOfTheTerrain) {
 TEST(DirectionalSkylines, OfASupersetAreTheSame) {
   const Dem dem = FractalDem(33, 300, 100, 3);
   const Terrain terrain = *Terrain::Build(dem);
-  const Horizon exact = *FindHorizon(terrain, 1, {});
+  const Horizon exact = *FindHorizon(terrain, {}, {});
   const Horizon more = *FindHorizon(
       terrain, {.work_budget = exact.statistics.predicates.Sum() / 3, .approximate = true}, {});
   ASSERT_GT(more.statistics.undecided, 0);
@@ -137,7 +137,7 @@ TEST(DirectionalSkylines, LeaveNoGapAndMeetNothingHigherOnARealDem) {
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "no zion_257.tif in FARHORIZON_DEM_DIR";
   const Dem dem = *ReadDem(path, {});
   const Terrain terrain = *Terrain::Build(dem);
-  const Horizon horizon = *FindHorizon(terrain, 2, {});
+  const Horizon horizon = *FindHorizon(terrain, {.threads = 2}, {});
   const DirectionalSkylines skylines(terrain, horizon, *FindLinesOfSight(terrain, horizon, 2, {}));
   std::mt19937 random(5);
   for (int i = 0; i < Rounds(40); ++i) {

@@ -25,7 +25,7 @@ constexpr int kUnits = 64;
 testing::AssertionResult ArePrecise(const Dem& dem) {
   Result<Terrain> terrain = Terrain::Build(dem);
   if (!terrain) return testing::AssertionSuccess();
-  const Horizon horizon = *FindHorizon(*terrain, 1, {});
+  const Horizon horizon = *FindHorizon(*terrain, {}, {});
   const SkylineDrops skyline_drops(*terrain, horizon, 1.0 / kUnits);
   const auto scaled = [&](VertexId v, std::int32_t lowered) {
     const Point3i p = terrain->Point(v);
@@ -76,7 +76,7 @@ TEST(SkylineDrop, OfARidgeOnAPlain) {
     return row == 2 && column >= 3 && column <= 6 ? 10 : 0;
   });
   const Terrain terrain = *Terrain::Build(dem);
-  const Horizon horizon = *FindHorizon(terrain, 1, {});
+  const Horizon horizon = *FindHorizon(terrain, {}, {});
   const SkylineDrops skyline_drops(terrain, horizon, 1e-3);
   for (std::size_t i = 0; i < horizon.edges.size(); ++i) {
     if (horizon.edges[i].edge == MakeEdge(2 * 9 + 4, 2 * 9 + 5)) {
@@ -93,7 +93,7 @@ TEST(SkylineDrop, OfGreatHeights) {
     return row == 2 ? most - column : -most + row;
   });
   const Terrain terrain = *Terrain::Build(dem);
-  const Horizon horizon = *FindHorizon(terrain, 1, {});
+  const Horizon horizon = *FindHorizon(terrain, {}, {});
   const SkylineDrops skyline_drops(terrain, horizon, 1e-3);
   double greatest = 0;
   for (std::size_t i = 0; i < horizon.edges.size(); ++i) {
@@ -109,7 +109,7 @@ TEST(SkylineDrop, IsNotExceededOnAnyLineOfADem) {
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "no zion_257.tif in FARHORIZON_DEM_DIR";
   const Dem dem = std::move(*ReadDem(path, {}));
   const Terrain terrain = *Terrain::Build(dem);
-  const Horizon horizon = *FindHorizon(terrain, 2, {});
+  const Horizon horizon = *FindHorizon(terrain, {.threads = 2}, {});
   const double tolerance = 1.0 / kUnits;
   const SkylineDrops skyline_drops(terrain, horizon, tolerance);
   const GridLineQuery lines(terrain);

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/geometry/direction.h"
 #include "core/horizon/find_horizon.h"
 #include "tests/oracles/lines_of_sight_by_definition.h"
 #include "tests/support/ascii_dem.h"
@@ -124,7 +125,7 @@ testing::AssertionResult RegionsAreTheDefinition(const Dem& dem, std::mt19937& r
                                                  Tally& tally) {
   const Result<Terrain> terrain = Terrain::Build(dem);
   if (!terrain) return testing::AssertionSuccess();
-  const Horizon horizon = *FindHorizon(*terrain, 1, {});
+  const Horizon horizon = *FindHorizon(*terrain, {}, {});
   SegmentIndex index(dem.columns, dem.rows);
   for (const HorizonEdge& e : horizon.edges) {
     index.Insert({terrain->Point(e.edge.a), terrain->Point(e.edge.b)});
@@ -133,9 +134,8 @@ testing::AssertionResult RegionsAreTheDefinition(const Dem& dem, std::mt19937& r
     const Edge edge = horizon.edges[i].edge;
     const Segment segment{terrain->Point(edge.a), terrain->Point(edge.b)};
     VisibleRegion region(TargetOf(segment));
-    const std::size_t first = i == 0 ? 0 : horizon.virtual_occluder_ends[i - 1];
-    for (std::size_t j = first; j < horizon.virtual_occluder_ends[i] && i % 2 == 0; ++j) {
-      region.AddOccluder({horizon.virtual_occluders[j].a, horizon.virtual_occluders[j].b});
+    if (i % 2 == 0) {
+      for (const Segment& s : horizon.virtual_occluders.Of(i)) region.AddOccluder({s.a, s.b});
     }
     region.AddOccluders(index, static_cast<std::int32_t>(i));
     if (region.cells().empty()) return testing::AssertionFailure() << "no line of sight";

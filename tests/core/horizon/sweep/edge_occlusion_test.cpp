@@ -60,13 +60,14 @@ bool MeetsLine(const ConvexPolygon& hull, const Scene& scene, int n, int d, Poin
   return left && right;
 }
 
-// Lines through the edge that no hull meets, of a fine sample, in directions within the wedge.
+// Whether some line of a fine sample, through the edge and in a direction of the wedge, meets no
+// hull.
 bool SomeLineIsFree(const Scene& scene, const std::optional<FaceWedge>& wedge) {
-  constexpr int kParts = 8;
+  constexpr int kSteps = 8;
   constexpr int kFine = 24;
   const auto cross = [](const ShortVector& a, Point2i b) { return a.x * b.y - a.y * b.x; };
   const ShortVector along{scene.high.x - scene.low.x, scene.high.y - scene.low.y};
-  for (int n = 1; n < kParts; ++n) {
+  for (int n = 1; n < kSteps; ++n) {
     for (int x = -kFine; x <= kFine; ++x) {
       for (int y = -kFine; y <= kFine; ++y) {
         const Point2i direction{x, y};
@@ -75,7 +76,7 @@ bool SomeLineIsFree(const Scene& scene, const std::optional<FaceWedge>& wedge) {
           continue;
         }
         const auto meets = [&](const ConvexPolygon& hull) {
-          return !hull.corners().empty() && MeetsLine(hull, scene, n, kParts, direction);
+          return !hull.corners().empty() && MeetsLine(hull, scene, n, kSteps, direction);
         };
         if (!meets(scene.own) && std::none_of(scene.others.begin(), scene.others.end(), meets)) {
           return true;
@@ -86,10 +87,10 @@ bool SomeLineIsFree(const Scene& scene, const std::optional<FaceWedge>& wedge) {
   return false;
 }
 
-TEST(EdgeOcclusion, IsCompleteOnlyWhereEveryLineMeetsAHull) {
+TEST(EdgeOcclusion, OccludesAllOnlyWhereEveryLineMeetsAHull) {
   std::mt19937 random(11);
   int complete = 0;
-  int hidden = 0;
+  int occluded = 0;
   for (int round = 0; round < 12000; ++round) {
     const Scene scene = RandomScene(random);
     const Point3i low{scene.low.x, scene.low.y, 0};
@@ -97,32 +98,31 @@ TEST(EdgeOcclusion, IsCompleteOnlyWhereEveryLineMeetsAHull) {
     const Point3i left{-scene.high.y, scene.high.x, RandomIn(random, -4, 2)};
     const Point3i right{scene.high.y, -scene.high.x, RandomIn(random, -4, 2)};
     const std::optional<FaceWedge> wedge = WedgeOf(low, high, left, right);
-    EdgeOcclusion shade(scene.low, scene.high, wedge);
-    if (!scene.own.corners().empty()) shade.Add(scene.own);
-    for (const ConvexPolygon& hull : scene.others) shade.Add(hull);
+    EdgeOcclusion occlusion(scene.low, scene.high, wedge);
+    if (!scene.own.corners().empty()) occlusion.Add(scene.own);
+    for (const ConvexPolygon& hull : scene.others) occlusion.Add(hull);
     const bool is_free = SomeLineIsFree(scene, wedge);
-    hidden += static_cast<int>(!is_free);
-    if (!shade.IsComplete()) continue;
+    occluded += static_cast<int>(!is_free);
+    if (!occlusion.Finish()) continue;
     ++complete;
     ASSERT_FALSE(is_free) << "round " << round;
   }
   EXPECT_GT(complete, 300);
-  EXPECT_GT(complete,
-            hidden / 2);  // hulls that take turns in hiding are left to the exact decision
+  // Hulls each of which occludes part of the edge only are left to the exact decision.
+  EXPECT_GT(complete, occluded / 2);
 }
 
-// What a virtual occluder hides, its hull does; and with all of them nothing is lost that matters: a hull that shows
-// in the rest has one.
-TEST(EdgeOcclusion, ScreensLieInTheHulls) {
+// Both ends of a virtual occluder are in one hull, so it occludes nothing that the hull does not.
+TEST(EdgeOcclusion, VirtualOccludersLieInTheHulls) {
   std::mt19937 random(12);
   std::size_t virtual_occluders = 0;
   for (int round = 0; round < 1000; ++round) {
     const Scene scene = RandomScene(random);
-    EdgeOcclusion shade(scene.low, scene.high, std::nullopt);
-    if (!scene.own.corners().empty()) shade.Add(scene.own);
-    for (const ConvexPolygon& hull : scene.others) shade.Add(hull);
+    EdgeOcclusion occlusion(scene.low, scene.high, std::nullopt);
+    if (!scene.own.corners().empty()) occlusion.Add(scene.own);
+    for (const ConvexPolygon& hull : scene.others) occlusion.Add(hull);
     std::vector<Segment> found;
-    shade.AppendVirtualOccluders(7, found);
+    occlusion.AppendVirtualOccluders(7, found);
     for (const Segment& virtual_occluder : found) {
       EXPECT_EQ(virtual_occluder.a.z, 7);
       EXPECT_EQ(virtual_occluder.b.z, 7);

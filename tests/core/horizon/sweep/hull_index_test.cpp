@@ -20,36 +20,37 @@ class HullIndexTest : public testing::Test {
  protected:
   int Any(int low, int high) { return std::uniform_int_distribution(low, high)(random_); }
   Point2i AnyPost() { return {Any(0, kColumns - 1), Any(0, kRows - 1)}; }
-  std::int32_t AnyPlace() { return Any(0, static_cast<int>(hulls_.size()) - 1); }
+  std::int32_t AnySlot() { return Any(0, static_cast<int>(hulls_.size()) - 1); }
 
   void Add() {
     hulls_.emplace_back(AnyPost());
     index_.Add(hulls_.back());
   }
-  // By a post nearby, or now and then by any.
+  // By a post nearby, now and then by any post.
   void Grow() {
-    const std::int32_t place = AnyPlace();
-    ConvexPolygon& hull = hulls_[static_cast<std::size_t>(place)];
+    const std::int32_t slot = AnySlot();
+    ConvexPolygon& hull = hulls_[static_cast<std::size_t>(slot)];
     Point2i p = AnyPost();
     if (Any(0, 9) > 0) {
       p = {std::clamp(hull.least().x + Any(-9, 9), 0, kColumns - 1),
            std::clamp(hull.least().y + Any(-9, 9), 0, kRows - 1)};
     }
     if (!hull.Contains(p)) hull.Extend(p);
-    index_.Grow(place, hull);
+    index_.Grow(slot, hull);
   }
   void Drop() {
-    const std::int32_t place = AnyPlace();
-    std::swap(hulls_[static_cast<std::size_t>(place)], hulls_.back());
+    const std::int32_t slot = AnySlot();
+    std::swap(hulls_[static_cast<std::size_t>(slot)], hulls_.back());
     hulls_.pop_back();
-    index_.Drop(place);
+    index_.Drop(slot);
   }
 
-  // What is found in the box, whether or not it reaches beyond the DEM, is what a look at all hulls finds.
-  void ExpectAllThatMeet(Point2i least, Point2i most) {
+  // Find finds the hulls that a scan of all hulls finds, also for a box that reaches beyond the
+  // DEM.
+  void ExpectAllThatIntersect(Point2i least, Point2i most) {
     std::vector<std::int32_t> found;
-    const std::int32_t last = index_.Find(least, most, [&found](std::int32_t place) {
-      found.push_back(place);
+    const std::int32_t last = index_.Find(least, most, [&found](std::int32_t slot) {
+      found.push_back(slot);
       return false;
     });
     ASSERT_EQ(last, -1);
@@ -58,16 +59,16 @@ class HullIndexTest : public testing::Test {
       const ConvexPolygon& hull = hulls_[i];
       const bool apart = hull.most().x < least.x || hull.least().x > most.x ||
                          hull.most().y < least.y || hull.least().y > most.y;
-      const auto place = static_cast<std::int32_t>(i);
-      ASSERT_EQ(index_.Meets(place, least, most), !apart);
-      if (!apart) expected.push_back(place);
+      const auto slot = static_cast<std::int32_t>(i);
+      ASSERT_EQ(index_.BoxIntersects(slot, least, most), !apart);
+      if (!apart) expected.push_back(slot);
     }
     const std::vector<std::int32_t> in_order = found;
     std::sort(found.begin(), found.end());
     ASSERT_EQ(found, expected);
     for (std::size_t i = 0; i < in_order.size(); ++i) {
       const std::int32_t wanted = in_order[i];
-      ASSERT_EQ(index_.Find(least, most, [&](std::int32_t place) { return place == wanted; }),
+      ASSERT_EQ(index_.Find(least, most, [&](std::int32_t slot) { return slot == wanted; }),
                 wanted);
     }
   }
@@ -77,7 +78,7 @@ class HullIndexTest : public testing::Test {
   HullIndex index_{kColumns, kRows};
 };
 
-TEST_F(HullIndexTest, FindsWhatALookAtAllHullsDoes) {
+TEST_F(HullIndexTest, FindsWhatAScanOfAllHullsFinds) {
   for (int round = 0; round < Rounds(5000); ++round) {
     const int step = Any(0, 9);
     if (hulls_.empty() || step < 4) {
@@ -88,11 +89,11 @@ TEST_F(HullIndexTest, FindsWhatALookAtAllHullsDoes) {
       Drop();
     }
     const Point2i least{Any(-40, kColumns + 40), Any(-40, kRows + 40)};
-    ExpectAllThatMeet(least, {least.x + Any(0, 60), least.y + Any(0, 60)});
+    ExpectAllThatIntersect(least, {least.x + Any(0, 60), least.y + Any(0, 60)});
     if (HasFatalFailure()) return;
   }
   while (!hulls_.empty()) Drop();
-  ExpectAllThatMeet({0, 0}, {kColumns, kRows});
+  ExpectAllThatIntersect({0, 0}, {kColumns, kRows});
 }
 
 }  // namespace

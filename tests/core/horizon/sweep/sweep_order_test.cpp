@@ -22,7 +22,7 @@ bool ComesBefore(const Dem& dem, VertexId a, VertexId b) {
   return height_a != height_b ? height_a > height_b : a < b;
 }
 
-void ExpectWhatTheDefinitionSays(const Terrain& terrain, const SweepOrder& order) {
+void ExpectTheDefinition(const Terrain& terrain, const SweepOrder& order) {
   const Dem& dem = terrain.dem();
   std::vector<VertexId> vertices;
   for (VertexId v = 0; v < terrain.post_count(); ++v) {
@@ -37,23 +37,24 @@ void ExpectWhatTheDefinitionSays(const Terrain& terrain, const SweepOrder& order
     }
     if (terrain.IsVertex(v)) vertices.push_back(v);
 
-    const SweepOrder::Around& around = order.around[static_cast<std::size_t>(v)];
-    std::vector<VertexId> told;
+    const SweepOrder::NeighbourOrder& neighbours =
+        order.neighbour_orders[static_cast<std::size_t>(v)];
+    std::vector<VertexId> found;
     for (std::size_t i = 0; i < order.offsets.size(); ++i) {
-      if ((around.before >> i & 1U) != 0) told.push_back(v + order.offsets[i]);
+      if ((neighbours.before >> i & 1U) != 0) found.push_back(v + order.offsets[i]);
     }
     std::sort(before.begin(), before.end());
-    std::sort(told.begin(), told.end());
-    ASSERT_EQ(told, before) << "post " << v;
-    ASSERT_EQ(around.some_after, some_after) << "post " << v;
+    std::sort(found.begin(), found.end());
+    ASSERT_EQ(found, before) << "post " << v;
+    ASSERT_EQ(neighbours.some_after, some_after) << "post " << v;
   }
   std::sort(vertices.begin(), vertices.end(),
             [&dem](VertexId a, VertexId b) { return ComesBefore(dem, a, b); });
   ASSERT_EQ(order.vertices, vertices);
 }
 
-// Heights of few values are counted, others are sorted: both are among the random terrains.
-TEST(OrderOfSweep, SaysWhatTheDefinitionDoesAtAnyNumberOfThreads) {
+// Heights of few values are counted, others are sorted; random terrains have both.
+TEST(OrderOfSweep, IsTheDefinitionAtAnyNumberOfThreads) {
   std::mt19937 random(5);
   for (int round = 0; round < Rounds(2000); ++round) {
     Dem dem = AnyRandomDem(2, 9, random);
@@ -66,7 +67,7 @@ TEST(OrderOfSweep, SaysWhatTheDefinitionDoesAtAnyNumberOfThreads) {
     if (!terrain) continue;
     SCOPED_TRACE(DrawAscii(dem));
     for (const int threads : {1, 3}) {
-      ExpectWhatTheDefinitionSays(*terrain, *OrderOfSweep(*terrain, threads, {}));
+      ExpectTheDefinition(*terrain, *OrderOfSweep(*terrain, threads, {}));
       if (HasFatalFailure()) return;
     }
   }
@@ -77,10 +78,10 @@ TEST(OrderOfSweep, ReadsRowsInManyBatches) {
   const Dem dem = AnyRandomDem(70, 90, random);
   const Result<Terrain> terrain = Terrain::Build(dem);
   ASSERT_TRUE(terrain);
-  ExpectWhatTheDefinitionSays(*terrain, *OrderOfSweep(*terrain, 4, {}));
+  ExpectTheDefinition(*terrain, *OrderOfSweep(*terrain, 4, {}));
 }
 
-TEST(OrderOfSweep, StopsWhenToldTo) {
+TEST(OrderOfSweep, StopsWhenAskedTo) {
   const Dem dem = AsciiDem("1 2\n3 4");
   std::stop_source stop;
   stop.request_stop();

@@ -11,8 +11,8 @@
 namespace farhorizon {
 namespace {
 
-// How much faster the face through low, high and third climbs in a direction than it would on the level,
-// times its area: by the plane's normal.
+// The rise of the face through low, high and third along `direction`, times twice the face's area:
+// from the normal of its plane.
 Int128 Climb(const Point3i& low, const Point3i& high, const Point3i& third,
              const ShortVector& direction) {
   const std::int64_t ux = high.x - low.x;
@@ -35,14 +35,15 @@ struct Ridge {
   std::optional<Point3i> right;
 };
 
-// Whether a line in `direction`, which points to the left of the edge, has ground above it right beside.
-bool IsHiddenByFaces(const Ridge& ridge, const ShortVector& direction) {
+// Whether a line through the edge in `direction`, which points to its left, has ground of a face
+// above it right beside the edge.
+bool IsOccludedByFaces(const Ridge& ridge, const ShortVector& direction) {
   const ShortVector back = -direction;
   return (ridge.left && Climb(ridge.low, ridge.high, *ridge.left, direction) > 0) ||
          (ridge.right && Climb(ridge.low, ridge.high, *ridge.right, back) > 0);
 }
 
-// Its plan may be a point; it may have one face only, or none.
+// An edge that may be a point in plan and may have two faces, one or none.
 Ridge AnyRidge(std::mt19937& random) {
   const auto any = [&random](int least, int most) {
     return least + static_cast<int>(random() % static_cast<unsigned>(most - least + 1));
@@ -59,21 +60,21 @@ Ridge AnyRidge(std::mt19937& random) {
   return ridge;
 }
 
-// The directions of a square of small vectors are in the wedge where no face hides them.
+// Small vectors have directions in the wedge exactly where no face occludes them.
 void ExpectTheFreeOnes(const Ridge& ridge, const FaceWedge& wedge) {
   const ShortVector along{ridge.high.x, ridge.high.y};
   for (int x = -7; x <= 7; ++x) {
     for (int y = -7; y <= 7; ++y) {
       const ShortVector direction{x, y};
       if (CrossSign(along, direction) <= 0) continue;
-      ASSERT_EQ(IsHiddenByFaces(ridge, direction),
+      ASSERT_EQ(IsOccludedByFaces(ridge, direction),
                 CrossSign(wedge.first, direction) < 0 || CrossSign(direction, wedge.last) < 0)
           << x << ", " << y;
     }
   }
 }
 
-TEST(FaceWedge, IsWhatTheFacesDoNotHide) {
+TEST(FaceWedge, IsWhatTheFacesDoNotOcclude) {
   std::mt19937 random(3);
   int wedges = 0;
   int without = 0;
@@ -95,7 +96,7 @@ TEST(FaceWedge, IsWhatTheFacesDoNotHide) {
   EXPECT_GT(without, 200);
 }
 
-TEST(FaceWedge, OfALevelEdgeIsNone) {
+TEST(FaceWedge, OfAHorizontalEdgeIsNone) {
   EXPECT_FALSE(WedgeOf({0, 0, 5}, {1, 0, 5}, Point3i{0, 1, 2}, Point3i{1, -1, 3}));
 }
 

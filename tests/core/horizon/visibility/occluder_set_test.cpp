@@ -25,35 +25,35 @@ struct Extent {
 };
 
 std::optional<Witness> FindLineOfSight(Extent extent, const Segment& segment,
-                                       const std::vector<Segment>& obstacles, Ties ties) {
+                                       const std::vector<Segment>& set, Ties ties) {
   OccluderSet occluders(extent.columns, extent.rows);
-  for (const Segment& f : obstacles) occluders.Insert(f);
-  return occluders.FindLineOfSight(segment, ties);
+  for (const Segment& f : set) occluders.Insert(f);
+  return occluders.FindLineOfSight({.segment = segment, .ties = ties}).witness;
 }
 
-/// FindLineOfSight gives a line of sight exactly if the definition has one, and one that meets nothing above.
-/// Where ties block, the line may still meet an end or a point of equal height, as long as the lines
-/// beside it do not.
+// FindLineOfSight finds a line of sight exactly where the definition has one, and nothing is above
+// the line that it finds. Where ties block, that line may still touch an end or a point of equal
+// height, if the lines beside it do not.
 testing::AssertionResult MatchesTheDefinition(Extent extent, const Segment& segment,
-                                              const std::vector<Segment>& obstacles, Ties ties) {
+                                              const std::vector<Segment>& all, Ties ties) {
   const auto fails = [&](const std::vector<Segment>& set) {
-    const std::optional<Witness> sight = FindLineOfSight(extent, segment, set, ties);
-    return sight.has_value() != LineOfSightByBruteForce(segment, set, ties).has_value() ||
-           (sight && sight->exact && !LineOfSightIsClear(*sight, segment, set, Ties::kPass));
+    const std::optional<Witness> witness = FindLineOfSight(extent, segment, set, ties);
+    return witness.has_value() != LineOfSightByBruteForce(segment, set, ties).has_value() ||
+           (witness && witness->exact && !LineOfSightIsClear(*witness, segment, set, Ties::kPass));
   };
-  if (!fails(obstacles)) return testing::AssertionSuccess();
-  const std::vector<Segment> few = Shrink(obstacles, fails);
-  const std::optional<Witness> sight = FindLineOfSight(extent, segment, few, ties);
+  if (!fails(all)) return testing::AssertionSuccess();
+  const std::vector<Segment> few = Shrink(all, fails);
+  const std::optional<Witness> witness = FindLineOfSight(extent, segment, few, ties);
   testing::AssertionResult failure = testing::AssertionFailure();
-  failure << NameOf(ties) << ", segment " << DrawSegments({segment}) << "obstacles\n"
+  failure << NameOf(ties) << ", segment " << DrawSegments({segment}) << "occluders\n"
           << DrawSegments(few);
-  if (!sight) return failure << "no sight is found, though there is one";
+  if (!witness) return failure << "no line of sight is found, though there is one";
   if (!LineOfSightByBruteForce(segment, few, ties))
-    failure << "a sight is found, though there is none; ";
-  return failure << LineOfSightIsClear(*sight, segment, few, Ties::kPass).message();
+    failure << "a line of sight is found, though there is none; ";
+  return failure << LineOfSightIsClear(*witness, segment, few, Ties::kPass).message();
 }
 
-/// Random segments of one of many kinds.
+// Random segments of one of many kinds.
 class SegmentSource {
  public:
   SegmentSource(std::int32_t side, std::int32_t max_height, std::uint32_t seed)
@@ -64,14 +64,14 @@ class SegmentSource {
   }
   Point3i AnyPoint() { return {Below(side_), Below(side_), Below(max_height_ + 1)}; }
 
-  /// Anywhere: crosses others, passes over their ends, overlaps them on small grids.
+  // Anywhere: on small grids chords cross, pass over each other's ends and overlap.
   Segment Chord() {
     for (;;) {
       const Segment s{AnyPoint(), AnyPoint()};
       if (s.a.x != s.b.x || s.a.y != s.b.y) return s;
     }
   }
-  /// Between neighbours in the grid.
+  // Between neighbours in the grid.
   Segment GridEdge() {
     for (;;) {
       const Segment s{AnyPoint(), AnyPoint()};
@@ -80,7 +80,7 @@ class SegmentSource {
       if (std::max(std::abs(dx), std::abs(dy)) == 1) return s;
     }
   }
-  /// On the line of `other` in plan, a part of it or beyond it; at its height or at any.
+  // On the line of `other` in plan, inside it or beyond it, at its height or near it.
   Segment InLineWith(const Segment& other) {
     const std::int32_t from = Below(4) - 1;
     const std::int32_t to = from + 1 + Below(2);
@@ -137,21 +137,21 @@ class SegmentSource {
   std::mt19937 random_;
 };
 
-void ExpectTheDefinition(std::int32_t side, std::int32_t max_height, int obstacles, int rounds,
+void ExpectTheDefinition(std::int32_t side, std::int32_t max_height, int occluders, int rounds,
                          std::uint32_t seed) {
   SegmentSource source(side, max_height, seed);
-  int seen = 0;
+  int visible = 0;
   for (int round = 0; round < rounds; ++round) {
-    std::vector<Segment> set = source.Set(2 + source.Below(obstacles));
+    std::vector<Segment> set = source.Set(2 + source.Below(occluders));
     const Segment segment = set.back();
     set.pop_back();
     for (const Ties ties : kBothTies) {
       ASSERT_TRUE(MatchesTheDefinition({side, side}, segment, set, ties)) << "round " << round;
-      seen += LineOfSightByBruteForce(segment, set, ties) ? 1 : 0;
+      visible += LineOfSightByBruteForce(segment, set, ties) ? 1 : 0;
     }
   }
-  EXPECT_GT(seen, rounds / 10);
-  EXPECT_LT(seen, 2 * rounds - rounds / 10);
+  EXPECT_GT(visible, rounds / 10);
+  EXPECT_LT(visible, 2 * rounds - rounds / 10);
 }
 
 TEST(FindLineOfSight, IsTheDefinitionOnSegmentsThatCoincideInEveryWay) {
@@ -181,18 +181,18 @@ TEST(FindLineOfSight, IsTheDefinitionInALargePlanAtTheLimitsOfHeight) {
   }
 }
 
-/// Chords between feet and tops that are 2^29 to 2^31 quanta apart and differ by single ones.
-void ExpectTheDefinitionOnCliffs(std::int32_t side, int obstacles, int rounds, std::uint32_t seed) {
+// Chords between feet and tops that are 2^29 to 2^31 quanta apart and differ by single ones.
+void ExpectTheDefinitionOnCliffs(std::int32_t side, int occluders, int rounds, std::uint32_t seed) {
   SegmentSource source(side, 3, seed);
   constexpr std::int32_t kTop = (1 << 30) - 4;
   const std::array<std::array<std::int32_t, 3>, 3> kinds{
       {{0, 0, 1 << 29}, {-kTop - 3, kTop, kTop}, {0, 1 << 16, kTop}}};
   for (int round = 0; round < rounds; ++round) {
-    std::vector<Segment> set = source.Set(2 + source.Below(obstacles));
-    const auto& levels = kinds[static_cast<std::size_t>(round) % kinds.size()];
+    std::vector<Segment> set = source.Set(2 + source.Below(occluders));
+    const auto& heights = kinds[static_cast<std::size_t>(round) % kinds.size()];
     for (Segment& s : set) {
-      s.a.z += levels[static_cast<std::size_t>(source.Below(3))];
-      s.b.z += levels[static_cast<std::size_t>(source.Below(3))];
+      s.a.z += heights[static_cast<std::size_t>(source.Below(3))];
+      s.b.z += heights[static_cast<std::size_t>(source.Below(3))];
     }
     const Segment segment = set.back();
     set.pop_back();
@@ -208,7 +208,7 @@ TEST(FindLineOfSight, IsTheDefinitionOnCliffsThatDifferByAQuantum) {
   ExpectTheDefinitionOnCliffs(1'000, 60, Rounds(200), 11);
 }
 
-TEST(FindSightLong, IsTheDefinitionOnCliffsThatDifferByAQuantum) {
+TEST(FindLineOfSightLong, IsTheDefinitionOnCliffsThatDifferByAQuantum) {
   ExpectTheDefinitionOnCliffs(5, 25, Rounds(30'000), 12);
   ExpectTheDefinitionOnCliffs(60, 40, Rounds(10'000), 13);
   ExpectTheDefinitionOnCliffs(1'000, 60, Rounds(5'000), 14);
@@ -219,8 +219,8 @@ TEST(FindLineOfSight, FindsALineInAnEmptySet) {
   EXPECT_TRUE(MatchesTheDefinition({4, 4}, segment, {}, Ties::kBlock));
 }
 
-TEST(FindLineOfSight, LevelGroundHidesOnlyWhereTiesBlock) {
-  // A ring of level segments around a level one of the same height.
+TEST(FindLineOfSight, GroundAtTheSameHeightOccludesOnlyWhereTiesBlock) {
+  // A ring of horizontal segments around a horizontal one of the same height.
   const std::vector<Segment> ring{{{0, 0, 2}, {6, 0, 2}},
                                   {{6, 0, 2}, {6, 6, 2}},
                                   {{6, 6, 2}, {0, 6, 2}},
@@ -230,25 +230,26 @@ TEST(FindLineOfSight, LevelGroundHidesOnlyWhereTiesBlock) {
   EXPECT_FALSE(FindLineOfSight({7, 7}, segment, ring, Ties::kBlock));
 }
 
-TEST(FindLineOfSight, ACopyOfTheSegmentHidesItOnlyWhereTiesBlock) {
+TEST(FindLineOfSight, ACopyOfTheSegmentOccludesItOnlyWhereTiesBlock) {
   const Segment segment{{0, 0, 2}, {3, 3, 7}};
   EXPECT_TRUE(FindLineOfSight({4, 4}, segment, {segment}, Ties::kPass));
   EXPECT_FALSE(FindLineOfSight({4, 4}, segment, {segment}, Ties::kBlock));
 }
 
-TEST(FindLineOfSight, LooksThroughTheMemberItIsToldTo) {
+TEST(FindLineOfSight, IgnoresTheMemberThatIsExcepted) {
   SegmentSource source(5, 4, 5);
   for (int round = 0; round < Rounds(2'000); ++round) {
     const std::vector<Segment> set = source.Set(2 + source.Below(12));
     const auto asked =
         static_cast<std::size_t>(source.Below(static_cast<std::int32_t>(set.size())));
     OccluderSet occluders(5, 5);
-    std::vector<OccluderSet::Id> ids;
+    std::vector<OccluderId> ids;
     for (const Segment& s : set) ids.push_back(occluders.Insert(s));
     std::vector<Segment> others = set;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(asked));
     for (const Ties ties : kBothTies) {
-      ASSERT_EQ(occluders.FindLineOfSight(set[asked], ties, ids[asked]).has_value(),
+      const VisibilityQuery query{.segment = set[asked], .ties = ties, .except = ids[asked]};
+      ASSERT_EQ(occluders.FindLineOfSight(query).witness.has_value(),
                 LineOfSightByBruteForce(set[asked], others, ties).has_value())
           << NameOf(ties) << ", number " << asked << " of\n"
           << DrawSegments(set);
@@ -256,29 +257,30 @@ TEST(FindLineOfSight, LooksThroughTheMemberItIsToldTo) {
   }
 }
 
-TEST(FindLineOfSight, NamesBlockersThatHideTheSegmentByThemselves) {
+TEST(FindLineOfSight, NamesMembersThatOccludeTheSegmentByThemselves) {
   SegmentSource source(6, 4, 6);
-  int hidden = 0;
+  int occluded = 0;
   for (int round = 0; round < Rounds(3'000); ++round) {
-    std::map<OccluderSet::Id, Segment> members;
+    std::map<OccluderId, Segment> members;
     OccluderSet occluders(6, 6);
     for (const Segment& s : source.Set(15)) members[occluders.Insert(s)] = s;
     const Segment segment = source.Chord();
     for (const Ties ties : kBothTies) {
-      std::vector<OccluderSet::Id> blockers;
-      if (occluders.FindLineOfSight(segment, ties, std::nullopt, {}, &blockers)) continue;
-      ++hidden;
+      const Visibility answer =
+          occluders.FindLineOfSight({.segment = segment, .ties = ties, .want_occluders = true});
+      if (answer.witness) continue;
+      ++occluded;
       std::vector<Segment> few;
-      for (const OccluderSet::Id id : blockers) {
+      for (const OccluderId id : answer.occluders) {
         ASSERT_TRUE(members.contains(id));
         few.push_back(members.at(id));
       }
       ASSERT_FALSE(LineOfSightByBruteForce(segment, few, ties))
-          << NameOf(ties) << ", segment " << DrawSegments({segment}) << "blockers\n"
+          << NameOf(ties) << ", segment " << DrawSegments({segment}) << "its occluders\n"
           << DrawSegments(few);
     }
   }
-  EXPECT_GT(hidden, Rounds(500));
+  EXPECT_GT(occluded, Rounds(500));
 }
 
 // A history of random insertions and erasures against a plain list of the members.
@@ -286,12 +288,12 @@ TEST(OccluderSet, AnswersForItsPresentMembersAfterAnyHistory) {
   SegmentSource source(6, 4, 7);
   for (int history = 0; history < Rounds(60); ++history) {
     OccluderSet occluders(6, 6);
-    std::map<OccluderSet::Id, Segment> members;
-    std::vector<OccluderSet::Id> ever;
+    std::map<OccluderId, Segment> members;
+    std::vector<OccluderId> ever;
     for (int step = 0; step < 80; ++step) {
       if (members.empty() || source.Below(5) < 3) {
         const Segment s = source.Chord();
-        const OccluderSet::Id id = occluders.Insert(s);
+        const OccluderId id = occluders.Insert(s);
         ASSERT_EQ(std::count(ever.begin(), ever.end(), id), 0) << "an id is never used again";
         ever.push_back(id);
         members[id] = s;
@@ -306,12 +308,32 @@ TEST(OccluderSet, AnswersForItsPresentMembersAfterAnyHistory) {
       for (const auto& [id, s] : members) set.push_back(s);
       const Segment segment = source.Chord();
       const Ties ties = kBothTies[static_cast<std::size_t>(step % 2)];
-      ASSERT_EQ(occluders.FindLineOfSight(segment, ties).has_value(),
-                LineOfSightByBruteForce(segment, set, ties).has_value())
+      const Visibility answer = occluders.FindLineOfSight({.segment = segment, .ties = ties});
+      ASSERT_EQ(answer.witness.has_value(), LineOfSightByBruteForce(segment, set, ties).has_value())
           << NameOf(ties) << ", segment " << DrawSegments({segment}) << "members\n"
           << DrawSegments(set);
     }
   }
+}
+
+TEST(FindLineOfSight, GivesUpAtTheDecisionLimitAndNotBefore) {
+  SegmentSource source(12, 30, 15);
+  OccluderSet occluders(12, 12);
+  for (const Segment& s : source.Set(80)) occluders.Insert(s);
+  int gave_up = 0;
+  for (int round = 0; round < Rounds(300); ++round) {
+    VisibilityQuery query{.segment = source.Chord()};
+    const Visibility whole = occluders.FindLineOfSight(query);
+    query.decision_limit = whole.counts.Sum() + 1;
+    EXPECT_FALSE(occluders.FindLineOfSight(query).gave_up);
+    query.decision_limit = whole.counts.Sum() / 2;
+    const Visibility half = occluders.FindLineOfSight(query);
+    gave_up += half.gave_up ? 1 : 0;
+    EXPECT_LE(half.counts.Sum(), whole.counts.Sum());
+    if (half.gave_up) continue;
+    EXPECT_EQ(half.witness.has_value(), whole.witness.has_value());
+  }
+  EXPECT_GT(gave_up, Rounds(300) / 10);
 }
 
 TEST(FindLineOfSight, CountsItsDecisions) {
@@ -320,34 +342,31 @@ TEST(FindLineOfSight, CountsItsDecisions) {
   OccluderSet occluders(6, 6);
   for (const Segment& s : source.Set(30)) occluders.Insert(s);
   for (int i = 0; i < 20; ++i) {
-    static_cast<void>(
-        occluders.FindLineOfSight(source.Chord(), Ties::kPass, std::nullopt, {}, nullptr, &counts));
+    counts += occluders.FindLineOfSight({.segment = source.Chord()}).counts;
   }
   EXPECT_GT(counts.filtered + counts.exact, 0);
 }
 
-TEST(OccluderSet, WhatIsTriedFirstChangesNoAnswer) {
+TEST(OccluderSet, LikelyOccludersChangeNoAnswer) {
   SegmentSource source(9, 12, 77);
   for (int round = 0; round < Rounds(2000); ++round) {
     OccluderSet occluders(9, 9);
     std::vector<Segment> set;
-    std::vector<OccluderSet::Id> likely;
+    std::vector<OccluderId> likely;
     for (int i = 0; i < 12; ++i) {
       set.push_back(source.Chord());
-      const OccluderSet::Id id = occluders.Insert(set.back());
+      const OccluderId id = occluders.Insert(set.back());
       if (source.Below(3) == 0) likely.push_back(id);
       if (source.Below(6) == 0) occluders.Erase(id);
     }
     const Segment segment = source.Chord();
     for (const Ties ties : kBothTies) {
-      const OcclusionHints hints{{}, likely, std::nullopt};
-      const auto plain = occluders.FindLineOfSight(segment, ties);
-      const auto hinted = occluders.FindLineOfSight(segment, ties, 3, hints);
-      const auto same = occluders.FindLineOfSight(segment, ties, 3);
-      EXPECT_EQ(hinted.has_value(), same.has_value()) << "round " << round;
-      EXPECT_EQ(occluders.FindLineOfSight(segment, ties, std::nullopt, hints).has_value(),
-                plain.has_value())
-          << "round " << round;
+      for (const auto& except : {std::optional<OccluderId>(), std::optional<OccluderId>(3)}) {
+        VisibilityQuery query{.segment = segment, .ties = ties, .except = except};
+        const bool plain = occluders.FindLineOfSight(query).witness.has_value();
+        query.hints.likely = likely;
+        EXPECT_EQ(occluders.FindLineOfSight(query).witness.has_value(), plain) << "round " << round;
+      }
     }
   }
 }
