@@ -21,8 +21,8 @@ struct EventCounts {
   std::int64_t hull = 0;       ///< failed certificates of hulls: corners in line, points coming out
   std::int64_t inside = 0;     ///< points inside that were given another triangle of their hull
   std::int64_t bitangent = 0;  ///< failed certificates of bitangents, all kinds
-  /// The same by the kinds of figure 3.1: two active scene bitangents, active and inactive, active and
-  /// hull, inactive and hull.
+  /// The same by the kinds of figure 3.1: two active scene bitangents, active and inactive, active
+  /// and hull, inactive and hull.
   std::array<std::int64_t, 4> by_kind{};
   std::int64_t clusters_max = 0;
   std::int64_t queue_max = 0;  ///< certificates pending, and posts to come
@@ -38,25 +38,26 @@ struct KineticHorizon {
 /// terrain, and the visual lines of its slice are kept by a queue of certificates. Shares with
 /// FindHorizon the terrain and exact numbers, no algorithm: each is a check of the other.
 ///
-/// Hulls are certified by their corners' turns and by a triangle round each point inside, not by the
-/// tree of Basch, Guibas and Hershberger: 513 x 513 posts of the Presidential Range have 6,652 failures
-/// of the one and 69,456 of the other, among 263,168 posts and 34,676 failures of bitangents.
+/// Hulls are certified by their corners' turns and by a triangle round each point inside, not by
+/// the tree of Basch, Guibas and Hershberger: 513 x 513 posts of the Presidential Range have 6,652
+/// failures of the one and 69,456 of the other, among 263,168 posts and 34,676 failures of
+/// bitangents.
 ///
 /// Exact for every terrain within the limits, equal heights and posts in line included.
 /// work_budget: most EventCounts::work to be done; unset: DefaultKineticWorkBudget.
-/// Errors: kCancelled; kUnsupportedData, kind kinetic-too-large, where 2 log2(columns or rows) +
-/// 3 log2(range of heights in quanta) is beyond 118: remedy, the adaptive engine; kResourceExhausted, kind
-/// work-budget, where the budget is spent, or kMostKineticHulls are apart: the same remedy.
+/// Errors: kCancelled; kUnsupportedData, kind kinetic-too-large, where 2 log2(columns or rows) + 3
+/// log2(range of heights in quanta) is beyond 118: remedy, the adaptive engine; kResourceExhausted,
+/// kind work-budget, where the budget is spent, or kMostKineticHulls are apart: the same remedy.
 Result<KineticHorizon> FindHorizonKinetic(const Terrain& terrain, const Watch& watch,
                                           std::optional<std::int64_t> work_budget = std::nullopt);
 
-/// The same under the default budget, with all invariants of the scene (kinetic/scene.h) looked at after
-/// every step: for tests. Throws InternalError where one does not hold. Cost: some ten times as much, and more
-/// where many hulls are apart.
+/// The same under the default budget, with all invariants of the scene (kinetic/scene.h) looked at
+/// after every step: for tests. Throws InternalError where one does not hold. Cost: some ten times
+/// as much, and more where many hulls are apart.
 Result<KineticHorizon> FindHorizonKineticChecked(const Terrain& terrain);
 
-/// 200 an edge of the terrain, and no less than 5 * 10^7 in all: some forty times what the hardest real DEM
-/// known needs.
+/// 200 an edge of the terrain, and no less than 5 * 10^7 in all: some forty times what the hardest
+/// real DEM known needs.
 std::int64_t DefaultKineticWorkBudget(std::int64_t terrain_edges);
 
 /// The tangents of so many hulls, each with every other, take a quarter of a gigabyte and a minute.
