@@ -25,8 +25,7 @@ struct Event {
   std::int32_t id = 0;
 };
 
-/// When certificates fail: the event queue of a kinetic data structure [Archambault03, section
-/// 3.1].
+/// When certificates fail: the event queue of a kinetic data structure [Archambault03, chapter 3].
 ///
 /// A certificate is a predicate that is true until its event in the queue. It has a stamp, which
 /// grows with each change; an event whose stamp is older than the certificate's is stale and is

@@ -196,7 +196,7 @@ void CollinearEvents::CloseGap(PointId p, std::size_t index) {
   order_.CertifyActive(p, index);
 }
 
-// What deferred to the one that loses its place still does, and it defers to its successor.
+// The one that loses its place defers to its successor; all that deferred to it still do.
 void CollinearEvents::Replace(const Meeting& meeting, std::size_t index) {
   const PointId p = meeting.corner;
   const bool first = order_.IsActive(meeting.first);
@@ -212,7 +212,8 @@ void CollinearEvents::Replace(const Meeting& meeting, std::size_t index) {
                         order_.ActiveOrEdge(p, starts ? index + 1 : index - 1));
 }
 
-// The gap is split, and all that are in it are looked at (lemma 3.13 of the thesis, last case).
+// The occluded gap is split. Each half tangent in it has the new border on its side as its partner
+// from here on (lemma 3.13 of the thesis, last case).
 void CollinearEvents::OpenGap(const Meeting& meeting, std::size_t index) {
   const PointId p = meeting.corner;
   const bool starts = TangentTable::Starts(meeting.first);

@@ -24,7 +24,7 @@ struct CollinearPair {
 
 /// Three corners of three hulls in line: algorithm 3.2 of [Archambault03].
 ///
-/// Of the three tangents between the corners two pass each corner, and they change places there.
+/// At each of the corners two of the three tangents between them change places in the order there.
 /// All three tangents change their activity (figure 3.12 of the thesis). At a corner, two active
 /// ones close the visual gap between them, an active one gives its place to an inactive one, or two
 /// inactive ones open a visual gap. For example, where Q rises between P and R:
@@ -39,8 +39,10 @@ struct CollinearPair {
 /// pr gives its place to pq at p and to qr at r, and pq and qr open a visual gap at q. Where Q
 /// sinks, they close it; where Q comes down on pr from above, three gaps close.
 ///
-/// Where that is all that happens at a depth, it is done in place, at a cost that does not depend
-/// on the number of tangents that defer to the three; else the corners are marked stale.
+/// Where that is all that happens at a depth, it is done in place: O(log n) for n certificates,
+/// however many half tangents defer to the three; but where a gap is opened, all that are in the
+/// occluded gap around it are looked up (lemma 3.13 of the thesis). Else the corners are marked
+/// stale.
 class CollinearEvents {
  public:
   /// Requires: all outlive it.
@@ -55,8 +57,9 @@ class CollinearEvents {
   void Add(const CollinearPair& pair) { pairs_.push_back(pair); }
   /// Whether all pairs are of the same three corners.
   [[nodiscard]] bool AreOne() const;
-  /// Marks the ends of tangents that do not support their hulls any more as displaced: what passes
-  /// an active tangent may cross an edge of the hull with it, and so may all that deferred to it.
+  /// Marks the ends of tangents that do not support their hulls any more as displaced: a half
+  /// tangent that passes an active one may cross an edge of the hull together with it, and with
+  /// those that deferred to it.
   void MarkDisplaced();
   /// Does the exchanges in place where the corners are as figure 3.12 has them, and marks them
   /// stale elsewhere. No pair is left. Requires: nothing else happens at this depth.

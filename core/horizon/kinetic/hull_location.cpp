@@ -65,9 +65,10 @@ Box BoxOf(const KineticHulls& hulls, ClusterId c, double s, double margin) {
   return around;
 }
 
-// Whether the boxes around the hulls have a point in common somewhere in [s, s + off]. Points move
-// by one post per quantum at most. The coordinates are below 2^16 posts and made by four
-// operations, so floating point errs by less than a thousandth of a post.
+// Whether the boxes around the hulls have a point in common at some depth in [s, s + off]. Points
+// move by one post per quantum at most. A coordinate is the difference of two terms below 2^32
+// posts (an edge with a climb of one quantum, extended to the summit), made by four operations:
+// floating point is off by less than 2^-17 posts.
 bool BoxesIntersect(const KineticHulls& hulls, ClusterId a, ClusterId b, double s, double off) {
   const Box p = BoxOf(hulls, a, s, off + 1e-3);
   const Box q = BoxOf(hulls, b, s, off + 1e-3);

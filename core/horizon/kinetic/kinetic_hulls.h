@@ -15,20 +15,21 @@ namespace farhorizon::kinetic {
 
 struct KineticPoint {
   MovingPoint path;
-  std::int64_t end = 0;  ///< the depth at which it is removed
-  std::int32_t tag = 0;  ///< the caller's
-  ClusterId cluster = -1;
-  bool alive = true;    ///< may still be a corner
-  bool corner = false;  ///< of the hull of its cluster
-  PointId prev = -1;  ///< the corners beside it, clockwise and counter-clockwise; of the last time
-  PointId next = -1;  ///< it was a corner, -1 if it never was
-  std::int32_t index = 0;  ///< in the corners of its cluster
+  std::int64_t end = 0;    ///< the depth at which it is removed
+  std::int32_t tag = 0;    ///< the caller's
+  ClusterId cluster = -1;  ///< the one that it was last found in; ClusterOf() has the present one
+  bool alive = true;       ///< may still become a corner, or is one
+  bool corner = false;     ///< of the hull of its cluster
+  /// Of a corner: the previous and the next one, counter-clockwise, and its place among the corners
+  /// of its cluster. Of a point that was a corner: what they were then; else -1, -1 and 0.
+  PointId prev = -1;
+  PointId next = -1;
+  std::int32_t index = 0;
 };
 
 struct KineticHull {
-  std::vector<PointId>
-      corners;  ///< counter-clockwise; empty where the cluster was joined to another
-  std::vector<PointId> unlocated;  ///< points to become corners or to be given a triangle
+  std::vector<PointId> corners;    ///< counter-clockwise; none if it was joined to another
+  std::vector<PointId> unlocated;  ///< points that are to become corners or to get a triangle
   bool corners_stale = false;      ///< the corners are to be found anew
   bool is_new = false;             ///< no tangents yet
   bool changed = false;            ///< is in changed()
@@ -41,12 +42,13 @@ struct KineticHull {
 ///    a certificate kHull for each corner;
 ///  - every other point that is alive lies in a triangle of three corners; a certificate kInterior
 ///    for it. Points that can never be a corner again are not alive.
-/// So the corners are the convex hull of the cluster's points. The hulls of different clusters are
-/// disjoint; the scene joins those that meet.
+/// So the corners are those of the convex hull of the cluster's points. The hulls of different
+/// clusters are disjoint: the scene joins those that come to intersect.
 ///
-/// It is simpler than the tree of [BaschGuibasHershberger97] of the thesis ([Archambault03, section
-/// 3.2.4]): a failure costs O(h log h) for h corners instead of O(log^2 h), and each interior point
-/// has a certificate. But only points on convex edges that may yet come out are kept at all.
+/// This is simpler than the thesis's tree [Archambault03, section 3.2.4] of
+/// [BaschGuibasHershberger97]: a failure costs O(h log h) for h corners instead of O(log^2 h), and
+/// each interior point has a certificate. But only points on convex edges are kept, and only while
+/// they may still come out.
 class KineticHulls {
  public:
   /// Requires: both outlive it.
@@ -57,18 +59,19 @@ class KineticHulls {
   ClusterId NewCluster();
   /// The point is no longer there, from the next UpdateHull() on.
   void Remove(PointId p);
-  /// Says that the hull has no tangents, until the step ends.
+  /// Marks a hull as one without tangents, until the step ends.
   void MarkNew(ClusterId c) { hulls_[Index(c)].is_new = true; }
   /// Gives all points of `lost` to `kept`. Requires: two clusters of clusters().
   void Join(ClusterId kept, ClusterId lost);
-  /// The one that `cluster` has become part of.
+  /// The cluster that `cluster` has become part of; itself if it was not joined to another.
   [[nodiscard]] ClusterId Find(ClusterId cluster) const;
   [[nodiscard]] ClusterId ClusterOf(PointId p) const { return Find(point(p).cluster); }
 
-  /// Orientations are those just after `now` from here on.
+  /// From here on, orientations are those just after `now`.
   void AdvanceTo(const SweepDepth& now) { now_ = now; }
-  /// A certificate has failed: corners in line, or a point at the border of its triangle.
+  /// The corners of p's hull are to be found anew: three are in line, or p, a corner, is removed.
   void InvalidateCorners(PointId p);
+  /// The interior point has come to the border of its triangle, or a corner of that is removed.
   void InvalidateTriangle(PointId p);
 
   /// Finds the corners anew where they changed, and marks those as displaced that have other
@@ -82,10 +85,10 @@ class KineticHulls {
   [[nodiscard]] const KineticPoint& point(PointId p) const { return points_[Index(p)]; }
   [[nodiscard]] PointId point_count() const { return static_cast<PointId>(points_.size()); }
   [[nodiscard]] const KineticHull& hull(ClusterId c) const { return hulls_[Index(c)]; }
-  /// Those that were not joined to another, in the order in which they began.
+  /// The clusters that were not joined to another, in the order in which they began.
   [[nodiscard]] std::span<const ClusterId> clusters() const { return clusters_; }
-  /// Clusters with new points, lost corners or failed certificates in this step, in that order;
-  /// some may have been joined to another since.
+  /// The clusters with new points, removed corners or failed certificates in this step, in the
+  /// order in which they got them; some may have been joined to another since.
   [[nodiscard]] const std::vector<ClusterId>& changed() const { return changed_; }
 
   /// The sign of the orientation just after `now`: positive where c is left of ab. 0: for ever.

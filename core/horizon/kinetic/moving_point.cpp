@@ -38,7 +38,7 @@ int FilteredOrientation(const MovingPoint& a, const MovingPoint& b, const Moving
                         const SweepDepth& now) {
   const double s = now.lo;
   const double off = now.hi - now.lo;
-  if (!(off <= s * 0x1p-40)) return 0;
+  if (!(off <= s * 0x1p-40)) return 0;  // any bound is sound: the error below would be too large
   const Nearly p = NearlyAt(a, s);
   const Nearly q = NearlyAt(b, s);
   const Nearly r = NearlyAt(c, s);

@@ -11,15 +11,16 @@
 namespace farhorizon::kinetic {
 
 /// The depth of each corner: how many hulls occlude the line of its first edge, the one from the
-/// previous corner. Each other hull occludes two arcs (tangent_table.h), and with them the first
-/// edges of the corners after an arc's start up to its end:
+/// previous corner. Each other hull occludes two arcs (tangent_table.h), and with an arc the first
+/// edges of the corners after its start up to its end:
 ///
-///      start          end           first edges of q, r and s: one hull more.
-///        |             |            At p, the lines after the start; at s, those before the end:
-///      --p---q----r----s---         CornerOrder sees to these.
+///        start         end
+///          |            |          The depths of q, r and s count the hull: it occludes the lines
+///      ----p---q----r---s----      pq, qr and rs. At p it occludes those between the start and pq,
+///                                  at s those between rs and the end: CornerOrder has these.
 ///
-/// While a hull is marked for a recount (step_marks.h), its depths are not kept; Recount() finds
-/// them.
+/// While a hull is marked for a recount (step_marks.h), its depths have no meaning, until
+/// Recount().
 class OcclusionDepths {
  public:
   /// Requires: all outlive it.
@@ -32,9 +33,8 @@ class OcclusionDepths {
   void Occlude(const Arc& arc);
   /// Remembers an arc whose tangents are about to be dropped.
   void Drop(const Arc& arc);
-  /// Takes the dropped arcs out of the depths. The hulls that occluded them have been joined into
-  /// hulls that occlude all of it. So depths fall only once those have their tangents: at no time
-  /// do the lines look visual.
+  /// Takes the dropped arcs out of the depths. Requires: the hulls into which the occluding ones
+  /// were joined have their tangents; they occlude all of the arcs. So no depth falls to 0 between.
   void ReleaseDropped();
   /// Counts all depths of a hull anew; corners at which visual lines may have begun or ended are
   /// marked stale. Cost: O(h + k).

@@ -10,7 +10,7 @@ namespace farhorizon::kinetic {
 using PointId = std::int32_t;
 using ClusterId = std::int32_t;
 
-/// Ids are indices that are never negative where something is looked up by them.
+/// An id as an index. Requires: it is not negative.
 constexpr std::size_t Index(std::int32_t id) { return static_cast<std::size_t>(id); }
 
 /// What has changed in the present step of the scene and is to be put in order before the step

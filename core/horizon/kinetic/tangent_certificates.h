@@ -20,10 +20,10 @@ namespace farhorizon::kinetic {
 ///
 /// The thesis certifies an inactive tangent with the border of its gap [Archambault03, section
 /// 3.2.3 and figure 3.1] and, where an active and an inactive tangent change places, gives all
-/// certificates of the one to the other. Here those stay, *deferred*: the tangent that lost its
-/// place is certified with its successor, and through it so are all whose partner it is. That is
-/// the tournament that chapter 5 of the thesis asks for: an exchange costs O(log n), whatever the
-/// number of hulls.
+/// certificates of the one to the other. Here these stay and are *deferred*: the tangent that lost
+/// its place is certified with its successor, and so are, through it, all that have it as their
+/// partner. That is the tournament that chapter 5 of the thesis asks for: an exchange costs O(log
+/// n) for n certificates, whatever the number of hulls.
 class TangentCertificates {
  public:
   /// Requires: all outlive it.
@@ -33,14 +33,15 @@ class TangentCertificates {
 
   /// Makes room for all of the table's tangents.
   void Resize() { halves_.resize(Index(tangents_.half_count())); }
-  /// For a half tangent that is made, or dropped.
+  /// For a half tangent that is made.
   void ClearDeferred(HalfTangentId half) { halves_[Index(half)].deferred = {}; }
-  void ClearPartners(HalfTangentId half) { halves_[Index(half)].partner = {-1, -1}; }
+  /// For a half tangent that is dropped.
+  void ClearPartners(HalfTangentId half) { halves_[Index(half)].partner = {kHullEdge, kHullEdge}; }
 
   /// Certifies the present order of `half` and `partner`; none where `partner` is `half`. Costs
   /// nothing where the three corners are the same as before.
   void Certify(HalfTangentId half, std::size_t which, HalfTangentId partner);
-  /// Says that the certificate has failed; its points are in line.
+  /// Takes note that the certificate has failed, as its points are in line.
   void Fail(HalfTangentId half, std::size_t which) { halves_[Index(half)].turn[which] = {}; }
 
   [[nodiscard]] HalfTangentId partner(HalfTangentId half, std::size_t which) const {
@@ -73,7 +74,7 @@ class TangentCertificates {
   };
   struct Half {
     std::array<Turn, 2> turn;
-    std::array<HalfTangentId, 2> partner{-1, -1};
+    std::array<HalfTangentId, 2> partner{kHullEdge, kHullEdge};
     std::array<std::int32_t, 2> deferred{};
   };
   [[nodiscard]] Turn TurnBetween(HalfTangentId half, std::size_t which,

@@ -12,11 +12,11 @@
 
 namespace farhorizon::kinetic {
 
-/// Moves tangents from corner to corner, and finds out which corners are stale for that.
+/// Moves tangents from corner to corner, and marks the corners whose order that makes stale.
 ///
-/// Certificates tell only where a half tangent meets a partner or an edge of its own hull. What has
-/// moved besides is found from there: tangents that deferred to one that moved, ties that end
-/// because a point ends, and corners beside.
+/// A certificate fails only where a half tangent comes in line with a partner or an edge of its own
+/// hull. What else moves at the same depth is found from there: half tangents that deferred to one
+/// that moved, and those that were in line for this one depth at which a point ends.
 class TangentMotion {
  public:
   /// Requires: all outlive it.
@@ -35,8 +35,8 @@ class TangentMotion {
   /// An inactive half tangent has come in line with an edge of its own hull.
   void AddCrossing(HalfTangentId half) { crossings_.push_back({half, tangents_.Own(half)}); }
   [[nodiscard]] std::span<const Crossing> crossings() const { return crossings_; }
-  /// Moves those across the edge, each by itself where nothing else happens there; where more does,
-  /// the corners are marked as displaced. None is left.
+  /// Moves those across the edge, each by itself, where nothing else happens; where more does,
+  /// marks the corners as displaced. No crossing is left.
   void CrossEdges();
 
   /// Moves all tangents at displaced corners to where they support their hulls. The corners that a
@@ -44,8 +44,8 @@ class TangentMotion {
   void WalkDisplaced();
   /// Marks further corners that a stale corner makes displaced or stale.
   void MarkBesideStale(PointId p);
-  /// For a half tangent that is about to be dropped: where a point ends just now, corners that its
-  /// certificates would have told of are marked stale.
+  /// For a half tangent that is about to be dropped at a depth at which one of its ends is removed:
+  /// marks the corners stale that its certificates, which end there, would have failed at.
   void MarkCollinearEnd(HalfTangentId half);
 
  private:

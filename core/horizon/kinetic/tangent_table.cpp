@@ -96,6 +96,8 @@ void TangentTable::Walk(TangentId t) {
       if (near >= 0 && hulls_.point(near).corner && hulls_.ClusterOf(near) == c) p = near;
     }
   }
+  // Any number above the corners of two hulls is sound: a walk that does not end is a mistake here.
+  constexpr std::int64_t kMostSteps = 100'000'000;
   std::int64_t steps = 0;
   for (bool moved = true; moved;) {
     moved = false;
@@ -104,7 +106,7 @@ void TangentTable::Walk(TangentId t) {
         const KineticPoint& corner = hulls_.point(Own(half));
         MoveTo(half, step > 0 ? corner.next : corner.prev);
         moved = true;
-        Check(++steps < 100'000'000, "the walk to a tangent ends");
+        Check(++steps < kMostSteps, "the walk to a tangent ends");
       }
     }
   }

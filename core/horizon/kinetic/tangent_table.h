@@ -27,8 +27,8 @@ struct Arc {
   HalfTangentId end = -1;
 };
 
-/// The four bitangents of each two disjoint hulls [Archambault03, section 3.2.2], as geometry:
-/// which corners they touch, and in which order they pass a corner.
+/// The four bitangents of each two disjoint hulls [Archambault03, sections 3.2.1 to 3.2.3], as
+/// geometry: which corners they touch, and in which order they pass a corner.
 ///
 ///       .--.--------------- 1 ---------------.--.
 ///      /    \ . 3                       2 . /    \      Directed from A to B:
