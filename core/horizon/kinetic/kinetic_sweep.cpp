@@ -1,10 +1,12 @@
-// The plane's way down the terrain: posts, level by level, between the scene's own events
-// (algorithm 3.1). No heights are perturbed. All posts of one height and all certificates that fail at it
-// are one event, and what holds just below is found from the signs of the predicates just below
-// (scene.h), so that between two events every edge that is on the horizon for a while is seen there:
-// for sloped edges that is definition D2 itself, since a line that only touches an edge at an event is
-// inside no open set of such lines. Level edges live at one event only and are asked of the scene's limit
-// from above (level_sight.h): ground of their own height does not hide them.
+// The sweep plane falls from height to height of posts; between two of these, the scene deals with
+// its own events (algorithm 3.1 of [Archambault03]). No heights are perturbed. All posts of one
+// height and all certificates that fail there are one event, and what is true just below is found
+// from the signs of the predicates just below (scene.h). So between two events each edge that is on
+// the horizon for a while is found there; for sloped edges that is definition D2
+// (core/horizon/README.md, theorem 10), since a line that only touches an edge at an event is in no
+// open set of such lines. Horizontal edges are in the slice at one event only and are asked of the
+// scene's limit from above (horizontal_edge_visibility.h): ground of their own height does not
+// occlude them.
 #include "core/horizon/kinetic/kinetic_sweep.h"
 
 #include <algorithm>
@@ -13,7 +15,8 @@
 #include <string>
 #include <utility>
 
-#include "core/horizon/kinetic/level_sight.h"
+#include "core/horizon/kinetic/horizontal_edge_visibility.h"
+#include "core/horizon/kinetic/hull_location.h"
 
 namespace farhorizon::kinetic {
 namespace {
@@ -42,7 +45,8 @@ KineticSweep::KineticSweep(const Terrain& terrain, const Watch& watch, std::int6
   summit_ = Height(order_.front());
 }
 
-// Whether the largest coefficient of any predicate, an orientation's, leaves room for its sums.
+// Whether the largest coefficient of any predicate, the one of an orientation, leaves room for its
+// sums (core/horizon/README.md, section 7).
 bool KineticSweep::Fits() const {
   const auto extent = static_cast<unsigned>(std::max(terrain_.dem().columns, terrain_.dem().rows));
   const auto range = static_cast<unsigned>(summit_ - Height(order_.back()));
@@ -51,7 +55,7 @@ bool KineticSweep::Fits() const {
 
 bool KineticSweep::OverBudget() const {
   return events_.work > work_budget_ ||
-         static_cast<std::int64_t>(scene_.apart().size()) > kMostKineticHulls;
+         static_cast<std::int64_t>(scene_.hulls().clusters().size()) > kMostKineticHulls;
 }
 
 // Why SinkPast() was false.
@@ -82,18 +86,18 @@ bool KineticSweep::SinkPast(std::int64_t last) {
     std::size_t end = next + 1;
     while (end < order_.size() && DepthOf(order_[end]) == s) ++end;
     Report(static_cast<double>(end) / static_cast<double>(order_.size()));
-    LookAtLevelEdges(next, end, s);
-    scene_.Advance(Moment::At(s));
+    FindHorizontalEdges(next, end, s);
+    scene_.Advance(SweepDepth::At(s));
     PassPosts(next, end, s);
-    Settle();
+    RestoreInvariants();
     events_.queue_max = std::max(
         events_.queue_max, scene_.queue_size() + static_cast<std::int64_t>(order_.size() - end));
     next = end;
   }
   if (last != kNever) {
     if (!SinkTo(last)) return false;
-    scene_.Advance(Moment::At(last));
-    Settle();
+    scene_.Advance(SweepDepth::At(last));
+    RestoreInvariants();
   }
   watch_.Report(Stage::kKineticSweep, 1);
   return true;
@@ -107,17 +111,17 @@ void KineticSweep::Report(double done) {
 }
 
 KineticHorizon KineticSweep::Take() {
-  for (PointId p = 0; p < scene_.point_count(); ++p) {
-    const Scene::Point& point = scene_.point(p);
-    if (point.seen && point.tag >= 0) {
-      result_.edges.push_back(edges_[static_cast<std::size_t>(point.tag)]);
+  for (PointId p = 0; p < scene_.hulls().point_count(); ++p) {
+    const std::int32_t tag = scene_.hulls().point(p).tag;
+    if (scene_.order().corner(p).on_horizon && tag >= 0) {
+      result_.edges.push_back(edges_[static_cast<std::size_t>(tag)]);
     }
   }
   std::sort(result_.edges.begin(), result_.edges.end());
   const SceneCounts& counts = scene_.counts();
   events_.merge = counts.merges;
-  events_.hull = counts.hull_failures + counts.left_hulls;
-  events_.inside = counts.inside_failures - counts.left_hulls;
+  events_.hull = counts.hull_failures + counts.left_interior;
+  events_.inside = counts.interior_failures - counts.left_interior;
   events_.by_kind = counts.tangent_failures;
   for (const std::int64_t n : counts.tangent_failures) events_.bitangent += n;
   events_.clusters_max = counts.clusters_max;
@@ -125,50 +129,52 @@ KineticHorizon KineticSweep::Take() {
   return std::move(result_);
 }
 
-// Handles the scene's own events before depth s.
+// Deals with the scene's own events before depth s.
 bool KineticSweep::SinkTo(std::int64_t s) {
-  std::optional<Moment> at = scene_.NextFailure();
-  for (; at && Compare(*at, Moment::At(s)) < 0; at = scene_.NextFailure()) {
+  std::optional<SweepDepth> at = scene_.NextEvent();
+  for (; at && Compare(*at, SweepDepth::At(s)) < 0; at = scene_.NextEvent()) {
     if (!MayGoOn()) return false;
     scene_.Advance(*at);
-    Settle();
+    RestoreInvariants();
   }
   return true;
 }
 
-void KineticSweep::Settle() {
-  scene_.Settle();
+void KineticSweep::RestoreInvariants() {
+  scene_.RestoreInvariants();
   if (checks_) scene_.CheckAll();
 }
 
-// Counts a stop of the plane: all hulls are looked at there.
+// Counts a stop of the plane: all hulls may be changed there.
 bool KineticSweep::MayGoOn() {
-  events_.work += static_cast<std::int64_t>(scene_.apart().size()) + 1;
+  events_.work += static_cast<std::int64_t>(scene_.hulls().clusters().size()) + 1;
   return !OverBudget() && !watch_.StopRequested();
 }
 
-void KineticSweep::LookAtLevelEdges(std::size_t next, std::size_t end, std::int64_t s) {
-  std::optional<LevelSight> sight;
+void KineticSweep::FindHorizontalEdges(std::size_t next, std::size_t end, std::int64_t s) {
+  std::optional<HorizontalEdgeVisibility> visibility;
   for (std::size_t i = next; i < end; ++i) {
     const VertexId v = order_[i];
     for (const VertexId n : terrain_.NeighboursOf(v)) {
       if (n < v || Height(n) != Height(v) || !terrain_.IsRidgeOrBorder({v, n})) continue;
-      if (!sight) sight.emplace(scene_, s);
-      if (sight->Sees(terrain_.Point(v), terrain_.Point(n))) result_.edges.push_back({v, n});
+      if (!visibility) visibility.emplace(scene_, s);
+      if (visibility->IsVisible(terrain_.Point(v), terrain_.Point(n))) {
+        result_.edges.push_back({v, n});
+      }
     }
   }
 }
 
 void KineticSweep::PassPosts(std::size_t next, std::size_t end, std::int64_t s) {
-  around_.clear();
+  containing_.clear();  // before anything is changed at this depth
   for (std::size_t i = next; i < end; ++i) {
-    around_.push_back(HasHigherNeighbour(order_[i]) ? -1
-                                                    : scene_.Around(terrain_.Point(order_[i]).x,
-                                                                    terrain_.Point(order_[i]).y));
+    const Point3i post = terrain_.Point(order_[i]);
+    containing_.push_back(
+        HasHigherNeighbour(order_[i]) ? -1 : ClusterContaining(scene_.hulls(), post.x, post.y));
   }
   for (std::size_t i = next; i < end; ++i) {
     for (const PointId p : arriving_[static_cast<std::size_t>(order_[i])]) scene_.Remove(p);
-    Connect(order_[i], around_[i - next]);
+    Connect(order_[i], containing_[i - next]);
   }
   for (std::size_t i = next; i < end; ++i) Continue(order_[i], s);
 }
@@ -179,8 +185,9 @@ bool KineticSweep::HasHigherNeighbour(VertexId v) const {
                      [&](VertexId n) { return Height(n) > Height(v); });
 }
 
-// Puts v into the cluster of what is connected with it or, a peak, around it, or into a new one.
-void KineticSweep::Connect(VertexId v, ClusterId around) {
+// Puts v into the cluster that its neighbours are in, once joined; a peak into the one whose hull
+// contains it (-1: none), or else into a new one.
+void KineticSweep::Connect(VertexId v, ClusterId containing) {
   ClusterId mine = -1;
   bool joins = false;
   bool minimum = true;
@@ -191,14 +198,14 @@ void KineticSweep::Connect(VertexId v, ClusterId around) {
     joins = joins || (mine >= 0 && scene_.Find(mine) != scene_.Find(theirs));
     mine = mine < 0 ? scene_.Find(theirs) : scene_.Join(mine, theirs);
   }
-  const bool peak = mine < 0 && around < 0;
-  if (mine < 0) mine = around >= 0 ? scene_.Find(around) : scene_.NewCluster();
+  const bool peak = mine < 0 && containing < 0;
+  if (mine < 0) mine = containing >= 0 ? scene_.Find(containing) : scene_.NewCluster();
   cluster_[static_cast<std::size_t>(v)] = mine;
   ++(peak ? events_.peak : joins ? events_.saddle : minimum ? events_.minimum : events_.regular);
 }
 
-// Sends points down the convex edges from v; one stays at v where it is on the border, since the
-// slice ends there.
+// Adds a point for each convex edge down from v; at the border of the terrain, where the slice
+// ends, one that stays at v, too.
 void KineticSweep::Continue(VertexId v, std::int64_t s) {
   const ClusterId c = cluster_[static_cast<std::size_t>(v)];
   bool border = false;

@@ -12,12 +12,12 @@
 
 namespace farhorizon::kinetic {
 
-/// The plane's way down the terrain, post by post, and the scene of hulls and tangents that it keeps
-/// ([Archambault03] algorithm 3.1).
+/// The sweep plane falling through the terrain, post by post, and the scene of hulls and tangents
+/// that is kept in it ([Archambault03] algorithm 3.1).
 class KineticSweep {
  public:
-  /// work_budget: most EventCounts::work to be done. checks: whether all invariants of the scene are
-  /// checked after every step. Requires: `terrain` and `watch` outlive it.
+  /// work_budget: most EventCounts::work to be done. checks: whether all invariants of the scene
+  /// are checked after every step. Requires: `terrain` and `watch` outlive it.
   KineticSweep(const Terrain& terrain, const Watch& watch, std::int64_t work_budget, bool checks);
 
   /// Goes down to depth `last`, its own events included; to the bottom by default. Call it once.
@@ -28,7 +28,8 @@ class KineticSweep {
   [[nodiscard]] std::int32_t summit() const { return summit_; }
   [[nodiscard]] std::int32_t lowest() const { return Height(order_.back()); }
 
-  /// The edges that were on the horizon down to here, and what was counted. Call it once, at the end.
+  /// The edges that were on the horizon down to here, and what was counted. Call it once, at the
+  /// end.
   KineticHorizon Take();
 
  private:
@@ -41,11 +42,11 @@ class KineticSweep {
   bool SinkPast(std::int64_t last);
   bool MayGoOn();
   void Report(double done);
-  void Settle();
-  void LookAtLevelEdges(std::size_t next, std::size_t end, std::int64_t s);
+  void RestoreInvariants();
+  void FindHorizontalEdges(std::size_t next, std::size_t end, std::int64_t s);
   void PassPosts(std::size_t next, std::size_t end, std::int64_t s);
   [[nodiscard]] bool HasHigherNeighbour(VertexId v) const;
-  void Connect(VertexId v, ClusterId around);
+  void Connect(VertexId v, ClusterId containing);
   void Continue(VertexId v, std::int64_t s);
 
   const Terrain& terrain_;
@@ -58,8 +59,8 @@ class KineticSweep {
   std::vector<VertexId> order_;                 // from the summit down
   std::vector<ClusterId> cluster_;              // per post; -1 below the plane
   std::vector<std::vector<PointId>> arriving_;  // per post: points whose edges end there
-  std::vector<ClusterId> around_;
-  std::vector<Edge> edges_;  // by tag
+  std::vector<ClusterId> containing_;           // of PassPosts()
+  std::vector<Edge> edges_;                     // by tag
   EventCounts events_;
   KineticHorizon result_;
 };

@@ -1,3 +1,5 @@
+// Orientations are quadratics in the depth: floating point with a bound on its error decides nearly
+// all, integers of 128 bits the rest (core/horizon/README.md, section 7, has their sizes).
 #include "core/horizon/kinetic/moving_point.h"
 
 #include <array>
@@ -13,7 +15,7 @@ Quadratic Minor(const MovingPoint& a, const MovingPoint& b) {
           Int128{a.vx} * b.vy - Int128{a.vy} * b.vx};
 }
 
-// Homogeneous coordinates in doubles and the greatest size of what they were summed from.
+// Homogeneous coordinates in floating point, and for each sum the sizes of its terms added up.
 struct Nearly {
   double x;
   double y;
@@ -31,12 +33,12 @@ Nearly NearlyAt(const MovingPoint& p, double s) {
           std::fabs(y) + std::fabs(dy)};
 }
 
-// The sign if doubles are sure of it, else 0.
+// The sign if floating point is sure of it, else 0.
 int FilteredOrientation(const MovingPoint& a, const MovingPoint& b, const MovingPoint& c,
-                        const Moment& now) {
+                        const SweepDepth& now) {
   const double s = now.lo;
   const double off = now.hi - now.lo;
-  if (!(off <= s * 0x1p-40)) return 0;
+  if (!(off <= s * 0x1p-40)) return 0;  // any bound is sound: the error below would be too large
   const Nearly p = NearlyAt(a, s);
   const Nearly q = NearlyAt(b, s);
   const Nearly r = NearlyAt(c, s);
@@ -45,21 +47,21 @@ int FilteredOrientation(const MovingPoint& a, const MovingPoint& b, const Moving
   const double size = p.d * (q.size_x * r.size_y + q.size_y * r.size_x) +
                       q.d * (r.size_x * p.size_y + r.size_y * p.size_x) +
                       r.d * (p.size_x * q.size_y + p.size_y * q.size_x);
-  // Each term: two coordinates off by 2^-51 each from rounding and by off / s from the moment, two
-  // products, three sums.
+  // Each term: two coordinates, off by 2^-51 each from rounding and by off / s from the depth, two
+  // products and three sums; relative to its size.
   const double error = size * (0x1p-48 + (s > 0 ? 4 * off / s : 0));
   if (value > error) return 1;
   return value < -error ? -1 : 0;
 }
 
-// Whether doubles are sure that sign times the orientation is positive from now to end. On [0, 1] a
-// quadratic is above the least of its values at both ends and its polar form at (0, 1).
-bool SurelyHolds(const MovingPoint& a, const MovingPoint& b, const MovingPoint& c, int sign,
-                 const Moment& now, std::int64_t end) {
+// Whether floating point is sure that sign times the orientation is positive from now to end. A
+// quadratic is on an interval at least the least of its three Bernstein coefficients: its values at
+// both ends, and its polar form at the two.
+bool SurelyHolds(const PointTriple& points, int sign, const SweepDepth& now, std::int64_t end) {
   const auto last = static_cast<double>(end);
-  const std::array p{NearlyAt(a, now.lo), NearlyAt(a, last)};
-  const std::array q{NearlyAt(b, now.lo), NearlyAt(b, last)};
-  const std::array r{NearlyAt(c, now.lo), NearlyAt(c, last)};
+  const std::array p{NearlyAt(points.a, now.lo), NearlyAt(points.a, last)};
+  const std::array q{NearlyAt(points.b, now.lo), NearlyAt(points.b, last)};
+  const std::array r{NearlyAt(points.c, now.lo), NearlyAt(points.c, last)};
   const auto holds = [&](std::size_t i, std::size_t k) {
     const auto minor = [i, k](const std::array<Nearly, 2>& u, const std::array<Nearly, 2>& v) {
       return u[i].x * v[k].y - u[i].y * v[k].x + u[k].x * v[i].y - u[k].y * v[i].x;
@@ -69,7 +71,7 @@ bool SurelyHolds(const MovingPoint& a, const MovingPoint& b, const MovingPoint& 
              u[k].size_y * v[i].size_x;
     };
     const double value = p[0].d * minor(q, r) + q[0].d * minor(r, p) + r[0].d * minor(p, q);
-    // Each term: two coordinates off by 2^-51 each, three products, five sums.
+    // Each term: two coordinates, off by 2^-51 each, three products and five sums.
     return sign * value >
            (p[0].d * size(q, r) + q[0].d * size(r, p) + r[0].d * size(p, q)) * 0x1p-48;
   };
@@ -95,7 +97,7 @@ Quadratic Orientation(const MovingPoint& a, const MovingPoint& b, const MovingPo
 }
 
 int OrientAfter(const MovingPoint& a, const MovingPoint& b, const MovingPoint& c,
-                const Moment& now) {
+                const SweepDepth& now) {
   const int sign = FilteredOrientation(a, b, c, now);
   return sign != 0 ? sign : SignAfter(Orientation(a, b, c), now);
 }
@@ -105,15 +107,15 @@ int OrientAt(const MovingPoint& a, const MovingPoint& b, const MovingPoint& c, s
   return SignOf((q.c2 * s + q.c1) * s + q.c0);
 }
 
-std::optional<Moment> TurnAfter(const MovingPoint& a, const MovingPoint& b, const MovingPoint& c,
-                                int sign, const Moment& now, std::int64_t end) {
-  if (SurelyHolds(a, b, c, sign, now, end)) return std::nullopt;
-  Quadratic q = Orientation(a, b, c);
+std::optional<SweepDepth> TurnFailureAfter(const PointTriple& points, int sign,
+                                           const SweepDepth& now, std::int64_t end) {
+  if (SurelyHolds(points, sign, now, end)) return std::nullopt;
+  Quadratic q = Orientation(points.a, points.b, points.c);
   if (sign < 0) q = {-q.c0, -q.c1, -q.c2};
   return FailureAfter(q, now, end);
 }
 
-Aim AimAt(const MovingPoint& from, const MovingPoint& to, const Moment& now) {
+Aim AimAt(const MovingPoint& from, const MovingPoint& to, const SweepDepth& now) {
   const double s = now.lo;
   const double off = now.hi - now.lo;
   const Nearly p = NearlyAt(from, s);
@@ -128,7 +130,7 @@ Aim AimAt(const MovingPoint& from, const MovingPoint& to, const Moment& now) {
   return {x / norm, y / norm, error / norm * 2 + 0x1p-51};
 }
 
-int OrderAfter(const MovingPoint& a, const MovingPoint& b, const Moment& now) {
+int OrderAfter(const MovingPoint& a, const MovingPoint& b, const SweepDepth& now) {
   const int sign = SignAfter(
       {Int128{a.x} * b.d - Int128{b.x} * a.d, Int128{a.vx} * b.d - Int128{b.vx} * a.d, 0}, now);
   if (sign != 0) return sign;

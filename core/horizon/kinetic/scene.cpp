@@ -1,227 +1,234 @@
-// The queue of certificates and the step from one moment to the next (algorithm 3.1).
 #include "core/horizon/kinetic/scene.h"
 
 #include <algorithm>
 #include <utility>
 
 #include "core/base/result.h"
+#include "core/horizon/kinetic/hull_location.h"
 
 namespace farhorizon::kinetic {
 
 PointId Scene::Add(ClusterId cluster, const MovingPoint& path, std::int64_t end, std::int32_t tag) {
-  const auto id = static_cast<PointId>(points_.size());
-  Point& p = points_.emplace_back();
-  p.path = path;
-  p.end = end;
-  p.tag = tag;
-  p.cluster = Find(cluster);
-  clusters_[Index(p.cluster)].loose.push_back(id);
-  List(p.cluster);
-  return id;
+  order_.AddPoint();
+  return hulls_.Add(cluster, path, end, tag);
 }
 
 ClusterId Scene::NewCluster() {
-  const auto id = static_cast<ClusterId>(clusters_.size());
-  Cluster& c = clusters_.emplace_back();
-  roots_.push_back(id);
-  apart_.push_back(id);
-  const auto free = std::find(in_slot_.begin(), in_slot_.end(), -1);
-  c.slot = static_cast<std::int32_t>(free - in_slot_.begin());
-  if (free == in_slot_.end()) {
-    const std::size_t slots = in_slot_.size() + 1;
-    in_slot_.push_back(id);
-    tangents_.resize(slots * (slots - 1) / 2 * 4);
-  } else {
-    *free = id;
-  }
-  c.dirty = true;
-  c.fresh = true;
-  List(id);
-  return id;
+  const ClusterId c = hulls_.NewCluster();
+  tangents_.AddCluster(c);
+  certificates_.Resize();
+  order_.Resize();
+  return c;
 }
 
-ClusterId Scene::Find(ClusterId cluster) {
-  while (roots_[Index(cluster)] != cluster) {
-    ClusterId& root = roots_[Index(cluster)];
-    root = roots_[Index(root)];
-    cluster = root;
-  }
-  return cluster;
-}
-
+// Both become new: all of their tangents are dropped, and those of the one that is left are made
+// anew.
 ClusterId Scene::Join(ClusterId a, ClusterId b) {
   a = Find(a);
   b = Find(b);
   if (a == b) return a;
-  if (cluster(a).corners.size() < cluster(b).corners.size()) std::swap(a, b);
+  if (hulls_.hull(a).corners.size() < hulls_.hull(b).corners.size()) std::swap(a, b);
   ++counts_.merges;
-  Cluster& kept = clusters_[Index(a)];
-  Cluster& lost = clusters_[Index(b)];
-  kept.fresh = lost.fresh = true;
-  for (const ClusterId other : apart_) {
+  hulls_.MarkNew(a);
+  hulls_.MarkNew(b);
+  for (const ClusterId other : hulls_.clusters()) {
     if (other != a) DropTangents(a, other);
     if (other != b && other != a) DropTangents(b, other);
   }
-  for (const Cluster* joined : {&kept, &lost}) {
-    for (const PointId p : joined->corners) {
-      points_[Index(p)].sides.clear();
-      points_[Index(p)].lit.clear();
-    }
+  for (const ClusterId c : {a, b}) {
+    for (const PointId p : hulls_.hull(c).corners) order_.RemoveAll(p);
   }
-  for (const PointId p : lost.corners) points_[Index(p)].cluster = a;
-  kept.corners.insert(kept.corners.end(), lost.corners.begin(), lost.corners.end());
-  kept.loose.insert(kept.loose.end(), lost.loose.begin(), lost.loose.end());
-  kept.dirty = true;
-  in_slot_[Index(lost.slot)] = -1;
-  lost = Cluster();
-  roots_[Index(b)] = a;
-  apart_.erase(std::find(apart_.begin(), apart_.end(), b));
-  List(a);
+  hulls_.Join(a, b);
+  tangents_.RemoveCluster(b);
   return a;
 }
 
-void Scene::Remove(PointId p) {
-  Point& gone = points_[Index(p)];
-  gone.alive = false;
-  Cancel(gone.inside);
-  if (!gone.corner) return;
-  const ClusterId c = Find(gone.cluster);
-  clusters_[Index(c)].dirty = true;
-  List(c);
-}
-
-Certificate& Scene::CertificateOf(Promise promise, std::int32_t id) {
-  switch (promise) {
-    case Promise::kHull:
-      return points_[Index(id)].hull;
-    case Promise::kInside:
-      return points_[Index(id)].inside;
-    case Promise::kTangent:
-      break;
-  }
-  return SideOf(id / 2).certificates[id % 2 ? 1 : 0];
-}
-
-void Scene::Cancel(Certificate& certificate) {
-  if (certificate.pending) --live_;
-  certificate.pending = false;
-  ++certificate.stamp;
-}
-
-void Scene::Schedule(Promise promise, std::int32_t id, const std::optional<Moment>& at) {
-  Certificate& certificate = CertificateOf(promise, id);
-  Cancel(certificate);
-  if (!at) return;
-  certificate.pending = true;
-  ++live_;
-  counts_.queue_max = std::max(counts_.queue_max, live_);
-  queue_.push({*at, promise, certificate.stamp, id});
-}
-
-std::optional<Moment> Scene::NextFailure() {
-  while (!queue_.empty()) {
-    const Failure& next = queue_.top();
-    if (CertificateOf(next.promise, next.id).stamp == next.stamp) return next.at;
-    queue_.pop();
-  }
-  return std::nullopt;
-}
-
-void Scene::Advance(const Moment& now) {
-  now_ = now;
-  for (std::optional<Moment> next = NextFailure(); next; next = NextFailure()) {
-    const int order = Compare(*next, now);
-    Check(order >= 0, "no certificate has failed unnoticed");
-    if (order > 0) break;
-    const Failure failed = queue_.top();
-    queue_.pop();
-    Cancel(CertificateOf(failed.promise, failed.id));
-    Fail(failed.promise, failed.id);
+void Scene::Advance(const SweepDepth& now) {
+  hulls_.AdvanceTo(now);
+  while (const std::optional<Event> event = queue_.PopAt(now)) {
+    switch (event->kind) {
+      case CertificateKind::kHull:
+        ++counts_.hull_failures;
+        hulls_.InvalidateCorners(event->id);
+        break;
+      case CertificateKind::kInterior:
+        ++counts_.interior_failures;
+        hulls_.InvalidateTriangle(event->id);
+        break;
+      case CertificateKind::kTangent:
+        FailTangent(event->id / 2, static_cast<std::size_t>(event->id % 2));
+        break;
+    }
   }
 }
 
-void Scene::Fail(Promise promise, std::int32_t id) {
-  if (promise == Promise::kHull) {
-    ++counts_.hull_failures;
-    const ClusterId c = Find(point(id).cluster);
-    clusters_[Index(c)].dirty = true;
-    List(c);
-  } else if (promise == Promise::kInside) {
-    ++counts_.inside_failures;
-    const ClusterId c = Find(point(id).cluster);
-    clusters_[Index(c)].loose.push_back(id);
-    List(c);
-  } else {
-    FailTangent(id / 2, static_cast<std::size_t>(id % 2));
-  }
-}
-
-void Scene::FailTangent(SideId id, std::size_t which) {
-  Tangent::Side& side = SideOf(id);
-  const SideId with = side.with[which];
-  const std::array<PointId, 3> points = side.keys[which].points;
-  side.keys[which] = {};
-  if (with >= 0) {
-    const int active = (side.active ? 1 : 0) + (Active(with) ? 1 : 0);
-    ++(active == 0 ? counts_.hanging_failures : counts_.tangent_failures[active == 2 ? 0 : 1]);
-    passed_.push_back({id, which, with, points});
+void Scene::FailTangent(HalfTangentId half, std::size_t which) {
+  const HalfTangentId partner = certificates_.partner(half, which);
+  const std::array<PointId, 3> points = certificates_.points(half, which);
+  const bool active = order_.IsActive(half);
+  certificates_.Fail(half, which);
+  if (partner != kHullEdge) {
+    const int count = (active ? 1 : 0) + (order_.IsActive(partner) ? 1 : 0);
+    // Two inactive ones are no event of the thesis: one deferred to the other.
+    if (count > 0) ++counts_.tangent_failures[count == 2 ? 0 : 1];
+    collinear_.Add({half, which, partner, points});
     return;
   }
-  ++counts_.tangent_failures[side.active ? 2 : 3];
-  if (side.active) {
-    for (const PointId p : points) Shake(p);
+  ++counts_.tangent_failures[active ? 2 : 3];
+  if (active) {
+    for (const PointId p : points) marks_.MarkDisplaced(p);
   } else {
-    crossed_.emplace_back(id, Own(id));
+    motion_.AddCrossing(half);
   }
 }
 
-void Scene::Touch(PointId p) {
-  Point& touched = points_[Index(p)];
-  if (touched.touched) return;
-  touched.touched = true;
-  touched_.push_back(p);
-}
-
-void Scene::TouchAround(PointId p) {
-  for (const PointId near : {p, point(p).prev, point(p).next}) {
-    if (near >= 0) Touch(near);
-  }
-}
-
-void Scene::Shake(PointId p) {
-  Touch(p);
-  Point& shaken = points_[Index(p)];
-  if (shaken.shaken) return;
-  shaken.shaken = true;
-  shaken_.push_back(p);
-}
-
-void Scene::List(ClusterId c) {
-  Cluster& listed = clusters_[Index(c)];
-  if (listed.listed) return;
-  listed.listed = true;
-  listed_.push_back(c);
-}
-
-std::int64_t Scene::FirstEnd(PointId a, PointId b, PointId c) const {
-  return std::min({point(a).end, point(b).end, point(c).end});
-}
-
-void Scene::Settle() {
+void Scene::RestoreInvariants() {
+  // 1. and 2.
   do {
-    for (std::size_t i = 0; i < listed_.size(); ++i) {
-      if (Find(listed_[i]) == listed_[i]) SettleHull(listed_[i]);
-    }
-  } while (MergeWhatMeets());
-  counts_.clusters_max = std::max(counts_.clusters_max, static_cast<std::int64_t>(apart_.size()));
-  UpdateTangents();
-  for (const PointId p : unsettled_) KeepInside(p);
-  unsettled_.clear();
-  for (const ClusterId c : listed_) {
-    Cluster& listed = clusters_[Index(c)];
-    listed.listed = listed.fresh = false;
+    UpdateHulls();
+  } while (JoinIntersecting());
+  counts_.clusters_max =
+      std::max(counts_.clusters_max, static_cast<std::int64_t>(hulls_.clusters().size()));
+  // 3.
+  const bool nothing_else = hulls_.changed().empty() && marks_.stale().empty() &&
+                            motion_.crossings().empty() && collinear_.AreOne();
+  if (nothing_else) {
+    collinear_.Exchange();
+  } else {
+    collinear_.MarkStale();
+    motion_.CrossEdges();
   }
-  listed_.clear();
+  // 4.
+  motion_.WalkDisplaced();
+  // 5.
+  MakeTangentsOfNewHulls();
+  depths_.ReleaseDropped();
+  // 6.
+  PropagateMarks();
+  // 7.
+  RebuildStale();
+  // 8.
+  hulls_.LocateInteriorPoints();
+}
+
+void Scene::UpdateHulls() {
+  for (const ClusterId c : hulls_.changed()) {
+    if (Find(c) == c) counts_.left_interior += hulls_.UpdateHull(c);
+  }
+}
+
+// Joins two hulls that intersect just after now, if there are any. Before, an inner tangent proved
+// that they are disjoint; so only those need to be asked of which one is new, or of which an inner
+// tangent may not support them any more.
+bool Scene::JoinIntersecting() {
+  if (JoinNewHull()) return true;
+  for (const TangentMotion::Crossing& crossing : motion_.crossings()) {
+    if (tangents_.Own(crossing.half) >= 0 && JoinAcross(crossing.half)) return true;
+  }
+  collinear_.MarkDisplaced();
+  for (const PointId p : marks_.displaced()) {
+    for (const HalfTangentId half : order_.corner(p).half_tangents) {
+      if (JoinAcross(half)) return true;
+    }
+  }
+  return false;
+}
+
+bool Scene::JoinNewHull() {
+  for (const ClusterId c : hulls_.changed()) {
+    if (Find(c) != c || !hulls_.hull(c).is_new) continue;
+    for (const ClusterId other : hulls_.clusters()) {
+      if (other == c || !HullsIntersect(hulls_, c, other)) continue;
+      Join(c, other);
+      return true;
+    }
+  }
+  return false;
+}
+
+bool Scene::JoinAcross(HalfTangentId half) {
+  const TangentId t = TangentOf(half);
+  if (TangentTable::Outer(t) || tangents_.Supports(t)) return false;
+  const ClusterId a = hulls_.ClusterOf(tangents_.Own(half));
+  const ClusterId b = hulls_.ClusterOf(tangents_.Other(half));
+  if (!HullsIntersect(hulls_, a, b)) return false;
+  Join(a, b);
+  return true;
+}
+
+void Scene::MakeTangentsOfNewHulls() {
+  for (const ClusterId c : hulls_.changed()) {
+    if (Find(c) != c || !hulls_.hull(c).is_new) continue;
+    for (const ClusterId other : hulls_.clusters()) {
+      if (other != c) MakeTangents(c, other);
+    }
+  }
+}
+
+void Scene::MakeTangents(ClusterId a, ClusterId b) {
+  const TangentId first = tangents_.First(a, b);
+  if (tangents_.Exists(first)) return;
+  tangents_.Make(a, b);
+  for (HalfTangentId half = 2 * first; half < 2 * (first + 4); ++half) {
+    certificates_.ClearDeferred(half);
+    order_.Insert(half);
+  }
+  for (const std::int32_t end : {0, 1}) {
+    for (const Arc& arc : TangentTable::ArcsAtEnd(first, end)) depths_.Occlude(arc);
+  }
+}
+
+void Scene::DropTangents(ClusterId a, ClusterId b) {
+  const TangentId first = tangents_.First(a, b);
+  if (!tangents_.Exists(first)) return;
+  for (const std::int32_t end : {0, 1}) {
+    for (const Arc& arc : TangentTable::ArcsAtEnd(first, end)) depths_.Drop(arc);
+  }
+  const HalfTangentId halves_end = 2 * (first + 4);
+  for (HalfTangentId half = 2 * first; half < halves_end; ++half) {
+    motion_.MarkCollinearEnd(half);
+    order_.Remove(tangents_.Own(half), half);
+  }
+  tangents_.Drop(first);
+  for (HalfTangentId half = 2 * first; half < halves_end; ++half) {
+    order_.Deactivate(half);
+    certificates_.ClearPartners(half);
+  }
+}
+
+void Scene::PropagateMarks() {
+  std::size_t done = 0;  // of the stale corners; there are more and more
+  do {
+    for (; done < marks_.stale().size(); ++done) motion_.MarkBesideStale(marks_.stale()[done]);
+    motion_.WalkDisplaced();
+    for (std::size_t i = 0; i < marks_.stale().size(); ++i) {
+      const PointId p = marks_.stale()[i];
+      if (!hulls_.point(p).corner) continue;
+      const ClusterId c = hulls_.ClusterOf(p);
+      if (marks_.TakeRecount(c)) depths_.Recount(c);
+    }
+  } while (done != marks_.stale().size());
+}
+
+void Scene::RebuildStale() {
+  for (const PointId p : marks_.stale()) {
+    if (hulls_.point(p).corner) order_.Rebuild(p);
+  }
+  marks_.ClearStale();
+}
+
+void Scene::CheckAll() const {
+  for (const ClusterId c : hulls_.clusters()) {
+    for (const ClusterId other : hulls_.clusters()) {
+      if (other == c) continue;
+      Check(!HullsIntersect(hulls_, c, other), "hulls are disjoint");
+      tangents_.CheckTangents(c, other);
+      const HalfTangentId first = 2 * tangents_.First(c, other);
+      for (HalfTangentId half = first; half < first + 8; ++half) order_.CheckListed(half);
+    }
+    hulls_.CheckHull(c);
+    for (const PointId p : hulls_.hull(c).corners) order_.CheckCorner(p);
+  }
 }
 
 }  // namespace farhorizon::kinetic

@@ -4,9 +4,11 @@ namespace farhorizon {
 namespace {
 
 using kinetic::ClusterId;
+using kinetic::KineticHulls;
 using kinetic::MovingPoint;
 using kinetic::PointId;
 using kinetic::Scene;
+using kinetic::TangentId;
 
 PlanPoint Where(const MovingPoint& p, std::int64_t s) {
   const auto d = static_cast<double>(p.d);
@@ -19,25 +21,28 @@ PlanPoint Where(const MovingPoint& p, std::int64_t s) {
 }  // namespace
 
 void TraceScene(const Scene& scene, std::int64_t s, SweepTrace& trace) {
-  const auto where = [&](PointId p) { return Where(scene.point(p).path, s); };
-  for (const ClusterId c : scene.apart()) {
+  const KineticHulls& hulls = scene.hulls();
+  const auto where = [&](PointId p) { return Where(hulls.point(p).path, s); };
+  for (const ClusterId c : hulls.clusters()) {
     std::vector<PlanPoint>& hull = trace.hulls.emplace_back();
-    for (const PointId p : scene.cluster(c).corners) hull.push_back(where(p));
+    for (const PointId p : hulls.hull(c).corners) hull.push_back(where(p));
   }
-  for (const ClusterId a : scene.apart()) {
-    for (const ClusterId b : scene.apart()) {
+  for (const ClusterId a : hulls.clusters()) {
+    for (const ClusterId b : hulls.clusters()) {
       if (a >= b) continue;
-      const std::int32_t first = scene.FirstTangent(a, b);
-      for (std::int32_t t = first; t < first + 4; ++t) {
-        const Scene::Tangent& tangent = scene.tangent(t);
-        trace.bitangents.push_back({{where(tangent.touch[0]), where(tangent.touch[1])},
-                                    tangent.sides[0].active || tangent.sides[1].active});
+      const TangentId first = scene.tangents().First(a, b);
+      for (TangentId t = first; t < first + 4; ++t) {
+        const auto [p, q] = scene.tangents().contacts(t);
+        const bool active = scene.order().IsActive(2 * t) || scene.order().IsActive(2 * t + 1);
+        trace.bitangents.push_back({{where(p), where(q)}, active});
       }
     }
   }
-  for (PointId p = 0; p < scene.point_count(); ++p) {
-    const Scene::Point& point = scene.point(p);
-    if (point.alive && point.seen && point.tag >= 0) trace.horizon_points.push_back(where(p));
+  for (PointId p = 0; p < hulls.point_count(); ++p) {
+    const bool on_horizon = scene.order().corner(p).on_horizon;
+    if (hulls.point(p).alive && on_horizon && hulls.point(p).tag >= 0) {
+      trace.horizon_points.push_back(where(p));
+    }
   }
 }
 

@@ -7,8 +7,9 @@
 
 namespace farhorizon {
 
-/// Adds the hulls, the bitangents and what was seen to `trace`, as they are at depth s.
-/// Requires: the scene is settled just after s, or after the last event before it.
+/// Adds the hulls, the bitangents and the points on horizon edges to `trace`, as they are at depth
+/// s.
+/// Requires: the scene's invariants hold just after s, or after the last event before it.
 void TraceScene(const kinetic::Scene& scene, std::int64_t s, SweepTrace& trace);
 
 }  // namespace farhorizon

@@ -1,5 +1,5 @@
-// The kinetic engine against the definition, and against the adaptive engine where the brute force is too
-// slow. Runs the whole engine; the scene by itself is in kinetic_scene_test.cpp.
+// The kinetic engine against the definition, and against the adaptive engine where the brute force
+// is too slow. Runs the whole engine; the scene by itself is in scene_test.cpp.
 #include "core/horizon/kinetic/kinetic_horizon.h"
 
 #include <algorithm>
@@ -107,8 +107,8 @@ TEST(FindHorizonKinetic, HoldsToTheDefinitionOnRandomTerrains) {
   ExpectTheDefinitionOnRandomTerrains(6, 9, Rounds(100), 2);
 }
 
-// Found by the first comparisons: two hulls that come into contact at the level edge's own height leave
-// lines that part them through the contact alone, which are no open set.
+// Found by the first comparisons: two hulls that come into contact at the level edge's own height
+// leave lines that part them through the contact alone, which are no open set.
 TEST(FindHorizonKinetic, DoesNotSeeLevelEdgesThroughAContactOfTwoHulls) {
   EXPECT_TRUE(MatchesBruteForce(AsciiDem(R"(
       . 1
@@ -144,8 +144,8 @@ TEST(FindHorizonKineticLong, KeepsItsInvariantsOnRandomTerrains) {
   CheckOnRandomTerrains(15, 25, Rounds(50), 31);
 }
 
-// A hull that ended at a corner joins one that hides the corner throughout: as many hide its first edge as
-// before, and what was seen beyond the end is not seen any more.
+// A hull that ended at a corner joins one that hides the corner throughout: as many hide its first
+// edge as before, and what was seen beyond the end is not seen any more.
 TEST(FindHorizonKinetic, KeepsItsInvariantsWhereAJoinedHullHidesNoMoreOfAnEdgeButMoreOfACorner) {
   const Dem dem = AsciiDem(R"(
       . 1 . 2 0 2

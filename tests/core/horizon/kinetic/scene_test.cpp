@@ -9,17 +9,18 @@
 
 #include <gtest/gtest.h>
 
+#include "core/horizon/kinetic/hull_location.h"
 #include "tests/support/effort.h"
 
 namespace farhorizon::kinetic {
 namespace {
 
 /// Whether the line of a tangent has corners of a third hull on both its sides just after `now`.
-bool MeetsAThirdHull(const Scene& scene, std::int32_t t, const Moment& now) {
-  const PointId p = scene.tangent(t).touch[0];
-  const PointId q = scene.tangent(t).touch[1];
-  return std::any_of(scene.apart().begin(), scene.apart().end(), [&](ClusterId c) {
-    const std::vector<PointId>& ring = scene.cluster(c).corners;
+bool CutsAThirdHull(const Scene& scene, TangentId t, const SweepDepth& now) {
+  const KineticHulls& hulls = scene.hulls();
+  const auto [p, q] = scene.tangents().contacts(t);
+  return std::any_of(hulls.clusters().begin(), hulls.clusters().end(), [&](ClusterId c) {
+    const std::vector<PointId>& ring = hulls.hull(c).corners;
     if (std::find(ring.begin(), ring.end(), p) != ring.end() ||
         std::find(ring.begin(), ring.end(), q) != ring.end()) {
       return false;
@@ -27,23 +28,23 @@ bool MeetsAThirdHull(const Scene& scene, std::int32_t t, const Moment& now) {
     int sides = 0;
     for (const PointId r : ring) {
       const int side =
-          OrientAfter(scene.point(p).path, scene.point(q).path, scene.point(r).path, now);
+          OrientAfter(hulls.point(p).path, hulls.point(q).path, hulls.point(r).path, now);
       sides |= side > 0 ? 1 : 2;
     }
     return sides == 3;
   });
 }
 
-void CheckActivities(Scene& scene, const Moment& now) {
+void CheckActivities(Scene& scene, const SweepDepth& now) {
   scene.CheckAll();
-  for (const ClusterId a : scene.apart()) {
-    for (const ClusterId b : scene.apart()) {
+  for (const ClusterId a : scene.hulls().clusters()) {
+    for (const ClusterId b : scene.hulls().clusters()) {
       if (a >= b) continue;
-      const std::int32_t first = scene.FirstTangent(a, b);
-      for (std::int32_t t = first; t < first + 4; ++t) {
-        const bool expected = !MeetsAThirdHull(scene, t, now);
-        ASSERT_EQ(scene.Active(2 * t), expected);
-        ASSERT_EQ(scene.Active(2 * t + 1), expected);
+      const TangentId first = scene.tangents().First(a, b);
+      for (TangentId t = first; t < first + 4; ++t) {
+        const bool expected = !CutsAThirdHull(scene, t, now);
+        ASSERT_EQ(scene.order().IsActive(2 * t), expected);
+        ASSERT_EQ(scene.order().IsActive(2 * t + 1), expected);
       }
     }
   }
@@ -60,15 +61,15 @@ TEST(Scene, KnowsAtEveryEventWhichTangentsAreActive) {
     Scene scene;
     std::int64_t s = 0;
     for (int peak = 0; peak < 12; ++peak, s += any(1, 400)) {
-      for (std::optional<Moment> at = scene.NextFailure(); at && Compare(*at, Moment::At(s)) < 0;
-           at = scene.NextFailure()) {
+      for (std::optional<SweepDepth> at = scene.NextEvent();
+           at && Compare(*at, SweepDepth::At(s)) < 0; at = scene.NextEvent()) {
         scene.Advance(*at);
-        scene.Settle();
+        scene.RestoreInvariants();
         CheckActivities(scene, *at);
       }
-      scene.Advance(Moment::At(s));
+      scene.Advance(SweepDepth::At(s));
       const Point3i top{any(0, 5000), any(0, 5000), static_cast<std::int32_t>(-s)};
-      if (scene.Around(top.x, top.y) < 0) {
+      if (ClusterContaining(scene.hulls(), top.x, top.y) < 0) {
         const ClusterId c = scene.NewCluster();
         const int signs[8][2] = {{1, 0},  {1, 1},   {0, 1},  {-1, 1},
                                  {-1, 0}, {-1, -1}, {0, -1}, {1, -1}};
@@ -78,8 +79,8 @@ TEST(Scene, KnowsAtEveryEventWhichTangentsAreActive) {
           scene.Add(c, MovingPoint::Sliding(top, foot, 0), -foot.z, 0);
         }
       }
-      scene.Settle();
-      CheckActivities(scene, Moment::At(s));
+      scene.RestoreInvariants();
+      CheckActivities(scene, SweepDepth::At(s));
       if (HasFatalFailure()) return;
     }
     for (std::size_t i = 0; i < 4; ++i)

@@ -14,8 +14,9 @@
 namespace farhorizon::kinetic {
 namespace {
 
-/// Chains A and B of lemmas 4.3 and 4.8, in rational form: b_0 rises along the diagonal past a line of
-/// points a_j that overtake one another, and all other b_k hang just under the line from it to (d, 0).
+/// Chains A and B of lemmas 4.3 and 4.8, in rational form: b_0 rises along the diagonal past a line
+/// of points a_j that overtake one another, and all other b_k hang just under the line from it to
+/// (d, 0).
 class Chains {
  public:
   explicit Chains(std::int64_t n) : n_(n), d_(4 * n + 2) {}
@@ -41,13 +42,13 @@ constexpr std::int32_t kFoot = -1;
 /// Plays the scene up to `end`, calling look() after each step, the first included.
 template <typename Look>
 void Play(Scene& scene, std::int64_t end, const Look& look) {
-  scene.Advance(Moment::At(0));
-  scene.Settle();
+  scene.Advance(SweepDepth::At(0));
+  scene.RestoreInvariants();
   look();
-  for (std::optional<Moment> at = scene.NextFailure(); at && Compare(*at, Moment::At(end)) < 0;
-       at = scene.NextFailure()) {
+  for (std::optional<SweepDepth> at = scene.NextEvent();
+       at && Compare(*at, SweepDepth::At(end)) < 0; at = scene.NextEvent()) {
     scene.Advance(*at);
-    scene.Settle();
+    scene.RestoreInvariants();
     look();
   }
 }
@@ -72,14 +73,14 @@ TEST_P(WorstCase, TakesTheBridgeOfOneHullThroughEveryPair) {
   std::vector<bool> was(static_cast<std::size_t>(n), false);
   Play(scene, n, [&] {
     scene.CheckAll();
-    for (PointId p = 0; p < scene.point_count(); ++p) {
-      const Scene::Point& from = scene.point(p);
+    for (PointId p = 0; p < scene.hulls().point_count(); ++p) {
+      const KineticPoint& from = scene.hulls().point(p);
       if (from.tag < n) continue;
       const auto k = static_cast<std::size_t>(from.tag - n);
       if (from.corner && !was[k]) ++periods[k];
       was[k] = from.corner;
       if (!from.corner) continue;
-      const std::int32_t to = scene.point(from.next).tag;
+      const std::int32_t to = scene.hulls().point(from.next).tag;
       if (to == kFoot || to >= n) continue;
       if (bridges.empty() || bridges.back() != std::pair(to, from.tag)) {
         bridges.emplace_back(to, from.tag);
@@ -109,8 +110,8 @@ struct Slopes {
   double most = -1e9;
 };
 
-/// The chains of one hull, played slowly, and what is free at each b_k in each of its periods as a corner:
-/// at every event, and at kSlow moments between two whole depths.
+/// The chains of one hull, played slowly, and what is free at each b_k in each of its periods as a
+/// corner: at every event, and at kSlow depths between two whole ones.
 class DirectionsAtB {
  public:
   explicit DirectionsAtB(std::int64_t n) : end_(n * kSlow), periods_(static_cast<std::size_t>(n)) {
@@ -125,7 +126,7 @@ class DirectionsAtB {
     was_corner_.resize(periods_.size());
     for (std::int64_t s = 0; s < end_; ++s) {
       PlayUntil(s);
-      LookAfter(Moment::At(s));
+      LookAfter(SweepDepth::At(s));
     }
     PlayUntil(end_);
   }
@@ -140,20 +141,20 @@ class DirectionsAtB {
     return {p.x * kSlow, p.vx, p.y * kSlow, p.vy, p.d * kSlow};
   }
   void PlayUntil(std::int64_t s) {
-    for (std::optional<Moment> at = scene_.NextFailure(); at && Compare(*at, Moment::At(s)) < 0;
-         at = scene_.NextFailure()) {
+    for (std::optional<SweepDepth> at = scene_.NextEvent();
+         at && Compare(*at, SweepDepth::At(s)) < 0; at = scene_.NextEvent()) {
       LookAfter(*at);
     }
   }
-  void LookAfter(const Moment& now) {
+  void LookAfter(const SweepDepth& now) {
     scene_.Advance(now);
-    scene_.Settle();
-    for (PointId p = 0; p < scene_.point_count(); ++p) {
-      if (scene_.point(p).tag != kFoot) LookAt(p, now);
+    scene_.RestoreInvariants();
+    for (PointId p = 0; p < scene_.hulls().point_count(); ++p) {
+      if (scene_.hulls().point(p).tag != kFoot) LookAt(p, now);
     }
   }
-  void LookAt(PointId p, const Moment& now) {
-    const Scene::Point& point = scene_.point(p);
+  void LookAt(PointId p, const SweepDepth& now) {
+    const KineticPoint& point = scene_.hulls().point(p);
     const auto k = static_cast<std::size_t>(point.tag);
     if (point.corner && !was_corner_[k]) periods_[k].emplace_back();
     was_corner_[k] = point.corner;
@@ -162,8 +163,8 @@ class DirectionsAtB {
     slopes.least = std::min(slopes.least, SlopeTo(point.prev, point, now));
     slopes.most = std::max(slopes.most, SlopeTo(point.next, point, now));
   }
-  double SlopeTo(PointId to, const Scene::Point& from, const Moment& now) {
-    const Aim aim = AimAt(from.path, scene_.point(to).path, now);
+  double SlopeTo(PointId to, const KineticPoint& from, const SweepDepth& now) {
+    const Aim aim = AimAt(from.path, scene_.hulls().point(to).path, now);
     return aim.y / aim.x;
   }
 
@@ -204,11 +205,12 @@ TEST_P(WorstCase, TakesABitangentOfTwoHullsThroughEveryPair) {
   std::vector<std::pair<std::int32_t, std::int32_t>> pairs;
   Play(scene, n, [&] {
     scene.CheckAll();
-    const std::int32_t first = scene.FirstTangent(a, b);
-    for (std::int32_t t = first; t < first + 2; ++t) {
-      const std::pair pair(scene.point(scene.Own(2 * t)).tag, scene.point(scene.Other(2 * t)).tag);
+    const TangentId first = scene.tangents().First(a, b);
+    for (TangentId t = first; t < first + 2; ++t) {
+      const auto [p, q] = scene.tangents().contacts(t);
+      const std::pair pair(scene.hulls().point(p).tag, scene.hulls().point(q).tag);
       if (pair.first == kFoot || pair.second == kFoot) continue;  // the lower one
-      EXPECT_TRUE(scene.Active(2 * t) && scene.Active(2 * t + 1));
+      EXPECT_TRUE(scene.order().IsActive(2 * t) && scene.order().IsActive(2 * t + 1));
       if (pairs.empty() || pairs.back() != pair) pairs.push_back(pair);
     }
   });
