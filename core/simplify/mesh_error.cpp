@@ -17,7 +17,7 @@ namespace {
 constexpr double kMostDisplacement =
     0.5;  // columns or rows: past it a vertex is nearer another post
 
-Error BadMesh(const std::string& what, const char* kind) {
+Error BadMesh(const std::string& what, ErrorKind kind) {
   return Error{ErrorCode::kUnsupportedData, what, kind};
 }
 

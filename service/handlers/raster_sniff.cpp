@@ -21,7 +21,7 @@ bool IsTiff(std::string_view bytes) {
          StartsWith(bytes, "II\x2b\x00\x08\x00"sv) || StartsWith(bytes, "MM\x00\x2b\x00\x08"sv);
 }
 
-/// DTED may have a volume and a header label before its user header label.
+// DTED may have a volume label and a header label, of 80 bytes each, before its user header label.
 bool IsDted(std::string_view bytes) {
   constexpr std::size_t kLabelBytes = 80;
   for (int labels = 0; labels < 3; ++labels) {
@@ -44,7 +44,8 @@ bool IsAsciiGrid(std::string_view bytes) {
   return std::find(kFirstWords.begin(), kFirstWords.end(), word) != kFirstWords.end();
 }
 
-/// USGSDEM has no magic: its driver looks at two numbers at byte 156 of a header of text.
+// USGS DEM has no magic number. Like GDAL's driver this reads two numbers of the text header: the
+// code of the reference system at byte 156 and that of its units at byte 150.
 bool IsUsgsDem(std::string_view bytes) {
   if (bytes.size() < 200) return false;
   const std::string_view system = bytes.substr(156, 6);

@@ -7,7 +7,7 @@
 #include <variant>
 
 #include "core/base/result.h"
-#include "service/percent.h"
+#include "service/url_query.h"
 
 namespace farhorizon {
 
