@@ -157,7 +157,7 @@ Problem ProblemOf(const Error& error) {
   const ErrorKind code =
       error.kind.empty() ? ErrorKind::FromName(ErrorCodeName(error.code)).value() : error.kind;
   Problem problem(code, error.message);
-  // A failure of the machine may name what is no client's business; its owner reads it in the log.
+  // The message of such a failure may name paths of this machine: it belongs in the log alone.
   const bool crash = code == ErrorKind("worker-crashed") || code == ErrorKind("result-corrupt");
   if (problem.status == 500 && !crash) {
     problem.detail = "the service failed inside; its log says why";

@@ -45,25 +45,18 @@ bool IsAsciiGrid(std::string_view bytes) {
 }
 
 // USGS DEM has no magic number. Like GDAL's driver this reads two numbers of the text header: the
-// code of the reference system at byte 156 and that of its units at byte 150.
+// pattern of elevations at byte 150 and the planimetric reference system at byte 156.
 bool IsUsgsDem(std::string_view bytes) {
   if (bytes.size() < 200) return false;
   const std::string_view system = bytes.substr(156, 6);
-  const std::string_view units = bytes.substr(150, 6);
+  const std::string_view pattern = bytes.substr(150, 6);
   return (system == "     0" || system == "     1" || system == "     2" || system == "     3" ||
           system == " -9999") &&
-         (units == "     1" || units == "     4");
+         (pattern == "     1" || pattern == "     4");
 }
 
-bool IsHgt(std::int64_t bytes, std::string_view filename) {
-  constexpr std::array<std::int64_t, 4> kSides = {1201, 3601, 7201, 1801};
-  return IsHgtName(filename) && std::any_of(kSides.begin(), kSides.end(), [&](std::int64_t side) {
-           return bytes == 2 * side * side || (side == 1801 && bytes == 2 * side * 3601);
-         });
-}
-
-}  // namespace
-
+// Whether GDAL's driver for SRTM HGT takes a file of this name: "N46E007.hgt", or with more text
+// before the ending.
 bool IsHgtName(std::string_view filename) {
   const std::string name = LowerCase(filename);
   if (name.size() < 11 || name.substr(name.size() - 4) != ".hgt") return false;
@@ -75,6 +68,15 @@ bool IsHgtName(std::string_view filename) {
   return (name[0] == 'n' || name[0] == 's') && digits(1, 2) && (name[3] == 'e' || name[3] == 'w') &&
          digits(4, 3);
 }
+
+bool IsHgt(std::int64_t bytes, std::string_view filename) {
+  constexpr std::array<std::int64_t, 4> kSides = {1201, 3601, 7201, 1801};
+  return IsHgtName(filename) && std::any_of(kSides.begin(), kSides.end(), [&](std::int64_t side) {
+           return bytes == 2 * side * side || (side == 1801 && bytes == 2 * side * 3601);
+         });
+}
+
+}  // namespace
 
 bool LooksLikeRaster(std::string_view beginning, std::int64_t bytes, std::string_view filename) {
   return IsTiff(beginning) || IsDted(beginning) || IsAsciiGrid(beginning) || IsUsgsDem(beginning) ||

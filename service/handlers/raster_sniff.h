@@ -10,8 +10,4 @@ namespace farhorizon {
 /// beginning: the first 4096 bytes, or all if there are fewer; bytes: the size of the whole.
 bool LooksLikeRaster(std::string_view beginning, std::int64_t bytes, std::string_view filename);
 
-/// Whether GDAL's driver for SRTM HGT takes a file of this name: "N46E007.hgt", or with more text
-/// before the ending.
-bool IsHgtName(std::string_view filename);
-
 }  // namespace farhorizon

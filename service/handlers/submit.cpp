@@ -25,7 +25,7 @@ namespace {
 constexpr const char* kAccepted = "image/tiff, application/octet-stream, multipart/form-data";
 constexpr std::size_t kMaxKeyBytes = 256;
 
-// What the head of a submission says.
+// The contents of the head of a submission.
 struct SubmissionHead {
   Parameters parameters;  // of the query, except the file name
   std::optional<std::string> filename;

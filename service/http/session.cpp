@@ -31,8 +31,8 @@ auto Into(error_code& failure) { return asio::redirect_error(asio::use_awaitable
 
 // A head for Beast to frame the body by. The client's own head is read by ReadRequestHead alone;
 // Beast gets the one field that decides where the body ends (RFC 9112, section 6.3), as it was
-// established there. Two readers of one head could differ, and what is the end of a body to one
-// could be a request to the other (section 11.2).
+// established there. Two readers of one head could disagree about the end of the body, and part of
+// it could pass for a request (section 11.2).
 std::string FramingHead(const HttpRequest& request) {
   return "POST / HTTP/1.1\r\n" +
          (request.chunked ? std::string("Transfer-Encoding: chunked")
