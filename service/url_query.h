@@ -10,7 +10,7 @@ namespace farhorizon {
 /// The values of a query's or a form's parameters, by name.
 using Parameters = std::map<std::string, std::string>;
 
-/// `text` with every byte except RFC 3986's unreserved characters as %XX.
+/// `text` with every byte except the unreserved characters of [RFC 3986] as %XX.
 std::string PercentEncode(std::string_view text);
 
 /// The inverse of PercentEncode; nullopt if a % is not followed by two hexadecimal digits.

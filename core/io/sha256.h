@@ -20,7 +20,7 @@ class Digest {
 
   /// 64 lower-case hexadecimal digits.
   [[nodiscard]] std::string Hex() const;
-  /// 44 characters of RFC 4648's base64, as in the HTTP field Repr-Digest.
+  /// 44 characters of base64 [RFC 4648], as in the HTTP field Repr-Digest.
   [[nodiscard]] std::string Base64() const;
 
   friend bool operator==(const Digest&, const Digest&) = default;

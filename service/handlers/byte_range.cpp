@@ -9,8 +9,8 @@ namespace farhorizon {
 
 namespace {
 
-// Whether a list of entity tags has `etag`. weak: compares without the prefix W/ (RFC 9110, section
-// 8.8.3.2).
+// Whether a list of entity tags has `etag`. weak: compares without the prefix W/ [RFC 9110,
+// section 8.8.3.2].
 bool HasTag(std::string_view list, std::string_view etag, bool weak) {
   if (Trimmed(list) == "*") return true;
   while (!list.empty()) {

@@ -7,7 +7,7 @@
 
 namespace farhorizon {
 
-/// The part of a file that answers a request for it (RFC 9110, sections 13 and 14).
+/// The part of a file that answers a request for it [RFC 9110, sections 13 and 14].
 struct Selection {
   int status = 200;  ///< 200, 206, 304, 412 or 416
   std::int64_t offset = 0;

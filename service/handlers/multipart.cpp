@@ -113,7 +113,7 @@ Result<bool> MultipartParser::Step() {
     case State::kData:
       return StepData();
     case State::kEnd:
-      buffer_.clear();  // an epilogue is ignored (RFC 2046, section 5.1.1)
+      buffer_.clear();  // an epilogue is ignored [RFC 2046, section 5.1.1]
       return false;
   }
   return false;

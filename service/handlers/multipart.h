@@ -11,10 +11,10 @@
 namespace farhorizon {
 
 /// The boundary of a Content-Type multipart/form-data; nullopt if there is none, or if it is not
-/// one to 70 of the characters that RFC 2046, section 5.1.1, allows.
+/// one to 70 of the characters that [RFC 2046, section 5.1.1] allows.
 std::optional<std::string> MultipartBoundary(std::string_view content_type);
 
-/// The head of a part (RFC 7578, section 4.2).
+/// The head of a part [RFC 7578, section 4.2].
 struct PartHead {
   std::string name;
   std::optional<std::string> filename;
@@ -26,7 +26,7 @@ struct PartReceiver {
   std::function<Status(std::string_view)> data;  ///< the next piece of the part begun last
 };
 
-/// Reads multipart/form-data (RFC 7578) piece by piece, in memory that does not grow with the body.
+/// Reads multipart/form-data [RFC 7578] piece by piece, in memory that does not grow with the body.
 /// How the body is cut into pieces makes no difference to the parts.
 /// Errors: kInvalidArgument "invalid-multipart": no closing boundary, a part without a name or with
 ///   a head of more than 8 KiB, more than 16 parts, or bytes before the first boundary.

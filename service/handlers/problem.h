@@ -7,7 +7,7 @@
 
 namespace farhorizon {
 
-/// An error as the wire shows it (RFC 9457); type and title follow from code and status.
+/// An error as the wire shows it [RFC 9457]; type and title follow from code and status.
 struct Problem {
   /// With the status of `kind`.
   Problem(ErrorKind kind, std::string text);

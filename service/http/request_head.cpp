@@ -89,7 +89,7 @@ std::optional<Problem> CheckOnce(const HttpRequest& request, std::string_view na
   return Bad("the field " + std::string(name) + " stands more than once");
 }
 
-// Where the body ends (RFC 9112, section 6.3). No body if neither field is there.
+// Where the body ends [RFC 9112, section 6.3]. No body if neither field is there.
 std::optional<Problem> ReadFraming(HttpRequest& request) {
   const std::string* length = request.Header("content-length");
   const std::string* coding = request.Header("transfer-encoding");

@@ -17,7 +17,7 @@ struct RequestHeadLimits {
 /// Reads the head of a request, up to and with its closing empty line; or the problem for which the
 /// request is refused and its connection closed.
 ///
-/// Stricter than RFC 9112 asks: requests are smuggled where two readers of the same bytes may
+/// Stricter than [RFC 9112] asks: requests are smuggled where two readers of the same bytes may
 /// differ (section 11.2). Lines end in CRLF alone (section 2.2); a field does not continue on a
 /// second line (5.2) and holds ASCII only; HTTP/1.1 has exactly one Host (3.2); a target is in
 /// origin form (3.2.1), or `*` of OPTIONS; a body has one Content-Length of digits or

@@ -30,7 +30,7 @@ constexpr std::chrono::seconds kLingerTime{2};
 auto Into(error_code& failure) { return asio::redirect_error(asio::use_awaitable, failure); }
 
 // A head for Beast to frame the body by. The client's own head is read by ReadRequestHead alone;
-// Beast gets the one field that decides where the body ends (RFC 9112, section 6.3), as it was
+// Beast gets the one field that decides where the body ends [RFC 9112, section 6.3], as it was
 // established there. Two readers of one head could disagree about the end of the body, and part of
 // it could pass for a request (section 11.2).
 std::string FramingHead(const HttpRequest& request) {
@@ -102,7 +102,7 @@ asio::awaitable<std::optional<std::string>> Session::ReadHeadBytes() {
   for (;;) {
     const auto data = buffer_.cdata();
     const std::string_view have(static_cast<const char*>(data.data()), data.size());
-    // RFC 9112, section 2.2: a client may send one empty line too many after a body.
+    // [RFC 9112, section 2.2]: a client may send one empty line too many after a body.
     if (have.substr(0, 2) == "\r\n") {
       buffer_.consume(2);
       if (begun) co_return std::nullopt;

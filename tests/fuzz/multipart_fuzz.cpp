@@ -1,5 +1,5 @@
-// libFuzzer's target: the reader of multipart forms. The first byte says into pieces of what size the
-// rest is cut; cut or not, the parts and the verdict are the same.
+// libFuzzer's target: the reader of multipart forms. The first byte is the size of the pieces into
+// which the rest is cut; cut or not, the parts and the verdict are the same.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>

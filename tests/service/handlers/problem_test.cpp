@@ -1,4 +1,5 @@
-// The error codes of the wire contract stand in four places; all are held to core/base/error_kind.h.
+// The error codes of the wire contract: the statuses, proto/errors.md, the schema and the sources
+// are held to core/base/error_kind.h.
 #include "service/handlers/problem.h"
 
 #include <filesystem>
