@@ -1,5 +1,6 @@
 // libFuzzer's target: JSON that clients send. An accepted document is within its depth and is the
 // same after it is written and read again; parameters come out of it, or an error.
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -14,9 +15,10 @@ namespace {
 constexpr int kMaxDepth = 64;
 
 int DepthOf(const nlohmann::json& value) {
+  if (!value.is_structured()) return 0;
   int deepest = 0;
   for (const auto& element : value) deepest = std::max(deepest, DepthOf(element));
-  return value.is_structured() ? deepest + 1 : 0;
+  return deepest + 1;
 }
 
 void Require(bool holds, const char* what) {
