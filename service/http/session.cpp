@@ -156,7 +156,12 @@ asio::awaitable<Session::Next> Session::Answer(HttpRequest request) {
       Exchange& exchange = *std::get<std::unique_ptr<Exchange>>(admission);
       std::optional<HttpResponse> refusal = co_await ReadBody(request, exchange);
       read_whole = !refusal;
-      response = refusal ? *std::move(refusal) : co_await Finish(request, exchange);
+      // Not by ?: with co_await in one arm: g++ 12 destroys the response twice.
+      if (read_whole) {
+        response = co_await Finish(request, exchange);
+      } else {
+        response = *std::move(refusal);
+      }
     }
   }
   const bool keep_alive = read_whole && request.keep_alive && !context_.stopping;
