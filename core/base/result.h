@@ -1,10 +1,14 @@
 #pragma once
 
+#include <optional>
 #include <source_location>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
+
+#include "core/base/error_kind.h"
 
 namespace farhorizon {
 
@@ -20,12 +24,14 @@ enum class ErrorCode {
 
 /// The name of `code` as it stands in problem documents: "invalid-argument".
 const char* ErrorCodeName(ErrorCode code);
+/// The code that has this name; nullopt for any other text.
+std::optional<ErrorCode> ErrorCodeFromName(std::string_view name);
 
 /// A failure and its cause, worded for the person who can act on it.
 struct Error {
   ErrorCode code;
-  std::string message;    ///< lower case, no full stop, names the value, the limit and the remedy
-  std::string kind = {};  ///< short, stable, for programs to switch on: "no-crs", "several-bands"
+  std::string message;  ///< lower case, no full stop, names the value, the limit and the remedy
+  ErrorKind kind = {};  ///< stable, for programs to switch on: "no-crs", "several-bands"
 
   /// This error with `where` put in front: "read DEM: file is empty".
   [[nodiscard]] Error Within(const std::string& where) &&;

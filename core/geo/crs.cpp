@@ -43,7 +43,7 @@ struct Session {
   ContextPtr context;
 };
 
-Error Unusable(const std::string& message, const char* kind) {
+Error Unusable(const std::string& message, ErrorKind kind) {
   return {ErrorCode::kUnsupportedData, message, kind};
 }
 

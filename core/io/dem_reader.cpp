@@ -33,7 +33,7 @@ struct CloseDataset {
 };
 using DatasetPtr = std::unique_ptr<void, CloseDataset>;
 
-Error BadData(const std::string& message, const char* kind) {
+Error BadData(const std::string& message, ErrorKind kind) {
   return {ErrorCode::kUnsupportedData, message, kind};
 }
 
@@ -88,7 +88,7 @@ Status CheckSize(GDALDatasetH dataset, const DemReadOptions& options) {
     return BadData("the raster has " + std::to_string(bands) +
                        " bands, expected 1; take out the one with the heights "
                        "(gdal_translate -b)",
-                   bands == 0 ? "not-a-raster" : "several-bands");
+                   bands == 0 ? ErrorKind("not-a-raster") : "several-bands");
   }
   if (columns < 2 || rows < 2) {
     return BadData("the raster has " + size + " cells, at least 2 x 2 are needed", "too-small");

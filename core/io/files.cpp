@@ -94,7 +94,7 @@ Status FillAndSync(Descriptor& file, const std::filesystem::path& path, std::str
 std::string Sha256Hex(std::string_view bytes) {
   Sha256 sum;
   sum.Add(bytes);
-  return sum.Finish();
+  return sum.Finish().Hex();
 }
 
 Result<std::string> Sha256OfFile(const std::filesystem::path& path) {
@@ -104,7 +104,7 @@ Result<std::string> Sha256OfFile(const std::filesystem::path& path) {
     return Done{};
   });
   if (!read) return std::move(read.error());
-  return sum.Finish();
+  return sum.Finish().Hex();
 }
 
 Result<std::string> ReadFile(const std::filesystem::path& path, std::uintmax_t max_bytes) {

@@ -1,12 +1,35 @@
 #include "core/io/sha256.h"
 
-#include <array>
+#include <algorithm>
+#include <charconv>
 
 #include <openssl/evp.h>
 
+#include "core/base/hex.h"
 #include "core/base/result.h"
 
 namespace farhorizon {
+
+std::optional<Digest> Digest::FromHex(std::string_view hex) {
+  if (hex.size() != 2 * kBytes || !std::all_of(hex.begin(), hex.end(), IsLowerHexDigit)) {
+    return std::nullopt;
+  }
+  std::array<std::uint8_t, kBytes> bytes{};
+  for (std::size_t i = 0; i < kBytes; ++i) {
+    const char* digits = hex.data() + 2 * i;
+    std::from_chars(digits, digits + 2, bytes[i], 16);
+  }
+  return Digest(bytes);
+}
+
+std::string Digest::Hex() const { return ToHex(bytes_); }
+
+std::string Digest::Base64() const {
+  // Four characters for each three bytes, and EVP_EncodeBlock's zero byte after them.
+  std::array<unsigned char, (kBytes + 2) / 3 * 4 + 1> text{};
+  const int size = EVP_EncodeBlock(text.data(), bytes_.data(), static_cast<int>(kBytes));
+  return {text.begin(), text.begin() + size};
+}
 
 struct Sha256::State {
   EVP_MD_CTX* context = EVP_MD_CTX_new();
@@ -29,17 +52,12 @@ void Sha256::Add(std::string_view bytes) {
   Check(EVP_DigestUpdate(state_->context, bytes.data(), bytes.size()) == 1, "SHA-256 goes on");
 }
 
-std::string Sha256::Finish() {
-  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
+Digest Sha256::Finish() {
+  std::array<std::uint8_t, Digest::kBytes> bytes{};
   unsigned int size = 0;
-  Check(EVP_DigestFinal_ex(state_->context, digest.data(), &size) == 1, "SHA-256 ends");
-  static constexpr std::string_view kDigits = "0123456789abcdef";
-  std::string text;
-  for (unsigned int i = 0; i < size; ++i) {
-    text += kDigits[digest[i] >> 4U];
-    text += kDigits[digest[i] & 15U];
-  }
-  return text;
+  Check(EVP_DigestFinal_ex(state_->context, bytes.data(), &size) == 1 && size == bytes.size(),
+        "SHA-256 ends");
+  return Digest(bytes);
 }
 
 }  // namespace farhorizon

@@ -1,12 +1,35 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
 namespace farhorizon {
 
-/// A SHA-256 that is fed piece by piece.
+/// A SHA-256 sum.
+class Digest {
+ public:
+  static constexpr std::size_t kBytes = 32;
+
+  explicit Digest(const std::array<std::uint8_t, kBytes>& bytes) : bytes_(bytes) {}
+  /// The inverse of Hex; nullopt for any other text.
+  static std::optional<Digest> FromHex(std::string_view hex);
+
+  /// 64 lower-case hexadecimal digits.
+  [[nodiscard]] std::string Hex() const;
+  /// 44 characters of base64 [RFC 4648], as in the HTTP field Repr-Digest.
+  [[nodiscard]] std::string Base64() const;
+
+  friend bool operator==(const Digest&, const Digest&) = default;
+
+ private:
+  std::array<std::uint8_t, kBytes> bytes_;
+};
+
+/// Computes the SHA-256 of bytes that come piece by piece.
 class Sha256 {
  public:
   Sha256();
@@ -15,8 +38,8 @@ class Sha256 {
   Sha256& operator=(Sha256&&) noexcept;
 
   void Add(std::string_view bytes);
-  /// Lower-case hexadecimal. Requires: called once, last.
-  std::string Finish();
+  /// Requires: called once, last.
+  Digest Finish();
 
  private:
   struct State;

@@ -22,7 +22,7 @@ namespace {
 // Columns or rows. A vertex further from its post may be nearer to another one.
 constexpr double kMostDisplacement = 0.5;
 
-Error BadMesh(const std::string& what, const char* kind) {
+Error BadMesh(const std::string& what, ErrorKind kind) {
   return Error{ErrorCode::kUnsupportedData, what, kind};
 }
 

@@ -71,7 +71,7 @@ Error Refusal(const ClientResponse& response) {
   return {call                     ? ErrorCode::kInvalidArgument
           : response.status >= 500 ? ErrorCode::kIo
                                    : ErrorCode::kUnsupportedData,
-          detail, code};
+          detail, ErrorKind::FromName(code).value_or(ErrorKind())};
 }
 
 /// A conversation with a service about one job.

@@ -6,7 +6,7 @@
 
 #include "core/base/result.h"
 #include "core/pipeline/build.h"
-#include "service/percent.h"
+#include "service/url_query.h"
 
 namespace farhorizon {
 

@@ -9,8 +9,9 @@ namespace farhorizon {
 
 namespace {
 
-/// Whether a list of entity tags names `etag`. weak: a W/ before it does not matter.
-bool Names(std::string_view list, std::string_view etag, bool weak) {
+// Whether a list of entity tags has `etag`. weak: compares without the prefix W/ [RFC 9110,
+// section 8.8.3.2].
+bool HasTag(std::string_view list, std::string_view etag, bool weak) {
   if (Trimmed(list) == "*") return true;
   while (!list.empty()) {
     const std::size_t comma = list.find(',');
@@ -23,19 +24,21 @@ bool Names(std::string_view list, std::string_view etag, bool weak) {
 }
 
 std::optional<std::int64_t> Number(std::string_view text) {
+  constexpr std::size_t kMaxDigits = 18;  // fit an int64
   std::int64_t value = 0;
-  if (text.empty() || text.size() > 18) return std::nullopt;
+  if (text.empty() || text.size() > kMaxDigits) return std::nullopt;
   const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (failure != std::errc() || end != text.data() + text.size() || value < 0) return std::nullopt;
   return value;
 }
 
-Selection Part(std::int64_t first, std::int64_t last, std::int64_t size) {
+// Bytes `first` to `last`, cut at the end of the file.
+Selection SelectFrom(std::int64_t first, std::int64_t last, std::int64_t size) {
   if (first >= size) return {416, 0, 0};
   return {206, first, std::min(last, size - 1) - first + 1};
 }
 
-/// nullopt where the field is not one well-formed range of bytes.
+// nullopt if the field is not one well-formed range of bytes.
 std::optional<Selection> ReadRange(std::string_view field, std::int64_t size) {
   constexpr std::string_view kUnit = "bytes=";
   if (LowerCase(field.substr(0, kUnit.size())) != kUnit) return std::nullopt;
@@ -46,12 +49,13 @@ std::optional<Selection> ReadRange(std::string_view field, std::int64_t size) {
   const std::string_view to = range.substr(dash + 1);
   const auto first = Number(from);
   const auto last = Number(to);
-  if (from.empty() && last) {  // the last so many
+  // "-N": the last N bytes.
+  if (from.empty() && last) {
     if (*last == 0) return Selection{416, 0, 0};
-    return Part(std::max<std::int64_t>(0, size - *last), size, size);
+    return SelectFrom(std::max<std::int64_t>(0, size - *last), size, size);
   }
   if (!first || (!to.empty() && !last) || (last && *last < *first)) return std::nullopt;
-  return Part(*first, last.value_or(size), size);
+  return SelectFrom(*first, last.value_or(size), size);
 }
 
 }  // namespace
@@ -59,9 +63,9 @@ std::optional<Selection> ReadRange(std::string_view field, std::int64_t size) {
 Selection SelectBytes(const HttpRequest& request, const std::string& etag, std::int64_t size) {
   const Selection all{200, 0, size};
   const std::string* if_match = request.Header("if-match");
-  if (if_match != nullptr && !Names(*if_match, etag, false)) return {412, 0, 0};
+  if (if_match != nullptr && !HasTag(*if_match, etag, false)) return {412, 0, 0};
   const std::string* if_none_match = request.Header("if-none-match");
-  if (if_none_match != nullptr && Names(*if_none_match, etag, true)) return {304, 0, 0};
+  if (if_none_match != nullptr && HasTag(*if_none_match, etag, true)) return {304, 0, 0};
   const std::string* range = request.Header("range");
   if (range == nullptr || request.method != "GET") return all;
   const std::string* if_range = request.Header("if-range");

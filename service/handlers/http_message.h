@@ -8,17 +8,18 @@
 #include <utility>
 #include <vector>
 
-#include "service/percent.h"
 #include "service/unique_fd.h"
+#include "service/url_query.h"
 
 namespace farhorizon {
 
-/// A request as the gate let it in. Header names are in lower case, at most one of a name that may
-/// stand once.
+/// A request whose head ReadRequestHead has accepted. Names of header fields are in lower case; of
+/// a field that decides where the request goes, where it ends or what it means there is at most
+/// one.
 struct HttpRequest {
   std::string method;
   std::string target;  ///< as sent: path and query
-  std::string path;    ///< percent-encoded still
+  std::string path;    ///< still percent-encoded
   std::string query;
   int version = 11;  ///< 10 or 11
   std::vector<std::pair<std::string, std::string>> headers;
@@ -28,9 +29,9 @@ struct HttpRequest {
   bool keep_alive = true;
 
   std::string peer;                     ///< address, for the log
-  std::vector<std::string> parameters;  ///< what stood for {…} in the route, decoded
+  std::vector<std::string> parameters;  ///< the values of {…} in the route's pattern, decoded
 
-  /// The first of that name (in lower case); nullptr where there is none.
+  /// The first field of that name (in lower case); nullptr if there is none.
   [[nodiscard]] const std::string* Header(std::string_view name) const;
   [[nodiscard]] bool HasBody() const { return chunked || content_length.value_or(0) > 0; }
 };
@@ -42,12 +43,12 @@ struct FileBody {
   std::int64_t bytes = 0;
 };
 
-/// What a handler answers. Date, Connection, Content-Length and CORS fields are the server's.
+/// What a handler answers. The server adds Date, Connection, Content-Length and the CORS fields.
 struct HttpResponse {
   int status = 200;
   std::vector<std::pair<std::string, std::string>> headers;
   std::string body;
-  std::optional<FileBody> file;  ///< in place of body
+  std::optional<FileBody> file;  ///< sent in place of `body`
 
   void Set(std::string name, std::string value) {
     headers.emplace_back(std::move(name), std::move(value));
@@ -63,9 +64,9 @@ const char* ReasonPhrase(int status);
 /// The media type of a Content-Type field, in lower case and without parameters.
 std::string MediaTypeIn(std::string_view content_type);
 
-/// Lower case, of ASCII.
+/// `text` with the letters A to Z in lower case.
 std::string LowerCase(std::string_view text);
-/// Without blanks and tabs at either end.
+/// `text` without the blanks and tabs at its ends.
 std::string_view Trimmed(std::string_view text);
 
 }  // namespace farhorizon

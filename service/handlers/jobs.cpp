@@ -1,15 +1,17 @@
+#include "service/handlers/jobs.h"
+
 #include <charconv>
 #include <string_view>
 
+#include "service/handlers/json.h"
 #include "service/handlers/problem.h"
-#include "service/handlers/routes.h"
 #include "service/handlers/status_info.h"
 
 namespace farhorizon {
 
 namespace {
 
-constexpr int kMostJobs = 10000;
+constexpr int kMaxPageSize = 10000;
 
 Error BadQuery(const std::string& what) {
   return {ErrorCode::kInvalidArgument, what, "invalid-query-parameter-value"};
@@ -19,7 +21,7 @@ Result<int> ReadLimit(const std::string& text) {
   int limit = 0;
   const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), limit);
   if (failure != std::errc() || end != text.data() + text.size() || limit < 1 ||
-      limit > kMostJobs) {
+      limit > kMaxPageSize) {
     return BadQuery("limit must be a number from 1 to 10000");
   }
   return limit;
@@ -86,7 +88,23 @@ HttpResponse ListJobs(const HandlerContext& context, const HttpRequest& request)
   return JsonResponse(document);
 }
 
-/// No other text reaches the store: what is no id is no job either.
+HttpResponse ShowJob(const HandlerContext& context, const HttpRequest& request) {
+  const Result<Job> job = FindJob(context, request.parameters.at(0));
+  if (!job) return ProblemResponse(request, ProblemOf(job.error()));
+  HttpResponse response = JsonResponse(StatusInfo(*job, context.base));
+  if (!IsTerminal(job->state)) response.Set("Retry-After", "1");
+  return response;
+}
+
+HttpResponse DismissJob(const HandlerContext& context, const HttpRequest& request) {
+  Result<Job> job = FindJob(context, request.parameters.at(0));
+  if (job) job = context.jobs.Dismiss(job->id);
+  if (!job) return ProblemResponse(request, ProblemOf(job.error()));
+  return JsonResponse(StatusInfo(*job, context.base));
+}
+
+}  // namespace
+
 Result<Job> FindJob(const HandlerContext& context, const std::string& id) {
   if (!IsJobId(id)) {
     return Error{ErrorCode::kNotFound, "there is no job with this id", "no-such-job"};
@@ -94,25 +112,15 @@ Result<Job> FindJob(const HandlerContext& context, const std::string& id) {
   return context.jobs.Find(id);
 }
 
-}  // namespace
-
 std::vector<Route> JobRoutes(const HandlerContext& context) {
-  return {{"GET", "/jobs",
-           [context](const HttpRequest& request, BodySink*) { return ListJobs(context, request); }},
-          {"GET", "/jobs/{id}",
-           [context](const HttpRequest& request, BodySink*) {
-             Result<Job> job = FindJob(context, request.parameters.at(0));
-             if (!job) return ProblemResponse(request, ProblemOf(job.error()));
-             HttpResponse response = JsonResponse(StatusInfo(*job, context.base));
-             if (!IsTerminal(job->state)) response.Set("Retry-After", "1");
-             return response;
-           }},
-          {"DELETE", "/jobs/{id}", [context](const HttpRequest& request, BodySink*) {
-             Result<Job> job = FindJob(context, request.parameters.at(0));
-             if (job) job = context.jobs.Dismiss(job->id);
-             if (!job) return ProblemResponse(request, ProblemOf(job.error()));
-             return JsonResponse(StatusInfo(*job, context.base));
-           }}};
+  return {
+      BodylessRoute("GET", "/jobs",
+                    [context](const HttpRequest& request) { return ListJobs(context, request); }),
+      BodylessRoute("GET", "/jobs/{id}",
+                    [context](const HttpRequest& request) { return ShowJob(context, request); }),
+      BodylessRoute("DELETE", "/jobs/{id}", [context](const HttpRequest& request) {
+        return DismissJob(context, request);
+      })};
 }
 
 }  // namespace farhorizon

@@ -8,15 +8,15 @@ namespace farhorizon {
 
 namespace {
 
-constexpr std::size_t kLongestHead = 8192;
-constexpr int kMostParts = 16;
+constexpr std::size_t kMaxHeadBytes = 8192;
+constexpr int kMaxParts = 16;
 
 Error Broken(const std::string& why) {
   return {ErrorCode::kInvalidArgument, "the multipart form is at fault: " + why,
           "invalid-multipart"};
 }
 
-/// The value of a parameter (`name="value"` or `name=value`) of a header field.
+// The value of a parameter, name="value" or name=value, of a header field.
 std::optional<std::string> FieldParameter(std::string_view field, std::string_view wanted) {
   std::size_t at = field.find(';');
   while (at != std::string_view::npos) {
@@ -44,7 +44,7 @@ std::optional<std::string> FieldParameter(std::string_view field, std::string_vi
   return std::nullopt;
 }
 
-Result<PartHead> ReadHead(std::string_view head) {
+Result<PartHead> ReadPartHead(std::string_view head) {
   while (!head.empty()) {
     const std::size_t end = std::min(head.find("\r\n"), head.size());
     const std::string_view line = head.substr(0, end);
@@ -77,9 +77,10 @@ std::optional<std::string> MultipartBoundary(std::string_view content_type) {
 }
 
 MultipartParser::MultipartParser(const std::string& boundary, PartReceiver receiver)
-    : delimiter_("\r\n--" + boundary), receiver_(std::move(receiver)), buffer_("\r\n") {
-  // The CRLF in the buffer stands before the first boundary, which may have none.
-}
+    : delimiter_("\r\n--" + boundary),
+      receiver_(std::move(receiver)),
+      // The first boundary of a body has no CRLF before it; with this one it is a delimiter, too.
+      buffer_("\r\n") {}
 
 Status MultipartParser::Feed(std::string_view piece) {
   buffer_ += piece;
@@ -112,7 +113,7 @@ Result<bool> MultipartParser::Step() {
     case State::kData:
       return StepData();
     case State::kEnd:
-      buffer_.clear();  // an epilogue says nothing (RFC 2046, 5.1.1)
+      buffer_.clear();  // an epilogue is ignored [RFC 2046, section 5.1.1]
       return false;
   }
   return false;
@@ -125,7 +126,7 @@ Result<bool> MultipartParser::StepAfterBoundary() {
   if (next == "--") {
     state_ = State::kEnd;
   } else if (next == "\r\n") {
-    if (++parts_ > kMostParts) return Broken("it has more than 16 parts");
+    if (++parts_ > kMaxParts) return Broken("it has more than 16 parts");
     state_ = State::kHead;
   } else {
     return Broken("a boundary is followed by something else");
@@ -136,11 +137,12 @@ Result<bool> MultipartParser::StepAfterBoundary() {
 Result<bool> MultipartParser::StepHead() {
   const std::size_t end = buffer_.find("\r\n\r\n");
   if (end == std::string::npos) {
-    if (buffer_.size() > kLongestHead) return Broken("a part's head is longer than 8192 bytes");
-    return false;
+    // A head of the greatest length may still wait for the rest of its CRLF CRLF.
+    if (buffer_.size() < kMaxHeadBytes + 4) return false;
+    return Broken("a part's head is longer than 8192 bytes");
   }
-  if (end > kLongestHead) return Broken("a part's head is longer than 8192 bytes");
-  Result<PartHead> head = ReadHead(std::string_view(buffer_).substr(0, end));
+  if (end > kMaxHeadBytes) return Broken("a part's head is longer than 8192 bytes");
+  Result<PartHead> head = ReadPartHead(std::string_view(buffer_).substr(0, end));
   if (!head) return std::move(head.error());
   buffer_.erase(0, end + 4);
   Status begun = receiver_.begin(*head);
@@ -151,7 +153,7 @@ Result<bool> MultipartParser::StepHead() {
 
 Result<bool> MultipartParser::StepData() {
   const std::size_t found = buffer_.find(delimiter_);
-  // What may be the beginning of a delimiter has to wait for more.
+  // The last bytes may be the beginning of a delimiter; they wait for the next piece.
   const std::size_t kept = delimiter_.size() - 1;
   const std::size_t ready = found != std::string::npos ? found
                             : buffer_.size() > kept    ? buffer_.size() - kept

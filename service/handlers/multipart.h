@@ -10,43 +10,44 @@
 
 namespace farhorizon {
 
-/// The boundary of a multipart/form-data Content-Type; nullopt where there is none or it breaks
-/// RFC 2046's rules (1 to 70 of its characters).
+/// The boundary of a Content-Type multipart/form-data; nullopt if there is none, or if it is not
+/// one to 70 of the characters that [RFC 2046, section 5.1.1] allows.
 std::optional<std::string> MultipartBoundary(std::string_view content_type);
 
-/// One part's head.
+/// The head of a part [RFC 7578, section 4.2].
 struct PartHead {
   std::string name;
   std::optional<std::string> filename;
 };
 
-/// Where parts go. Errors of either end the parse.
+/// Takes what the parser finds. An error of either function ends the parse.
 struct PartReceiver {
-  std::function<Status(const PartHead&)> begin;
-  std::function<Status(std::string_view)> data;
+  std::function<Status(const PartHead&)> begin;  ///< called once for each part, in their order
+  std::function<Status(std::string_view)> data;  ///< the next piece of the part begun last
 };
 
-/// Reads multipart/form-data (RFC 7578) piece by piece, in constant memory.
-/// Errors: kInvalidArgument "invalid-multipart": no end, no name, a head of more than 8 KiB, more
-///   than 16 parts, or bytes that belong to no part.
+/// Reads multipart/form-data [RFC 7578] piece by piece, in memory that does not grow with the body.
+/// How the body is cut into pieces makes no difference to the parts.
+/// Errors: kInvalidArgument "invalid-multipart": no closing boundary, a part without a name or with
+///   a head of more than 8 KiB, more than 16 parts, or bytes before the first boundary.
 class MultipartParser {
  public:
   MultipartParser(const std::string& boundary, PartReceiver receiver);
 
   Status Feed(std::string_view piece);
-  /// The body is at its end; was the form?
+  /// Checks, after the last piece, that the closing boundary has come.
   Status Finish() const;
 
  private:
   enum class State { kStart, kAfterBoundary, kHead, kData, kEnd };
 
-  /// Whether something was consumed and there may be more to do.
+  /// True if something was consumed and another step may be possible without further bytes.
   Result<bool> Step();
   Result<bool> StepAfterBoundary();
   Result<bool> StepHead();
   Result<bool> StepData();
 
-  std::string delimiter_;  ///< with the CRLF before it
+  std::string delimiter_;  ///< "\r\n--" and the boundary
   PartReceiver receiver_;
   State state_ = State::kStart;
   std::string buffer_;

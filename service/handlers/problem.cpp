@@ -1,7 +1,10 @@
 #include "service/handlers/problem.h"
 
+#include <algorithm>
 #include <array>
+#include <span>
 #include <string_view>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -14,50 +17,123 @@ namespace {
 constexpr const char* kOgc = "http://www.opengis.net/def/exceptions/ogcapi-processes-1/1.0/";
 constexpr const char* kOurs = "urn:farhorizon:problem:";
 
-struct KindStatus {
-  std::string_view kind;
+constexpr ErrorKind kKinds400[] = {
+    "bad-azimuth",       "bad-request",
+    "invalid-address",   "invalid-argument",
+    "invalid-config",    "invalid-idempotency-key",
+    "invalid-json",      "invalid-multipart",
+    "invalid-parameter", "invalid-query-parameter-value",
+    "invalid-url",       "max-error-too-small",
+    "no-such-level",     "not-available",
+    "unknown-config",    "unknown-format",
+    "unknown-parameter", "virtual-path",
+};
+constexpr ErrorKind kKinds404[] = {
+    "no-config",        "no-such-file", "no-such-job",          "no-such-output",
+    "no-such-resource", "not-found",    "result-not-available", "result-not-ready",
+};
+constexpr ErrorKind kKinds405[] = {"method-not-allowed"};
+constexpr ErrorKind kKinds408[] = {"request-timeout"};
+constexpr ErrorKind kKinds412[] = {"precondition-failed"};
+constexpr ErrorKind kKinds413[] = {"body-not-allowed", "body-too-large", "raster-too-large"};
+constexpr ErrorKind kKinds414[] = {"target-too-long"};
+constexpr ErrorKind kKinds415[] = {"not-a-raster", "unsupported-media-type"};
+constexpr ErrorKind kKinds416[] = {"range-not-satisfiable"};
+constexpr ErrorKind kKinds417[] = {"expectation-failed"};
+constexpr ErrorKind kKinds422[] = {
+    "all-nodata",
+    "bad-draco",
+    "bad-geojson",
+    "bad-glb",
+    "bad-manifest",
+    "bad-mesh",
+    "bad-report",
+    "bad-tileset",
+    "degenerate-geotransform",
+    "displaced-vertex",
+    "file-limit",
+    "flipped-triangle",
+    "height-out-of-range",
+    "hole",
+    "idempotency-key-reused",
+    "infinite-height",
+    "kinetic-too-large",
+    "local-crs",
+    "memory-limit",
+    "no-crs",
+    "no-geoid-grid",
+    "no-surface",
+    "outside-crs",
+    "overlap",
+    "rotated-geotransform",
+    "several-bands",
+    "sight-too-narrow",
+    "timeout",
+    "too-small",
+    "truncated",
+    "unknown-crs",
+    "unknown-point",
+    "unknown-post",
+    "unknown-unit",
+    "unnamed-points",
+    "unsupported-data",
+    "unsupported-type",
+    "work-budget",
+};
+constexpr ErrorKind kKinds431[] = {"head-too-large", "too-many-header-fields"};
+constexpr ErrorKind kKinds500[] = {
+    "cannot-listen",  "connection", "data-directory", "input-corrupt",
+    "internal-error", "io",         "job-store",      "job-store-unusable",
+    "result-corrupt", "storage",    "worker-crashed",
+};
+constexpr ErrorKind kKinds501[] = {"transfer-encoding-not-implemented"};
+constexpr ErrorKind kKinds503[] = {
+    "block-too-large",      "cancelled",          "draining", "queue-full", "resource-exhausted",
+    "too-many-connections", "worker-not-started",
+};
+constexpr ErrorKind kKinds505[] = {"version-not-supported"};
+constexpr ErrorKind kKinds507[] = {"no-space"};
+
+struct StatusRow {
   int status;
+  std::span<const ErrorKind> kinds;
 };
-/// Kinds whose status is not that of their ErrorCode.
-constexpr std::array kKindStatuses = {
-    KindStatus{"not-a-raster", 415},   KindStatus{"raster-too-large", 413},
-    KindStatus{"body-too-large", 413}, KindStatus{"idempotency-key-reused", 422},
-    KindStatus{"draining", 503},       KindStatus{"queue-full", 503},
-    KindStatus{"no-space", 507},       KindStatus{"memory-limit", 422},
-    KindStatus{"timeout", 422},        KindStatus{"file-limit", 422},
-    KindStatus{"work-budget", 422},
+constexpr std::array kStatuses = {
+    StatusRow{400, kKinds400}, StatusRow{404, kKinds404}, StatusRow{405, kKinds405},
+    StatusRow{408, kKinds408}, StatusRow{412, kKinds412}, StatusRow{413, kKinds413},
+    StatusRow{414, kKinds414}, StatusRow{415, kKinds415}, StatusRow{416, kKinds416},
+    StatusRow{417, kKinds417}, StatusRow{422, kKinds422}, StatusRow{431, kKinds431},
+    StatusRow{500, kKinds500}, StatusRow{501, kKinds501}, StatusRow{503, kKinds503},
+    StatusRow{505, kKinds505}, StatusRow{507, kKinds507},
 };
 
-int StatusOf(const Error& error) {
-  for (const KindStatus& row : kKindStatuses) {
-    if (row.kind == error.kind) return row.status;
+// 0 if the kind is in no row, or in several.
+constexpr int StatusInRows(ErrorKind kind) {
+  int found = 0;
+  for (const StatusRow& row : kStatuses) {
+    for (const ErrorKind listed : row.kinds) {
+      if (listed != kind) continue;
+      if (found != 0) return 0;
+      found = row.status;
+    }
   }
-  switch (error.code) {
-    case ErrorCode::kInvalidArgument:
-      return 400;
-    case ErrorCode::kNotFound:
-      return 404;
-    case ErrorCode::kUnsupportedData:
-      return error.kind == "worker-crashed" ? 500 : 422;
-    case ErrorCode::kResourceExhausted:
-    case ErrorCode::kCancelled:
-      return 503;
-    case ErrorCode::kIo:
-      return 500;
-  }
-  return 500;
+  return found;
 }
 
-const char* OgcName(const std::string& code) {
-  if (code == "no-such-job") return "no-such-job";
-  if (code == "result-not-ready") return "result-not-ready";
-  if (code == "result-not-available") return "result-not-available";
-  if (code == "invalid-query-parameter-value") return "invalid-query-parameter-value";
-  if (code == "no-such-process") return "no-such-process";
-  return nullptr;
+static_assert(std::all_of(kErrorKinds.begin(), kErrorKinds.end(),
+                          [](std::string_view name) {
+                            return StatusInRows(*ErrorKind::FromName(name)) != 0;
+                          }),
+              "each of kErrorKinds has exactly one status");
+
+// Whether OGC API - Processes has a URI of its own for `code`.
+bool IsOgcName(ErrorKind code) {
+  constexpr ErrorKind kNames[] = {"invalid-query-parameter-value", "no-such-job",
+                                  "result-not-available", "result-not-ready"};
+  return std::find(std::begin(kNames), std::end(kNames), code) != std::end(kNames);
 }
 
-/// Whether the client reads JSON, but neither problems nor everything.
+// Whether the client reads JSON, but neither problems nor everything.
 bool WantsPlainJson(const HttpRequest& request) {
   const std::string* accept = request.Header("accept");
   if (accept == nullptr) return false;
@@ -69,27 +145,35 @@ bool WantsPlainJson(const HttpRequest& request) {
 
 }  // namespace
 
+Problem::Problem(ErrorKind kind, std::string text)
+    : status(HttpStatusOf(kind)), code(kind), detail(std::move(text)) {}
+
+int HttpStatusOf(ErrorKind kind) {
+  Check(!kind.empty(), "a problem has a code");
+  return StatusInRows(kind);
+}
+
 Problem ProblemOf(const Error& error) {
-  Problem problem{StatusOf(error), error.kind.empty() ? ErrorCodeName(error.code) : error.kind,
-                  error.message};
-  // A failure of the machine may name what is no client's business; its owner reads it in the log.
-  const bool crash = problem.code == "worker-crashed" || problem.code == "result-corrupt";
+  const ErrorKind code =
+      error.kind.empty() ? ErrorKind::FromName(ErrorCodeName(error.code)).value() : error.kind;
+  Problem problem(code, error.message);
+  // The message of such a failure may name paths of this machine: it belongs in the log alone.
+  const bool crash = code == ErrorKind("worker-crashed") || code == ErrorKind("result-corrupt");
   if (problem.status == 500 && !crash) {
     problem.detail = "the service failed inside; its log says why";
   }
   return problem;
 }
 
-std::string ProblemType(const std::string& code) {
-  const char* ogc = OgcName(code);
-  return ogc != nullptr ? std::string(kOgc) + ogc : kOurs + code;
+std::string ProblemType(ErrorKind code) {
+  return (IsOgcName(code) ? kOgc : kOurs) + std::string(code);
 }
 
 HttpResponse ProblemResponse(const HttpRequest& request, const Problem& problem) {
   const nlohmann::ordered_json document = {
       {"type", ProblemType(problem.code)}, {"title", ReasonPhrase(problem.status)},
       {"status", problem.status},          {"detail", problem.detail},
-      {"instance", request.path},          {"code", problem.code}};
+      {"instance", request.path},          {"code", problem.code.name()}};
   HttpResponse response;
   response.status = problem.status;
   response.Set("Content-Type",

@@ -1,19 +1,25 @@
+#include "service/handlers/results.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "core/io/sha256.h"
 #include "service/handlers/byte_range.h"
+#include "service/handlers/jobs.h"
+#include "service/handlers/json.h"
 #include "service/handlers/problem.h"
-#include "service/handlers/routes.h"
 #include "service/log.h"
 
 namespace farhorizon {
 
 namespace {
 
-Error NoSuchJob() { return {ErrorCode::kNotFound, "there is no job with this id", "no-such-job"}; }
-
-/// The job, if it has results; else the answer to whoever asks for them. A failed job's is the
-/// status that its cause has.
+// The job, if it has results; else the error that answers a request for them. For a failed job that
+// is the error it failed with.
 Result<Job> FinishedJob(const HandlerContext& context, const std::string& id) {
-  if (!IsJobId(id)) return NoSuchJob();
-  Result<Job> job = context.jobs.Find(id);
+  Result<Job> job = FindJob(context, id);
   if (!job || job->state == JobState::kSuccessful) return job;
   switch (job->state) {
     case JobState::kAccepted:
@@ -46,25 +52,6 @@ HttpResponse ListResults(const HandlerContext& context, const HttpRequest& reque
   return JsonResponse(document);
 }
 
-std::string Base64OfHex(const std::string& hex) {
-  static constexpr std::string_view kDigits =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  const auto nibble = [&](std::size_t i) {
-    const char c = hex[i];
-    return static_cast<unsigned>(c <= '9' ? c - '0' : c - 'a' + 10);
-  };
-  std::string text;
-  for (std::size_t i = 0; i < hex.size(); i += 6) {
-    unsigned bits = 0;
-    for (std::size_t k = i; k < i + 6; ++k) bits = bits * 16 + (k < hex.size() ? nibble(k) : 0);
-    for (std::size_t k = 0; k < 4; ++k) {
-      const bool padding = i + k * 3 / 2 >= hex.size();
-      text += padding ? '=' : kDigits[(bits >> (18 - 6 * k)) & 63U];
-    }
-  }
-  return text;
-}
-
 HttpResponse SendArtifact(const HttpRequest& request, OpenArtifact open) {
   const Artifact& artifact = open.artifact;
   const std::string etag = "\"" + artifact.sha256 + "\"";
@@ -72,15 +59,15 @@ HttpResponse SendArtifact(const HttpRequest& request, OpenArtifact open) {
   HttpResponse response;
   response.status = selection.status;
   if (selection.status == 416) {
-    response = ProblemResponse(request, {416, "range-not-satisfiable",
-                                         "the artifact has " + std::to_string(artifact.bytes) +
-                                             " bytes; the range starts after them"});
+    response = ProblemResponse(
+        request, {"range-not-satisfiable", "the artifact has " + std::to_string(artifact.bytes) +
+                                               " bytes; the range starts after them"});
     response.Set("Content-Range", "bytes */" + std::to_string(artifact.bytes));
     return response;
   }
   if (selection.status == 412) {
     return ProblemResponse(
-        request, {412, "precondition-failed", "the artifact is not the one that If-Match names"});
+        request, {"precondition-failed", "the artifact is not the one that If-Match names"});
   }
   response.Set("ETag", etag);
   response.Set("Cache-Control", "private, max-age=31536000, immutable");
@@ -93,7 +80,9 @@ HttpResponse SendArtifact(const HttpRequest& request, OpenArtifact open) {
                                       std::to_string(selection.offset + selection.bytes - 1) + "/" +
                                       std::to_string(artifact.bytes));
   }
-  response.Set("Repr-Digest", "sha-256=:" + Base64OfHex(artifact.sha256) + ":");
+  const std::optional<Digest> digest = Digest::FromHex(artifact.sha256);
+  Check(digest.has_value(), "an artifact's sha256 is one");
+  response.Set("Repr-Digest", "sha-256=:" + digest->Base64() + ":");
   response.file = FileBody{std::make_shared<UniqueFd>(std::move(open.object.fd)), selection.offset,
                            selection.bytes};
   return response;
@@ -114,11 +103,12 @@ HttpResponse GetArtifact(const HandlerContext& context, const HttpRequest& reque
 }  // namespace
 
 std::vector<Route> ResultRoutes(const HandlerContext& context) {
-  return {
-      {"GET", "/jobs/{id}/results",
-       [context](const HttpRequest& request, BodySink*) { return ListResults(context, request); }},
-      {"GET", "/jobs/{id}/results/{name}",
-       [context](const HttpRequest& request, BodySink*) { return GetArtifact(context, request); }}};
+  return {BodylessRoute(
+              "GET", "/jobs/{id}/results",
+              [context](const HttpRequest& request) { return ListResults(context, request); }),
+          BodylessRoute("GET", "/jobs/{id}/results/{name}", [context](const HttpRequest& request) {
+            return GetArtifact(context, request);
+          })};
 }
 
 }  // namespace farhorizon

@@ -1,11 +1,12 @@
 #include "service/handlers/router.h"
 
 #include <algorithm>
-#include <exception>
+#include <memory>
+#include <optional>
 #include <string_view>
 
 #include "service/handlers/problem.h"
-#include "service/log.h"
+#include "service/url_query.h"
 
 namespace farhorizon {
 
@@ -23,7 +24,7 @@ std::vector<std::string_view> Segments(std::string_view path) {
 
 bool IsVariable(std::string_view segment) { return !segment.empty() && segment[0] == '{'; }
 
-/// The values of the pattern's variables; nullopt where `path` is another path.
+// The values of the pattern's variables; nullopt if `path` does not match.
 std::optional<std::vector<std::string>> Match(const std::string& pattern, const std::string& path) {
   const auto wanted = Segments(pattern);
   const auto given = Segments(path);
@@ -47,14 +48,55 @@ std::string Joined(const std::vector<std::string>& words) {
   return text;
 }
 
+// An exchange whose response depends on the head alone.
+class BodylessExchange : public Exchange {
+ public:
+  BodylessExchange(const HttpRequest& request,
+                   const std::function<HttpResponse(const HttpRequest&)>& answer)
+      : request_(request), answer_(answer) {}
+
+  Status Take(std::string_view) override {
+    Check(false, "a request with a body is not admitted here");
+    return Done{};
+  }
+  HttpResponse Finish() override { return answer_(request_); }
+
+ private:
+  const HttpRequest& request_;
+  const std::function<HttpResponse(const HttpRequest&)>& answer_;
+};
+
+HttpResponse AnswerOptions(const std::string& methods) {
+  HttpResponse response;
+  response.status = 204;
+  response.Set("Allow", methods);
+  response.Set("Access-Control-Allow-Methods", methods);
+  response.Set("Access-Control-Allow-Headers",
+               "Content-Type, Idempotency-Key, If-Match, If-None-Match, If-Range, Range");
+  response.Set("Access-Control-Max-Age", "86400");
+  return response;
+}
+
 }  // namespace
 
-const Route* Router::Find(const HttpRequest& request, std::vector<std::string>& parameters) const {
+Route BodylessRoute(std::string method, std::string pattern,
+                    std::function<HttpResponse(const HttpRequest& request)> answer) {
+  const auto begin = [answer = std::move(answer)](const HttpRequest& request) -> Admission {
+    if (request.HasBody()) {
+      return ProblemResponse(
+          request, {"body-not-allowed", request.method + " here takes no body; leave it out"});
+    }
+    return std::make_unique<BodylessExchange>(request, answer);
+  };
+  return {std::move(method), std::move(pattern), begin};
+}
+
+const Route* Router::Find(HttpRequest& request) const {
   const std::string& method = request.method == "HEAD" ? std::string("GET") : request.method;
   for (const Route& route : routes_) {
     if (route.method != method) continue;
     if (auto values = Match(route.pattern, request.path)) {
-      parameters = *std::move(values);
+      request.parameters = *std::move(values);
       return &route;
     }
   }
@@ -73,48 +115,18 @@ std::vector<std::string> Router::MethodsAt(const std::string& path) const {
 }
 
 Admission Router::Begin(HttpRequest& request) const {
-  Admission admission;
-  if (const Route* route = Find(request, request.parameters)) {
-    if (route->admit) return route->admit(request);
-    if (request.HasBody()) {
-      admission.answer = ProblemResponse(
-          request, {413, "body-not-allowed", request.method + " here takes no body; leave it out"});
-    }
-    return admission;
-  }
+  if (const Route* route = Find(request)) return route->begin(request);
   const std::vector<std::string> methods = MethodsAt(request.path);
   if (methods.empty() && request.target != "*") {
-    admission.answer = ProblemResponse(
-        request, {404, "no-such-resource", "there is nothing at this path; see /jobs"});
-  } else if (request.method == "OPTIONS") {
-    admission.answer.emplace().status = 204;
-    admission.answer->Set("Allow", Joined(methods));
-    admission.answer->Set("Access-Control-Allow-Methods", Joined(methods));
-    admission.answer->Set(
-        "Access-Control-Allow-Headers",
-        "Content-Type, Idempotency-Key, If-Match, If-None-Match, If-Range, Range");
-    admission.answer->Set("Access-Control-Max-Age", "86400");
-  } else {
-    admission.answer = ProblemResponse(
-        request, {405, "method-not-allowed",
-                  "this resource does not know that method; it knows " + Joined(methods)});
-    admission.answer->Set("Allow", Joined(methods));
-  }
-  return admission;
-}
-
-HttpResponse Router::Finish(const HttpRequest& request, BodySink* sink) const {
-  try {
-    std::vector<std::string> ignored;
-    const Route* route = Find(request, ignored);
-    Check(route != nullptr, "a request that was begun has a route");
-    // NOLINTNEXTLINE(clang-analyzer-core.CallAndMessage): the analyzer does not know that Check throws
-    return route->handle(request, sink);
-  } catch (const std::exception& bug) {
-    Log(LogLevel::kError, "internal error", {{"path", request.path}, {"error", bug.what()}});
     return ProblemResponse(request,
-                           {500, "internal-error", "the service failed inside; its log says why"});
+                           {"no-such-resource", "there is nothing at this path; see /jobs"});
   }
+  if (request.method == "OPTIONS") return AnswerOptions(Joined(methods));
+  HttpResponse response = ProblemResponse(
+      request, {"method-not-allowed",
+                "this resource does not know that method; it knows " + Joined(methods)});
+  response.Set("Allow", Joined(methods));
+  return response;
 }
 
 }  // namespace farhorizon

@@ -41,7 +41,7 @@ ordered_json StatusInfo(const Job& job, const std::string& base) {
                          {"title", ReasonPhrase(problem.status)},
                          {"status", problem.status},
                          {"detail", problem.detail},
-                         {"code", problem.code}};
+                         {"code", problem.code.name()}};
   }
   ordered_json links = {Link("self", self), Link("monitor", self), Link("up", base + "/jobs")};
   if (job.state == JobState::kSuccessful) {

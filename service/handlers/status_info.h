@@ -8,8 +8,8 @@
 
 namespace farhorizon {
 
-/// A job as OGC API - Processes shows it (1.0 and the draft of 2.0). base: the public URL, no slash
-/// at its end.
+/// The statusInfo document of a job: OGC API - Processes 1.0, and the draft of 2.0. base: the
+/// public URL, without a slash at its end.
 nlohmann::ordered_json StatusInfo(const Job& job, const std::string& base);
 
 }  // namespace farhorizon

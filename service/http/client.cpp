@@ -15,15 +15,17 @@ namespace {
 using asio::ip::tcp;
 using boost::system::error_code;
 
-constexpr std::chrono::seconds kPatience{60};  // a probe of the upload stands before the answer
+// For each wait; the service reads an uploaded raster before it answers.
+constexpr std::chrono::seconds kPatience{60};
 constexpr std::size_t kPieceBytes = 65536;
 constexpr std::uint64_t kLargestText = std::uint64_t{64} << 20U;
 
 auto Into(error_code& failure) { return asio::redirect_error(asio::use_awaitable, failure); }
 
-class Exchange {
+// One connection, for one request and its response.
+class ClientConnection {
  public:
-  Exchange(const ServiceUrl& url, const ClientRequest& request)
+  ClientConnection(const ServiceUrl& url, const ClientRequest& request)
       : url_(url), request_(request), stream_(context_) {}
 
   Result<ClientResponse> Run(const std::stop_token& stop) {
@@ -59,7 +61,8 @@ class Exchange {
     if (failure) co_return Broken("connect", failure);
     Status sent = co_await SendHead();
     if (sent && request_.upload) sent = co_await SendUpload();
-    // A refusal may come before the whole body is sent: read it whatever became of sending.
+    // The service may refuse before the whole body is sent: read its response even if sending
+    // failed.
     Result<ClientResponse> response = co_await Receive();
     if (!response && !sent) co_return std::move(sent.error());
     co_return response;
@@ -185,7 +188,7 @@ Result<ServiceUrl> ReadServiceUrl(const std::string& text) {
 
 Result<ClientResponse> SendRequest(const ServiceUrl& url, const ClientRequest& request,
                                    const std::stop_token& stop) {
-  return Exchange(url, request).Run(stop);
+  return ClientConnection(url, request).Run(stop);
 }
 
 }  // namespace farhorizon

@@ -14,13 +14,13 @@
 
 namespace farhorizon {
 
-/// Where a service is: of "http://HOST[:PORT][/PREFIX]".
+/// The parts of "http://HOST[:PORT][/PREFIX]".
 struct ServiceUrl {
   std::string host;
   std::uint16_t port = 80;
   std::string prefix;  ///< without a slash at its end
 };
-/// Errors: kInvalidArgument, saying what is expected.
+/// Errors: kInvalidArgument "invalid-url".
 Result<ServiceUrl> ReadServiceUrl(const std::string& text);
 
 struct ClientRequest {
@@ -28,18 +28,18 @@ struct ClientRequest {
   std::string target;  ///< after the prefix: "/jobs"
   std::vector<std::pair<std::string, std::string>> headers = {};
   std::optional<std::filesystem::path> upload = {};    ///< the body
-  std::optional<std::filesystem::path> download = {};  ///< where the body of a 200 goes
-  std::function<void(double)> uploaded = {};           ///< hears the share that is sent
+  std::optional<std::filesystem::path> download = {};  ///< file for the body of a 200
+  std::function<void(double)> uploaded = {};           ///< called with the share that has been sent
 };
 
 struct ClientResponse {
   int status = 0;
   std::string location;
-  std::string body;  ///< empty where it was downloaded; at most 64 MiB
+  std::string body;  ///< at most 64 MiB; empty if it went to ClientRequest::download
 };
 
 /// Sends one request on a connection of its own. Every wait has a deadline.
-/// Errors: kIo "connection" where there is no service or it breaks off (trying again may help);
+/// Errors: kIo "connection" if no service answers or the connection breaks (trying again may help);
 ///   kCancelled.
 Result<ClientResponse> SendRequest(const ServiceUrl& url, const ClientRequest& request,
                                    const std::stop_token& stop = {});

@@ -86,7 +86,8 @@ asio::awaitable<void> AsioServer::Accept(const Router& router) {
     tcp::socket socket = co_await acceptor_.async_accept(
         asio::make_strand(context_), asio::redirect_error(asio::use_awaitable, failure));
     if (failure == asio::error::operation_aborted || !acceptor_.is_open()) break;
-    if (failure) {  // out of descriptors, say: wait until some come back
+    // Such as: the process has no descriptors left. A pause lets some connections end.
+    if (failure) {
       Log(LogLevel::kWarning, "cannot accept", {{"error", failure.message()}});
       asio::steady_timer pause(acceptor_.get_executor(), kAcceptPause);
       co_await pause.async_wait(asio::redirect_error(asio::use_awaitable, failure));
@@ -112,7 +113,7 @@ void AsioServer::Begin(const Router& router, tcp::socket socket) {
     full = static_cast<int>(sessions_.size()) > options_.max_connections ||
            from_there > options_.max_connections_per_address;
     if (static_cast<int>(sessions_.size()) > 2 * options_.max_connections) {
-      // So many that even saying no takes too much.
+      // With so many connections even the answers 503 would cost too much.
       sessions_.erase(session);
       if (--by_address_[peer] == 0) by_address_.erase(peer);
       return;

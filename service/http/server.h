@@ -26,10 +26,10 @@ struct ServerOptions {
   std::string cors_origin = "*";  ///< empty: no CORS fields
 };
 
-/// The HTTP server: a gate, then a router.
+/// The HTTP server: accepts connections and runs a Session on each.
 class Server {
  public:
-  /// Binds; clients wait until Serve. Errors: kIo, naming address and remedy.
+  /// Binds and listens; connections wait until Serve. Errors: kIo "cannot-listen".
   static Result<std::unique_ptr<Server>> Bind(const ServerOptions& options);
   virtual ~Server() = default;
   Server(const Server&) = delete;
@@ -40,19 +40,19 @@ class Server {
   /// Starts the threads that answer. Requires: `router` outlives Stop.
   virtual void Serve(const Router& router) = 0;
 
-  /// Takes no further connection, lets answers that are being sent end for at most so long, then
-  /// cuts them.
+  /// Accepts no further connection, lets requests that are being answered end for at most `most`,
+  /// then closes the rest.
   virtual void Stop(std::chrono::milliseconds most) = 0;
 
  protected:
   Server() = default;
 };
 
-/// "HOST:PORT" or "[::1]:PORT". Errors: kInvalidArgument.
 struct HostPort {
   std::string host;
   std::uint16_t port = 0;
 };
+/// Reads "HOST:PORT" or "[::1]:PORT". Errors: kInvalidArgument "invalid-address".
 Result<HostPort> ReadHostPort(const std::string& text);
 
 }  // namespace farhorizon

@@ -1,18 +1,19 @@
-// A connection's life. Every wait has a deadline: a head must come within a time, a body at a least
-// rate, an answer must be taken.
+// The deadlines of a connection: a head must arrive within a time, a body at a least rate, and the
+// client must take the response.
 #include "service/http/session.h"
 
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <limits>
-#include <optional>
+#include <memory>
 #include <unistd.h>
+#include <utility>
 #include <variant>
 
 #include "service/clock.h"
 #include "service/handlers/problem.h"
-#include "service/http/gate.h"
+#include "service/http/request_head.h"
 #include "service/log.h"
 
 namespace farhorizon {
@@ -28,27 +29,34 @@ constexpr std::chrono::seconds kLingerTime{2};
 
 auto Into(error_code& failure) { return asio::redirect_error(asio::use_awaitable, failure); }
 
+// A head for Beast to frame the body by. The client's own head is read by ReadRequestHead alone;
+// Beast gets the one field that decides where the body ends [RFC 9112, section 6.3], as it was
+// established there. Two readers of one head could disagree about the end of the body, and part of
+// it could pass for a request (section 11.2).
+std::string FramingHead(const HttpRequest& request) {
+  return "POST / HTTP/1.1\r\n" +
+         (request.chunked ? std::string("Transfer-Encoding: chunked")
+                          : "Content-Length: " + std::to_string(*request.content_length)) +
+         "\r\n\r\n";
+}
+
 }  // namespace
 
 asio::awaitable<void> Session::Run() {
   const auto self = shared_from_this();
   for (bool first = true;; first = false) {
     WaitUntil(Clock::now() + (first ? context_.options.head_time : context_.options.idle_time));
-    std::string head;
-    const bool whole = co_await ReadHeadBytes(head);
-    if (!whole) break;
+    const std::optional<std::string> head = co_await ReadHeadBytes();
+    if (!head) break;
     idle_ = false;
-    std::variant<HttpRequest, Problem> read = ReadHead(head, {});
+    std::variant<HttpRequest, Problem> read = ReadRequestHead(*head, {});
     if (const Problem* problem = std::get_if<Problem>(&read)) {
-      const HttpRequest none;
-      const HttpResponse response = ProblemResponse(none, *problem);
-      const bool sent = co_await Send(none, response, false);
-      if (sent) co_await Linger();
+      co_await SendLast(*problem);
       break;
     }
     HttpRequest& request = std::get<HttpRequest>(read);
     request.peer = peer_;
-    const Next next = co_await Exchange(std::move(request), head);
+    const Next next = co_await Answer(std::move(request));
     if (next == Next::kClose) break;
     idle_ = true;
   }
@@ -58,13 +66,12 @@ asio::awaitable<void> Session::Run() {
   deadline_.cancel();
 }
 
-/// What waits on the stream then fails, and late_ tells why. (The deadlines of beast::tcp_stream
-/// close the socket: no 408 could be sent.)
+// The deadlines of beast::tcp_stream would close the socket, and no 408 could be sent.
 void Session::WaitUntil(std::chrono::steady_clock::time_point time) {
   late_ = false;
   deadline_.expires_at(time);
   deadline_.async_wait([self = shared_from_this()](const error_code& moved) {
-    // Moved while this was under way already: not the present deadline's end.
+    // The deadline may have been moved after this handler was queued.
     if (moved || Clock::now() < self->deadline_.expiry()) return;
     self->late_ = true;
     error_code ignored;
@@ -74,11 +81,8 @@ void Session::WaitUntil(std::chrono::steady_clock::time_point time) {
 
 asio::awaitable<void> Session::Refuse() {
   const auto self = shared_from_this();
-  const HttpRequest none;
-  const HttpResponse response = ProblemResponse(
-      none, {503, "too-many-connections", "there are too many connections; try again soon"});
-  const bool sent = co_await Send(none, response, false);
-  if (sent) co_await Linger();
+  const Problem problem("too-many-connections", "there are too many connections; try again soon");
+  co_await SendLast(problem);
   stream_.close();
   deadline_.cancel();
 }
@@ -93,40 +97,37 @@ void Session::Close() {
   asio::post(stream_.get_executor(), [self = shared_from_this()] { self->stream_.close(); });
 }
 
-/// Reads up to the empty line and takes that much out of the buffer. False where the connection is
-/// at its end.
-asio::awaitable<bool> Session::ReadHeadBytes(std::string& head) {
+asio::awaitable<std::optional<std::string>> Session::ReadHeadBytes() {
   bool begun = false;
   for (;;) {
     const auto data = buffer_.cdata();
     const std::string_view have(static_cast<const char*>(data.data()), data.size());
-    if (have.substr(0, 2) == "\r\n") {  // RFC 9112, 2.2: one may be left of the request before
+    // [RFC 9112, section 2.2]: a client may send one empty line too many after a body.
+    if (have.substr(0, 2) == "\r\n") {
       buffer_.consume(2);
-      if (begun) co_return false;
+      if (begun) co_return std::nullopt;
       begun = true;
       continue;
     }
     const std::size_t end = have.find("\r\n\r\n");
     if (end != std::string_view::npos && end + 4 <= context_.options.max_head_bytes) {
-      head = have.substr(0, end + 4);
+      std::string head(have.substr(0, end + 4));
       buffer_.consume(end + 4);
-      co_return true;
+      co_return head;
     }
     if (have.size() >= context_.options.max_head_bytes) {
-      const HttpRequest none;
-      const HttpResponse response =
-          ProblemResponse(none, {431, "head-too-large",
-                                 "the request's head has more than " +
-                                     std::to_string(context_.options.max_head_bytes) + " bytes"});
-      const bool sent = co_await Send(none, response, false);
-      if (sent) co_await Linger();
-      co_return false;
+      const Problem problem("head-too-large", "the request's head has more than " +
+                                                  std::to_string(context_.options.max_head_bytes) +
+                                                  " bytes");
+      co_await SendLast(problem);
+      co_return std::nullopt;
     }
-    if (!begun && !have.empty()) {  // the whole head has to come within its time
+    // From its first byte on, the whole head has to arrive within its time.
+    if (!begun && !have.empty()) {
       WaitUntil(Clock::now() + context_.options.head_time);
       begun = true;
     }
-    if (context_.stopping && have.empty()) co_return false;
+    if (context_.stopping && have.empty()) co_return std::nullopt;
     error_code failure;
     const auto space = buffer_.prepare(4096);
     const std::size_t size = co_await stream_.async_read_some(space, Into(failure));
@@ -134,30 +135,36 @@ asio::awaitable<bool> Session::ReadHeadBytes(std::string& head) {
     if (failure && late_ && buffer_.size() > 0) {
       const HttpRequest none;
       const HttpResponse response =
-          ProblemResponse(none, {408, "request-timeout", "the request's head came too slowly"});
+          ProblemResponse(none, {"request-timeout", "the request's head came too slowly"});
       co_await Send(none, response, false);
-      co_return false;
     }
-    if (failure) co_return false;
+    if (failure) co_return std::nullopt;
   }
 }
 
-asio::awaitable<Session::Next> Session::Exchange(HttpRequest request, const std::string& head) {
+asio::awaitable<Session::Next> Session::Answer(HttpRequest request) {
   const Clock::time_point start = Clock::now();
   HttpResponse response;
-  bool whole = true;  // nothing of the request is left in the socket
-  Admission admission = context_.router.Begin(request);
-  if (admission.answer) {
-    whole = !request.HasBody();
-    response = *std::move(admission.answer);
-  } else {
-    if (admission.sink) {
-      response = co_await ReadBody(request, head, *admission.sink, whole);
+  bool read_whole = true;  // nothing of the request is left in the socket
+  {
+    // The exchange, and with it the spooled body, is gone before the client has the response.
+    Admission admission = context_.router.Begin(request);
+    if (HttpResponse* early = std::get_if<HttpResponse>(&admission)) {
+      read_whole = !request.HasBody();
+      response = std::move(*early);
+    } else {
+      Exchange& exchange = *std::get<std::unique_ptr<Exchange>>(admission);
+      std::optional<HttpResponse> refusal = co_await ReadBody(request, exchange);
+      read_whole = !refusal;
+      // Not by ?: with co_await in one arm: g++ 12 destroys the response twice.
+      if (read_whole) {
+        response = co_await Finish(request, exchange);
+      } else {
+        response = *std::move(refusal);
+      }
     }
-    if (whole) response = co_await Handle(request, admission.sink.get());
   }
-  admission.sink.reset();
-  const bool keep_alive = whole && request.keep_alive && !context_.stopping;
+  const bool keep_alive = read_whole && request.keep_alive && !context_.stopping;
   const bool sent = co_await Send(request, response, keep_alive);
   const auto took = std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - start);
   const bool health = request.path == "/healthz" || request.path == "/readyz";
@@ -168,26 +175,25 @@ asio::awaitable<Session::Next> Session::Exchange(HttpRequest request, const std:
        {"bytes", response.BodyBytes()},
        {"dur_ms", std::int64_t{took.count()}},
        {"peer", peer_}});
-  if (sent && !whole) co_await Linger();
+  if (sent && !read_whole) co_await Linger();
   co_return sent&& keep_alive ? Next::kKeepAlive : Next::kClose;
 }
 
-/// Feeds the body to `sink`. whole: set to false, and the answer given, where it did not come.
-asio::awaitable<HttpResponse> Session::ReadBody(const HttpRequest& request, const std::string& head,
-                                                BodySink& sink, bool& whole) {
-  whole = true;
-  if (!request.HasBody()) co_return HttpResponse{};
-  whole = false;
+asio::awaitable<std::optional<HttpResponse>> Session::ReadBody(const HttpRequest& request,
+                                                               Exchange& exchange) {
+  if (!request.HasBody()) co_return std::nullopt;
   if (request.expects_continue) {
     const bool sent = co_await SendText("HTTP/1.1 100 Continue\r\n\r\n");
-    if (!sent) co_return HttpResponse{};
+    if (!sent) {
+      co_return ProblemResponse(request, {"request-timeout", "the client took no 100 Continue"});
+    }
   }
   http::request_parser<http::buffer_body> parser;
   parser.body_limit(std::numeric_limits<std::uint64_t>::max());  // none is 0 in Beast 1.74
   parser.header_limit(static_cast<std::uint32_t>(context_.options.max_head_bytes));
   error_code failure;
-  parser.put(asio::buffer(head), failure);  // the gate has let it in; Beast frames the body
-  if (failure) co_return ProblemResponse(request, {400, "bad-request", failure.message()});
+  parser.put(asio::buffer(FramingHead(request)), failure);
+  Check(!failure && parser.is_header_done(), "Beast reads a head of ours");
   const Clock::time_point start = Clock::now();
   std::int64_t received = 0;
   std::vector<char> piece(kPieceBytes);
@@ -198,30 +204,33 @@ asio::awaitable<HttpResponse> Session::ReadBody(const HttpRequest& request, cons
     co_await http::async_read_some(stream_, buffer_, parser, Into(failure));
     if (failure == http::error::need_buffer) failure = {};
     if (failure && late_) {
-      co_return ProblemResponse(request, {408, "request-timeout", "the body came too slowly"});
+      co_return ProblemResponse(request, {"request-timeout", "the body came too slowly"});
     }
     if (failure) {
-      co_return ProblemResponse(request,
-                                {400, "bad-request", "the body is broken off or ill framed"});
+      co_return ProblemResponse(request, {"bad-request", "the body is broken off or ill framed"});
     }
     const std::size_t size = piece.size() - parser.get().body().size;
     received += static_cast<std::int64_t>(size);
-    Status taken = sink.Write({piece.data(), size});
+    const Status taken = exchange.Take({piece.data(), size});
     if (!taken) co_return ProblemResponse(request, ProblemOf(taken.error()));
   }
-  whole = true;
-  co_return HttpResponse{};
+  co_return std::nullopt;
 }
 
-/// Handlers wait for disk and database: on threads of their own.
-asio::awaitable<HttpResponse> Session::Handle(const HttpRequest& request, BodySink* sink) {
-  const Router& router = context_.router;
-  const auto work = [&router, &request, sink]() -> asio::awaitable<HttpResponse> {
-    co_return router.Finish(request, sink);
+asio::awaitable<HttpResponse> Session::Finish(const HttpRequest& request, Exchange& exchange) {
+  const auto work = [&request, &exchange]() -> asio::awaitable<HttpResponse> {
+    co_return FinishExchange(exchange, request);
   };
   HttpResponse response =
       co_await asio::co_spawn(context_.handlers.get_executor(), work, asio::use_awaitable);
   co_return response;
+}
+
+asio::awaitable<void> Session::SendLast(const Problem& problem) {
+  const HttpRequest none;
+  const HttpResponse response = ProblemResponse(none, problem);
+  const bool sent = co_await Send(none, response, false);
+  if (sent) co_await Linger();
 }
 
 std::string Session::ResponseHead(const HttpRequest& request, const HttpResponse& response,
@@ -280,7 +289,8 @@ asio::awaitable<bool> Session::SendFile(const FileBody& file) {
     const auto wanted = static_cast<std::size_t>(
         std::min<std::int64_t>(file.bytes - sent, static_cast<std::int64_t>(piece.size())));
     const ssize_t size = ::pread(file.fd->get(), piece.data(), wanted, file.offset + sent);
-    if (size <= 0) co_return false;  // the client sees a body that is too short, never a wrong one
+    // The client then sees a body that is too short, never a wrong one.
+    if (size <= 0) co_return false;
     const bool taken = co_await SendText({piece.data(), static_cast<std::size_t>(size)});
     if (!taken) co_return false;
     sent += size;
@@ -288,7 +298,6 @@ asio::awaitable<bool> Session::SendFile(const FileBody& file) {
   co_return true;
 }
 
-/// Closing while the client still sends would reset the connection and lose the answer on its way.
 asio::awaitable<void> Session::Linger() {
   error_code failure;
   stream_.socket().shutdown(asio::ip::tcp::socket::shutdown_send, failure);

@@ -2,11 +2,13 @@
 
 #include <atomic>
 #include <chrono>
-#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include "service/asio.h"
+#include "service/handlers/problem.h"
 #include "service/handlers/router.h"
 #include "service/http/server.h"
 
@@ -20,8 +22,8 @@ struct SessionContext {
   const std::atomic<bool>& stopping;
 };
 
-/// One connection: request after request, each through the gate, with a deadline on every wait.
-/// Runs on the strand of its stream.
+/// One connection: request after request, with a deadline on every wait.
+/// Threads: runs on the strand of its stream; CloseIfIdle and Close are safe from any thread.
 class Session : public std::enable_shared_from_this<Session> {
  public:
   Session(const SessionContext& context, beast::tcp_stream stream, std::string peer)
@@ -31,30 +33,40 @@ class Session : public std::enable_shared_from_this<Session> {
         peer_(std::move(peer)) {}
 
   asio::awaitable<void> Run();
-  /// Says 503 and closes: there are too many connections.
+  /// Answers 503 "too-many-connections" and closes.
   asio::awaitable<void> Refuse();
 
   [[nodiscard]] beast::tcp_stream::executor_type executor() { return stream_.get_executor(); }
 
-  /// Closes if no request is being answered. From any thread.
+  /// Closes if no request is being answered.
   void CloseIfIdle();
-  /// Closes whatever goes on. From any thread.
+  /// Closes at once.
   void Close();
 
  private:
   enum class Next { kKeepAlive, kClose };
 
-  /// Sets the one deadline that every wait of this connection has.
+  /// Sets the deadline of the next wait on the stream. A wait that is late fails, and late_ is
+  /// true.
   void WaitUntil(std::chrono::steady_clock::time_point time);
-  asio::awaitable<bool> ReadHeadBytes(std::string& head);
-  asio::awaitable<Next> Exchange(HttpRequest request, const std::string& head);
-  asio::awaitable<HttpResponse> ReadBody(const HttpRequest& request, const std::string& head,
-                                         BodySink& sink, bool& whole);
-  asio::awaitable<HttpResponse> Handle(const HttpRequest& request, BodySink* sink);
+  /// The next head, with its closing empty line. nullopt if the connection is to be closed; the
+  /// client has been told why if it could be.
+  asio::awaitable<std::optional<std::string>> ReadHeadBytes();
+  asio::awaitable<Next> Answer(HttpRequest request);
+  /// Gives the body to `exchange`. The response that refuses the request, if there was an error;
+  /// then some of the request may be left in the socket.
+  asio::awaitable<std::optional<HttpResponse>> ReadBody(const HttpRequest& request,
+                                                        Exchange& exchange);
+  /// Finishes on the threads for handlers, which wait for disk and database.
+  asio::awaitable<HttpResponse> Finish(const HttpRequest& request, Exchange& exchange);
+  /// Sends `problem` as the last response of the connection.
+  asio::awaitable<void> SendLast(const Problem& problem);
   asio::awaitable<bool> Send(const HttpRequest& request, const HttpResponse& response,
                              bool keep_alive);
   asio::awaitable<bool> SendFile(const FileBody& file);
   asio::awaitable<bool> SendText(std::string_view text);
+  /// Reads on for a moment: to close while the client still sends would reset the connection, and
+  /// the response could be lost on its way.
   asio::awaitable<void> Linger();
   [[nodiscard]] std::string ResponseHead(const HttpRequest& request, const HttpResponse& response,
                                          bool keep_alive) const;

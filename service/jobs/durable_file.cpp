@@ -16,7 +16,7 @@ Error FileError(const char* doing) {
   const bool full = cause == ENOSPC || cause == EDQUOT || cause == EFBIG;
   return {full ? ErrorCode::kResourceExhausted : ErrorCode::kIo,
           std::string(doing) + ": " + std::generic_category().message(cause),
-          full ? "no-space" : "storage"};
+          full ? ErrorKind("no-space") : "storage"};
 }
 
 Status WriteAll(int fd, std::string_view bytes) {

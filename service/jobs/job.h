@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/base/result.h"
-#include "service/percent.h"
+#include "service/url_query.h"
 
 namespace farhorizon {
 

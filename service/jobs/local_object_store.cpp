@@ -45,7 +45,7 @@ Result<StoredObject> Drain(int from, int to) {
     Status written = WriteAll(to, bytes);
     if (!written) return std::move(written.error());
   }
-  object.sha256 = hash.Finish();
+  object.sha256 = hash.Finish().Hex();
   return object;
 }
 

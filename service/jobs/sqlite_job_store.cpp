@@ -75,7 +75,7 @@ struct SqliteFailure {
   const bool full = code == SQLITE_FULL || code == SQLITE_NOMEM;
   throw SqliteFailure{{full ? ErrorCode::kResourceExhausted : ErrorCode::kIo,
                        std::string("job store: ") + doing + ": " + sqlite3_errmsg(db),
-                       full ? "no-space" : "job-store"}};
+                       full ? ErrorKind("no-space") : "job-store"}};
 }
 
 class Statement {
@@ -164,15 +164,6 @@ class Transaction {
   bool committed_ = false;
 };
 
-ErrorCode ErrorCodeOf(const std::string& name) {
-  for (const ErrorCode code :
-       {ErrorCode::kInvalidArgument, ErrorCode::kNotFound, ErrorCode::kUnsupportedData,
-        ErrorCode::kResourceExhausted, ErrorCode::kCancelled}) {
-    if (name == ErrorCodeName(code)) return code;
-  }
-  return ErrorCode::kIo;
-}
-
 Job ReadJob(const Statement& row) {
   Job job;
   job.id = row.Text(0);
@@ -189,7 +180,11 @@ Job ReadJob(const Statement& row) {
   job.updated_ms = row.Integer(11);
   job.attempt = row.Integer(12);
   job.crash_count = row.Integer(13);
-  if (!row.IsNull(14)) job.failure = Error{ErrorCodeOf(row.Text(14)), row.Text(16), row.Text(15)};
+  if (!row.IsNull(14)) {
+    // Another version of the program may have written a kind or a code that this one does not know.
+    job.failure = Error{ErrorCodeFromName(row.Text(14)).value_or(ErrorCode::kIo), row.Text(16),
+                        ErrorKind::FromName(row.Text(15)).value_or(ErrorKind())};
+  }
   const nlohmann::json timings = nlohmann::json::parse(row.Text(17), nullptr, false);
   for (const auto& [stage, seconds] : timings.items()) {
     if (seconds.is_number()) job.timings[stage] = seconds.get<double>();
@@ -438,7 +433,7 @@ Result<bool> SqliteJobStore::Fail(const std::string& id, std::int64_t attempt, c
                      "failure_kind = ?, failure_message = ?, finished_ms = ?, updated_ms = ? "
                      "WHERE id = ? AND attempt = ? AND state = 'running'");
     update.Bind(failure.message).Bind(std::string(ErrorCodeName(failure.code)));
-    update.Bind(failure.kind).Bind(failure.message).Bind(now_ms).Bind(now_ms);
+    update.Bind(std::string(failure.kind)).Bind(failure.message).Bind(now_ms).Bind(now_ms);
     return update.Bind(id).Bind(attempt).Run() == 1;
   });
 }

@@ -16,32 +16,23 @@ std::string Line(const json& object) {
   return object.dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
 }
 
-std::optional<ErrorCode> CodeOf(const std::string& name) {
-  for (const ErrorCode code :
-       {ErrorCode::kInvalidArgument, ErrorCode::kNotFound, ErrorCode::kUnsupportedData,
-        ErrorCode::kResourceExhausted, ErrorCode::kCancelled, ErrorCode::kIo}) {
-    if (name == ErrorCodeName(code)) return code;
-  }
-  return std::nullopt;
-}
-
 std::string TextOf(const json& object, const char* key) {
   const auto found = object.find(key);
   if (found == object.end() || !found->is_string()) return {};
   return found->get<std::string>().substr(0, kLongestText);
 }
 
-bool IsKind(const std::string& kind) {
-  return kind.size() <= 64 &&
-         kind.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-") == std::string::npos;
+// An empty name is an error of no kind but its code.
+std::optional<ErrorKind> KindOf(const std::string& name) {
+  return name.empty() ? ErrorKind() : ErrorKind::FromName(name);
 }
 
 std::optional<WorkerMessage> ReadError(const json& error) {
   if (!error.is_object()) return std::nullopt;
-  const std::optional<ErrorCode> code = CodeOf(TextOf(error, "code"));
-  const std::string kind = TextOf(error, "kind");
-  if (!code || !IsKind(kind)) return std::nullopt;
-  return Error{*code, TextOf(error, "message"), kind};
+  const std::optional<ErrorCode> code = ErrorCodeFromName(TextOf(error, "code"));
+  const std::optional<ErrorKind> kind = KindOf(TextOf(error, "kind"));
+  if (!code || !kind) return std::nullopt;
+  return Error{*code, TextOf(error, "message"), *kind};
 }
 
 std::optional<WorkerMessage> ReadDone(const json& timings) {
@@ -87,9 +78,10 @@ std::string WriteMessage(const WorkerMessage& message) {
     return Line({{"timings", done->timings}});
   }
   const Error& error = std::get<Error>(message);
-  return Line(
-      {{"error",
-        {{"code", ErrorCodeName(error.code)}, {"kind", error.kind}, {"message", error.message}}}});
+  return Line({{"error",
+                {{"code", ErrorCodeName(error.code)},
+                 {"kind", error.kind.name()},
+                 {"message", error.message}}}});
 }
 
 std::optional<WorkerMessage> ReadMessage(std::string_view line) {

@@ -8,7 +8,7 @@
 
 #include "core/base/result.h"
 #include "core/base/stage.h"
-#include "service/percent.h"
+#include "service/url_query.h"
 
 namespace farhorizon {
 

@@ -97,7 +97,7 @@ std::string LastWords(const std::filesystem::path& directory) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-WorkerOutcome Crashed(ErrorCode code, const char* kind, std::string message) {
+WorkerOutcome Crashed(ErrorCode code, ErrorKind kind, std::string message) {
   return {WorkerEnd::kCrashed, {code, std::move(message), kind}, {}, {}};
 }
 

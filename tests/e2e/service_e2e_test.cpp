@@ -139,10 +139,10 @@ TEST_F(ServiceE2e, AJobLeavesTheBytesThatBuildLeaves) {
 
 TEST_F(ServiceE2e, AJobPastItsWorkBudgetFailsOrIsApproximate) {
   Start();
-  const auto submit = [this](const std::string& wishes) {
-    const RawAnswer answer =
-        Ask(port_, "POST", "/jobs?crs=EPSG:4326&levels=1&filename=a.asc&workBudget=2000" + wishes,
-            "Content-Type: application/octet-stream\r\n", SmallGrid());
+  const auto submit = [this](const std::string& parameters) {
+    const RawAnswer answer = Ask(
+        port_, "POST", "/jobs?crs=EPSG:4326&levels=1&filename=a.asc&workBudget=2000" + parameters,
+        "Content-Type: application/octet-stream\r\n", SmallGrid());
     EXPECT_EQ(answer.status, 201) << answer.body;
     return "/jobs/" + json::parse(answer.body).value("jobID", "");
   };
@@ -315,6 +315,25 @@ TEST_F(ServiceE2e, AnswersRequestAfterRequestOnOneConnection) {
   for (std::size_t at = 0; (at = all.find("HTTP/1.1 200 OK", at)) != std::string::npos; ++at)
     ++count;
   EXPECT_EQ(count, 3U);
+}
+
+TEST_F(ServiceE2e, ABodyEndsWhereItsHeadSays) {
+  StartStandIn();
+  const std::string inside = "GET /inside HTTP/1.1\r\nHost: a\r\n\r\n";
+  const std::string post = "POST /jobs HTTP/1.1\r\nHost: a\r\nContent-Type: image/tiff\r\n";
+  const std::string last = "GET /healthz HTTP/1.1\r\nHost: a\r\nConnection: close\r\n\r\n";
+  ASSERT_EQ(inside.size(), 33U);
+  for (const std::string& framed :
+       {"Content-Length: 33\r\n\r\n" + inside,
+        "Transfer-Encoding: Chunked\r\n\r\n21;x=y\r\n" + inside + "\r\n0\r\nTrailer: a\r\n\r\n",
+        "Connection: upgrade\r\nUpgrade: x\r\nContent-Length: 0033\r\n\r\n" + inside}) {
+    const RawAnswer answer = Exchange(port_, post + framed + last);
+    EXPECT_EQ(answer.status, 415) << answer.head;
+    const std::size_t second = answer.body.find("HTTP/1.1 ");
+    ASSERT_NE(second, std::string::npos) << framed;
+    EXPECT_EQ(answer.body.substr(second, 15), "HTTP/1.1 200 OK");
+    EXPECT_EQ(answer.body.find("HTTP/1.1 ", second + 1), std::string::npos);
+  }
 }
 
 TEST_F(ServiceE2e, BoundsConnections) {

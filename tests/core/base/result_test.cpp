@@ -28,11 +28,28 @@ TEST(Result, ReadingTheValueOfAFailureIsOurBug) {
   EXPECT_THROW(*failure, InternalError);
 }
 
+TEST(Result, IsReadWhereItIsConst) {
+  const Result<int> value = 7;
+  EXPECT_EQ(*value, 7);
+  EXPECT_THROW(static_cast<void>(value.error()), InternalError);
+  const Result<int> failure = Error{ErrorCode::kIo, "disk gone"};
+  EXPECT_EQ(failure.error().message, "disk gone");
+}
+
+TEST(ErrorCode, IsKnownByItsName) {
+  for (const ErrorCode code :
+       {ErrorCode::kInvalidArgument, ErrorCode::kNotFound, ErrorCode::kUnsupportedData,
+        ErrorCode::kResourceExhausted, ErrorCode::kCancelled, ErrorCode::kIo}) {
+    EXPECT_EQ(ErrorCodeFromName(ErrorCodeName(code)), code);
+  }
+  EXPECT_FALSE(ErrorCodeFromName("unknown"));
+}
+
 TEST(Error, WithinPutsTheStepInFront) {
-  Error error{ErrorCode::kIo, "file is empty", "empty"};
+  Error error{ErrorCode::kIo, "file is empty", "truncated"};
   const Error outer = std::move(error).Within("read DEM");
   EXPECT_EQ(outer.message, "read DEM: file is empty");
-  EXPECT_EQ(outer.kind, "empty");
+  EXPECT_EQ(outer.kind, "truncated");
 }
 
 }  // namespace

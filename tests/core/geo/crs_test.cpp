@@ -28,7 +28,7 @@ Geodetic OnGlobe(const GlobeTransform& globe, MapPoint p) {
 
 std::string KindOf(const std::string& crs, const std::string& datum = "") {
   Result<GlobeTransform> globe = GlobeTransform::Open(crs, datum);
-  return globe ? "opened" : globe.error().kind;
+  return globe ? "opened" : std::string(globe.error().kind);
 }
 
 TEST(GlobeTransform, GeocentricAgreesWithTheClosedFormula) {

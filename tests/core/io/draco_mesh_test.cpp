@@ -254,7 +254,7 @@ TEST(Draco, RefusesMeshesThatItWouldChange) {
   const QuantizationLattice lattice = ChooseLattice(good.positions, 0.1);
   const auto kind_of = [&](const LocalMesh& mesh) {
     Result<std::vector<std::uint8_t>> bytes = EncodeDraco(mesh, lattice);
-    return bytes ? "encoded" : bytes.error().kind;
+    return bytes ? "encoded" : std::string(bytes.error().kind);
   };
   EXPECT_EQ(kind_of(good), "encoded");
   LocalMesh bad = good;

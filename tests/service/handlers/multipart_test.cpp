@@ -75,6 +75,17 @@ TEST(Multipart, BoundsPartsAndHeads) {
   EXPECT_FALSE(Parse("--XX\r\nX: " + std::string(20000, 'a'), 1000).sound);
 }
 
+TEST(Multipart, BoundsHeadsAlikeHoweverTheyAreCut) {
+  const std::string name = "Content-Disposition: form-data; name=a\r\nX: ";
+  for (const std::size_t length : {std::size_t{8192}, std::size_t{8193}}) {
+    const std::string form =
+        "--XX\r\n" + name + std::string(length - name.size(), 'a') + "\r\n\r\n1\r\n--XX--";
+    for (const std::size_t size : {std::size_t{1}, std::size_t{7}, form.size()}) {
+      EXPECT_EQ(Parse(form, size).sound, length == 8192) << length << " by " << size;
+    }
+  }
+}
+
 TEST(Multipart, TakesBoundariesOfTheGrammarOnly) {
   EXPECT_EQ(MultipartBoundary("multipart/form-data; boundary=\"a b\""), "a b");
   EXPECT_EQ(MultipartBoundary("Multipart/Form-Data;boundary=abc"), "abc");

@@ -1,4 +1,4 @@
-#include "service/http/gate.h"
+#include "service/http/request_head.h"
 
 #include <algorithm>
 #include <charconv>
@@ -9,9 +9,10 @@ namespace farhorizon {
 
 namespace {
 
-constexpr std::size_t kMostLengthDigits = 15;
+// Ten to the fifteenth fits an int64 and is more than any limit on bodies.
+constexpr std::size_t kMaxLengthDigits = 15;
 
-Problem Bad(const std::string& why) { return {400, "bad-request", why}; }
+Problem Bad(const std::string& why) { return {"bad-request", why}; }
 
 bool IsToken(std::string_view text) {
   const auto allowed = [](char c) {
@@ -37,7 +38,7 @@ bool IsHost(std::string_view text) {
   });
 }
 
-std::optional<Problem> ReadRequestLine(std::string_view line, const GateLimits& limits,
+std::optional<Problem> ReadRequestLine(std::string_view line, const RequestHeadLimits& limits,
                                        HttpRequest& request) {
   const std::size_t first = line.find(' ');
   const std::size_t second = first == std::string_view::npos ? first : line.find(' ', first + 1);
@@ -48,10 +49,10 @@ std::optional<Problem> ReadRequestLine(std::string_view line, const GateLimits& 
   if (!IsToken(method) || method.size() > 20) return Bad("the method is no token");
   if (version != "HTTP/1.1" && version != "HTTP/1.0") {
     if (version.substr(0, 5) != "HTTP/") return Bad("the version is not HTTP/1.1");
-    return Problem{505, "version-not-supported", "speak HTTP/1.1"};
+    return Problem{"version-not-supported", "speak HTTP/1.1"};
   }
   if (target.size() > limits.target_bytes) {
-    return Problem{414, "target-too-long",
+    return Problem{"target-too-long",
                    "the target has more than " + std::to_string(limits.target_bytes) + " bytes"};
   }
   const bool asterisk = target == "*" && method == "OPTIONS";
@@ -88,6 +89,7 @@ std::optional<Problem> CheckOnce(const HttpRequest& request, std::string_view na
   return Bad("the field " + std::string(name) + " stands more than once");
 }
 
+// Where the body ends [RFC 9112, section 6.3]. No body if neither field is there.
 std::optional<Problem> ReadFraming(HttpRequest& request) {
   const std::string* length = request.Header("content-length");
   const std::string* coding = request.Header("transfer-encoding");
@@ -97,7 +99,7 @@ std::optional<Problem> ReadFraming(HttpRequest& request) {
   if (coding != nullptr) {
     if (request.version == 10) return Bad("HTTP/1.0 knows no Transfer-Encoding");
     if (LowerCase(*coding) != "chunked") {
-      return Problem{501, "transfer-encoding-not-implemented",
+      return Problem{"transfer-encoding-not-implemented",
                      "the only Transfer-Encoding taken is chunked"};
     }
     request.chunked = true;
@@ -105,7 +107,7 @@ std::optional<Problem> ReadFraming(HttpRequest& request) {
   if (length != nullptr) {
     std::int64_t value = 0;
     const char* end = length->data() + length->size();
-    const bool digits = !length->empty() && length->size() <= kMostLengthDigits &&
+    const bool digits = !length->empty() && length->size() <= kMaxLengthDigits &&
                         length->find_first_not_of("0123456789") == std::string::npos;
     if (!digits || std::from_chars(length->data(), end, value).ptr != end) {
       return Bad("the Content-Length is no number, or too large");
@@ -122,7 +124,7 @@ std::optional<Problem> ReadConnection(HttpRequest& request) {
   }
   if (const std::string* expect = request.Header("expect")) {
     if (LowerCase(*expect) != "100-continue") {
-      return Problem{417, "expectation-failed", "the only expectation met is 100-continue"};
+      return Problem{"expectation-failed", "the only expectation met is 100-continue"};
     }
     request.expects_continue = request.version == 11 && request.HasBody();
   }
@@ -130,7 +132,7 @@ std::optional<Problem> ReadConnection(HttpRequest& request) {
 }
 
 std::optional<Problem> CheckFields(HttpRequest& request) {
-  // Each of these decides who is asked, or where the message ends, or what it means.
+  // Each of these fields decides where the request goes, where it ends or what it means.
   for (const std::string_view name :
        {"host", "content-length", "transfer-encoding", "content-type", "expect", "range",
         "if-range", "if-match", "if-none-match", "idempotency-key"}) {
@@ -145,7 +147,8 @@ std::optional<Problem> CheckFields(HttpRequest& request) {
 
 }  // namespace
 
-std::variant<HttpRequest, Problem> ReadHead(std::string_view head, const GateLimits& limits) {
+std::variant<HttpRequest, Problem> ReadRequestHead(std::string_view head,
+                                                   const RequestHeadLimits& limits) {
   HttpRequest request;
   bool first = true;
   for (;;) {
@@ -164,7 +167,7 @@ std::variant<HttpRequest, Problem> ReadHead(std::string_view head, const GateLim
     if (line.empty()) break;
     if (request.headers.size() == limits.header_fields) {
       return Problem{
-          431, "too-many-header-fields",
+          "too-many-header-fields",
           "there are more than " + std::to_string(limits.header_fields) + " header fields"};
     }
     if (auto problem = ReadField(line, request)) return *problem;

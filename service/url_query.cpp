@@ -1,4 +1,4 @@
-#include "service/percent.h"
+#include "service/url_query.h"
 
 namespace farhorizon {
 

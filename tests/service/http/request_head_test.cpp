@@ -1,4 +1,4 @@
-#include "service/http/gate.h"
+#include "service/http/request_head.h"
 
 #include <string>
 
@@ -8,15 +8,16 @@ namespace farhorizon {
 namespace {
 
 int StatusOf(const std::string& head) {
-  const auto read = ReadHead(head, {});
+  const auto read = ReadRequestHead(head, {});
   const Problem* problem = std::get_if<Problem>(&read);
   return problem == nullptr ? 0 : problem->status;
 }
 
 const std::string kHost = "Host: here\r\n";
 
-TEST(Gate, ReadsAPlainRequest) {
-  auto read = ReadHead("GET /jobs?limit=2 HTTP/1.1\r\nHOST: here:80\r\nAccept:  a \r\n\r\n", {});
+TEST(RequestHead, ReadsAPlainRequest) {
+  auto read =
+      ReadRequestHead("GET /jobs?limit=2 HTTP/1.1\r\nHOST: here:80\r\nAccept:  a \r\n\r\n", {});
   ASSERT_TRUE(std::holds_alternative<HttpRequest>(read));
   const HttpRequest& request = std::get<HttpRequest>(read);
   EXPECT_EQ(request.method, "GET");
@@ -27,14 +28,14 @@ TEST(Gate, ReadsAPlainRequest) {
   EXPECT_FALSE(request.HasBody());
 }
 
-TEST(Gate, WantsExactlyOneHost) {
+TEST(RequestHead, WantsExactlyOneHost) {
   EXPECT_EQ(StatusOf("GET / HTTP/1.1\r\n\r\n"), 400);
   EXPECT_EQ(StatusOf("GET / HTTP/1.1\r\n" + kHost + kHost + "\r\n"), 400);
   EXPECT_EQ(StatusOf("GET / HTTP/1.1\r\nHost: a b\r\n\r\n"), 400);
   EXPECT_EQ(StatusOf("GET / HTTP/1.1\r\n" + kHost + "\r\n"), 0);
 }
 
-TEST(Gate, TakesTargetsInOriginFormOnly) {
+TEST(RequestHead, TakesTargetsInOriginFormOnly) {
   for (const char* target : {"http://other/", "jobs", "", "/a b", "/\xC3\xA9", "/a#b", "*"}) {
     EXPECT_EQ(StatusOf("GET " + std::string(target) + " HTTP/1.1\r\n" + kHost + "\r\n"), 400)
         << target;
@@ -43,7 +44,7 @@ TEST(Gate, TakesTargetsInOriginFormOnly) {
   EXPECT_EQ(StatusOf("OPTIONS * HTTP/1.1\r\n" + kHost + "\r\n"), 0);
 }
 
-TEST(Gate, FramesBodiesInOneWayOnly) {
+TEST(RequestHead, FramesBodiesInOneWayOnly) {
   const auto post = [](const std::string& fields) {
     return StatusOf("POST /jobs HTTP/1.1\r\n" + kHost + fields + "\r\n");
   };
@@ -60,20 +61,20 @@ TEST(Gate, FramesBodiesInOneWayOnly) {
   EXPECT_EQ(StatusOf("POST / HTTP/1.0\r\nTransfer-Encoding: chunked\r\n\r\n"), 400);
 }
 
-TEST(Gate, RefusesFieldsThatCanBeReadInTwoWays) {
+TEST(RequestHead, RefusesFieldsThatCanBeReadInTwoWays) {
   for (const char* field : {"X: a\r\n b\r\n", "X : a\r\n", ": a\r\n", "X\r\n", "X: a\x01\r\n",
                             "X: \xFF\r\n", "X: a\nY: b\r\n", "X: a\rb\r\n"}) {
     EXPECT_EQ(StatusOf("GET / HTTP/1.1\r\n" + kHost + field + "\r\n"), 400) << field;
   }
 }
 
-TEST(Gate, CountsFields) {
+TEST(RequestHead, CountsFields) {
   std::string fields;
   for (int i = 0; i < 200; ++i) fields += "X" + std::to_string(i) + ": 1\r\n";
   EXPECT_EQ(StatusOf("GET / HTTP/1.1\r\n" + kHost + fields + "\r\n"), 431);
 }
 
-TEST(Gate, SpeaksHttp1Only) {
+TEST(RequestHead, SpeaksHttp1Only) {
   EXPECT_EQ(StatusOf("GET / HTTP/2.0\r\n" + kHost + "\r\n"), 505);
   EXPECT_EQ(StatusOf("GET / XTTP/1.1\r\n" + kHost + "\r\n"), 400);
   EXPECT_EQ(StatusOf("GET / HTTP/1.1 \r\n" + kHost + "\r\n"), 505);

@@ -1,0 +1,44 @@
+#include "service/handlers/json_parameters.h"
+
+#include <optional>
+
+#include "service/handlers/json.h"
+
+namespace farhorizon {
+
+namespace {
+
+// A number, a boolean or a string as the text of a parameter.
+std::optional<std::string> ScalarText(const nlohmann::json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  if (value.is_number() || value.is_boolean()) return value.dump();
+  return std::nullopt;
+}
+
+}  // namespace
+
+Result<Parameters> ParametersOfJson(const std::string& text) {
+  Result<nlohmann::json> document = ParseClientJson(text);
+  if (!document) return std::move(document.error());
+  const auto invalid = [](const std::string& what) {
+    return Error{ErrorCode::kInvalidArgument, what, "invalid-parameter"};
+  };
+  if (!document->is_object()) return invalid("the parameters must be a JSON object");
+  Parameters parameters;
+  for (const auto& [name, value] : document->items()) {
+    std::optional<std::string> joined = ScalarText(value);
+    if (value.is_array()) {
+      joined.emplace();
+      for (const auto& element : value) {
+        const std::optional<std::string> part = ScalarText(element);
+        if (!part) return invalid("the parameter " + name + " must list numbers or texts");
+        *joined += (joined->empty() ? "" : ",") + *part;
+      }
+    }
+    if (!joined) return invalid("the parameter " + name + " must be a number, a text or a list");
+    parameters.emplace(name, *joined);
+  }
+  return parameters;
+}
+
+}  // namespace farhorizon

@@ -1,0 +1,22 @@
+#include "service/handlers/routes.h"
+
+#include <utility>
+#include <vector>
+
+#include "service/handlers/health.h"
+#include "service/handlers/jobs.h"
+#include "service/handlers/results.h"
+#include "service/handlers/submit.h"
+
+namespace farhorizon {
+
+Router BuildRouter(const HandlerContext& context) {
+  std::vector<Route> routes = {SubmitRoute(context)};
+  for (const std::vector<Route>& group :
+       {JobRoutes(context), ResultRoutes(context), HealthRoutes(context)}) {
+    routes.insert(routes.end(), group.begin(), group.end());
+  }
+  return Router(std::move(routes));
+}
+
+}  // namespace farhorizon

@@ -1,0 +1,55 @@
+#include "service/handlers/routes.h"
+
+#include <set>
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/support/handlers_fixture.h"
+#include "tests/support/json_schema.h"
+
+namespace farhorizon {
+namespace {
+
+using nlohmann::json;
+
+using RoutesTest = HandlersTest;
+
+TEST_F(RoutesTest, AnswersWhatOpenapiSays) {
+  // Paths stand at two blanks and methods at four: enough of YAML for a file that is ours.
+  std::set<std::string> promised;
+  std::istringstream file(SlurpFile(std::string(FARHORIZON_SOURCE_DIR) + "/proto/openapi.yaml"));
+  std::string path;
+  for (std::string line; std::getline(file, line);) {
+    if (line.rfind("  /", 0) == 0) path = line.substr(2, line.size() - 3);
+    for (const char* method : {"get", "post", "delete"}) {
+      if (line == std::string("    ") + method + ":") promised.insert(method + (" " + path));
+    }
+  }
+  std::set<std::string> kept;
+  for (const Route& route : router_->routes()) {
+    kept.insert(LowerCase(route.method) + " " + route.pattern);
+  }
+  EXPECT_EQ(kept, promised);
+}
+
+TEST_F(RoutesTest, AnswersInTheShapesOfTheSchemas) {
+  const auto offences = [](const std::string& body, const std::string& schema) {
+    const std::string root = FARHORIZON_SOURCE_DIR;
+    const json shape = json::parse(SlurpFile(root + "/proto/schemas/" + schema + ".schema.json"));
+    return SchemaOffences(json::parse(body), shape);
+  };
+  using testing::IsEmpty;
+  const HttpResponse job = Post("/jobs", tiff_);
+  EXPECT_THAT(offences(job.body, "status-info"), IsEmpty());
+  EXPECT_THAT(offences(Send("GET", "/jobs").body, "job-list"), IsEmpty());
+  EXPECT_THAT(offences(Send("GET", "/jobs/x").body, "problem"), IsEmpty());
+  const std::string root = FARHORIZON_SOURCE_DIR;
+  EXPECT_THAT(offences(SlurpFile(root + "/proto/examples/problem.json"), "problem"), IsEmpty());
+  EXPECT_THAT(offences("{}", "problem"), testing::SizeIs(6));
+}
+
+}  // namespace
+}  // namespace farhorizon
