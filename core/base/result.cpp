@@ -20,6 +20,15 @@ const char* ErrorCodeName(ErrorCode code) {
   return "unknown";
 }
 
+std::optional<ErrorCode> ErrorCodeFromName(std::string_view name) {
+  for (const ErrorCode code :
+       {ErrorCode::kInvalidArgument, ErrorCode::kNotFound, ErrorCode::kUnsupportedData,
+        ErrorCode::kResourceExhausted, ErrorCode::kCancelled, ErrorCode::kIo}) {
+    if (name == ErrorCodeName(code)) return code;
+  }
+  return std::nullopt;
+}
+
 Error Error::Within(const std::string& where) && {
   return {code, where + ": " + message, std::move(kind)};
 }

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <source_location>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 
@@ -20,6 +22,8 @@ enum class ErrorCode {
 
 /// The name of `code` as it stands in problem documents: "invalid-argument".
 const char* ErrorCodeName(ErrorCode code);
+/// The code that has this name; nullopt for any other text.
+std::optional<ErrorCode> ErrorCodeFromName(std::string_view name);
 
 /// A failure and its cause, worded for the person who can act on it.
 struct Error {

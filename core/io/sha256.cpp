@@ -4,6 +4,7 @@
 
 #include <openssl/evp.h>
 
+#include "core/base/hex.h"
 #include "core/base/result.h"
 
 namespace farhorizon {
@@ -33,13 +34,7 @@ std::string Sha256::Finish() {
   std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
   unsigned int size = 0;
   Check(EVP_DigestFinal_ex(state_->context, digest.data(), &size) == 1, "SHA-256 ends");
-  static constexpr std::string_view kDigits = "0123456789abcdef";
-  std::string text;
-  for (unsigned int i = 0; i < size; ++i) {
-    text += kDigits[digest[i] >> 4U];
-    text += kDigits[digest[i] & 15U];
-  }
-  return text;
+  return ToHex({digest.data(), size});
 }
 
 }  // namespace farhorizon
