@@ -11,7 +11,9 @@
 namespace farhorizon {
 
 namespace {
+
 constexpr int kBarWidth = 40;
+
 }  // namespace
 
 void AddReporterOptions(CLI::App& command, ReporterOptions& options) {

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/io/unique_fd.h"
 #include "service/percent.h"
-#include "service/unique_fd.h"
 
 namespace farhorizon {
 

@@ -88,9 +88,7 @@ HttpResponse ListJobs(const HandlerContext& context, const HttpRequest& request)
 
 /// No other text reaches the store: what is no id is no job either.
 Result<Job> FindJob(const HandlerContext& context, const std::string& id) {
-  if (!IsJobId(id)) {
-    return Error{ErrorCode::kNotFound, "there is no job with this id", "no-such-job"};
-  }
+  if (!IsJobId(id)) return NoSuchJob();
   return context.jobs.Find(id);
 }
 

@@ -7,8 +7,6 @@ namespace farhorizon {
 
 namespace {
 
-Error NoSuchJob() { return {ErrorCode::kNotFound, "there is no job with this id", "no-such-job"}; }
-
 /// The job, if it has results; else the answer to whoever asks for them. A failed job's is the
 /// status that its cause has.
 Result<Job> FinishedJob(const HandlerContext& context, const std::string& id) {

@@ -213,8 +213,7 @@ Result<Submission> SubmissionOf(const HttpRequest& request, const UploadSink& up
   return Submission{SafeFilename(name), wishes->parameters, *key};
 }
 
-Result<std::pair<Job, bool>> Submit(const HandlerContext& context, const HttpRequest& request,
-                                    UploadSink& upload) {
+Result<Job> Submit(const HandlerContext& context, const HttpRequest& request, UploadSink& upload) {
   Status whole = upload.Finish();
   if (!whole) return std::move(whole.error());
   Result<Submission> submission = SubmissionOf(request, upload);
@@ -235,7 +234,7 @@ Result<std::pair<Job, bool>> Submit(const HandlerContext& context, const HttpReq
 
 HttpResponse HandleSubmission(const HandlerContext& context, const HttpRequest& request,
                               BodySink* sink) {
-  Result<std::pair<Job, bool>> job = Submit(context, request, dynamic_cast<UploadSink&>(*sink));
+  Result<Job> job = Submit(context, request, dynamic_cast<UploadSink&>(*sink));
   if (!job) {
     const Problem problem = ProblemOf(job.error());
     if (problem.status >= 500) {
@@ -245,11 +244,11 @@ HttpResponse HandleSubmission(const HandlerContext& context, const HttpRequest& 
   }
   HttpResponse response;
   response.status = 201;
-  response.Set("Location", context.base + "/jobs/" + job->first.id);
+  response.Set("Location", context.base + "/jobs/" + job->id);
   response.Set("Retry-After", "1");
   response.Set("Content-Type", "application/json");
   response.Set("Cache-Control", "no-store");
-  response.body = DumpJson(StatusInfo(job->first, context.base));
+  response.body = DumpJson(StatusInfo(*job, context.base));
   return response;
 }
 

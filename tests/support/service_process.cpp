@@ -34,7 +34,8 @@ Process::Process(const std::vector<std::string>& words, const std::vector<std::s
   std::vector<std::string> variables = environment;
   for (char** entry = environ; *entry != nullptr; ++entry) {
     const std::string_view variable = *entry;
-    // What configures a service of the user's, or these tests (FARHORIZON_DEM_DIR), is not for this one.
+    // What configures a service of the user's, or these tests (FARHORIZON_DEM_DIR), is not for this
+    // one.
     if (!variable.starts_with("FARHORIZON_")) variables.emplace_back(variable);
   }
   const std::vector<char*> argument_list = Pointers(arguments);

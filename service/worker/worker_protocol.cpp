@@ -1,8 +1,10 @@
-#include "service/worker/message.h"
+#include "service/worker/worker_protocol.h"
 
-#include <cmath>
+#include <fstream>
 
 #include <nlohmann/json.hpp>
+
+#include "core/io/files.h"
 
 namespace farhorizon {
 
@@ -10,19 +12,12 @@ namespace {
 
 using nlohmann::json;
 
+constexpr const char* kTaskFile = "task.json";
+constexpr std::uintmax_t kLargestTask = 1U << 20U;
 constexpr std::size_t kLongestText = 2000;
 
 std::string Line(const json& object) {
   return object.dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
-}
-
-std::optional<ErrorCode> CodeOf(const std::string& name) {
-  for (const ErrorCode code :
-       {ErrorCode::kInvalidArgument, ErrorCode::kNotFound, ErrorCode::kUnsupportedData,
-        ErrorCode::kResourceExhausted, ErrorCode::kCancelled, ErrorCode::kIo}) {
-    if (name == ErrorCodeName(code)) return code;
-  }
-  return std::nullopt;
 }
 
 std::string TextOf(const json& object, const char* key) {
@@ -38,7 +33,7 @@ bool IsKind(const std::string& kind) {
 
 std::optional<WorkerMessage> ReadError(const json& error) {
   if (!error.is_object()) return std::nullopt;
-  const std::optional<ErrorCode> code = CodeOf(TextOf(error, "code"));
+  const std::optional<ErrorCode> code = ErrorCodeFromName(TextOf(error, "code"));
   const std::string kind = TextOf(error, "kind");
   if (!code || !IsKind(kind)) return std::nullopt;
   return Error{*code, TextOf(error, "message"), kind};
@@ -77,6 +72,20 @@ Result<WorkerTask> ReadTask(const std::string& text) {
   } catch (const json::exception& failure) {
     return Error{ErrorCode::kInvalidArgument, std::string("worker's task: ") + failure.what()};
   }
+}
+
+Status WriteTaskFile(const std::filesystem::path& directory, const WorkerTask& task) {
+  std::ofstream file(directory / kTaskFile, std::ios::binary);
+  file << WriteTask(task);
+  file.close();
+  if (!file) return Error{ErrorCode::kIo, "write the worker's task", "storage"};
+  return Done{};
+}
+
+Result<WorkerTask> ReadTaskFile() {
+  Result<std::string> text = ReadFile(kTaskFile, kLargestTask);
+  if (!text) return std::move(text.error());
+  return ReadTask(*text);
 }
 
 std::string WriteMessage(const WorkerMessage& message) {
