@@ -31,7 +31,7 @@ int Run(const BuildArguments& arguments) {
   return ExitStatusOf(RunOnDem(arguments.dem, [&](const DemRun& run) {
     StageTimer timer;
     const Watch watch{timer.Listen(run.watch.progress), run.watch.stop, run.watch.notice};
-    Status built = BuildArtifacts(arguments.dem.dem, arguments.directory, run.options, watch);
+    Status built = BuildArtifacts(arguments.dem.path, arguments.directory, run.options, watch);
     if (built && !arguments.timings.empty()) built = WriteTimings(arguments.timings, timer);
     return built;
   }));

@@ -3,7 +3,7 @@
 namespace farhorizon {
 
 void AddDem(CLI::App& command, DemArguments& arguments, const char* help) {
-  command.add_option("DEM", arguments.dem, help)->required()->type_name("");
+  command.add_option("DEM", arguments.path, help)->required()->type_name("");
 }
 
 void AddRunFlags(CLI::App& command, DemArguments& arguments) {

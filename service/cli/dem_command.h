@@ -20,7 +20,7 @@ constexpr const char* kDemFormats = "GeoTIFF, ASCII grid, SRTM HGT, DTED, USGS D
 
 /// The arguments that every command on a DEM has.
 struct DemArguments {
-  std::string dem;
+  std::string path;
   BuildFlags flags;
   ReporterOptions reporter;
 };

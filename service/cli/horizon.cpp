@@ -24,7 +24,7 @@ Engine EngineOf(const std::string& name) {
 }
 
 int Run(const HorizonArguments& arguments) {
-  const std::string& dem = arguments.dem.dem;
+  const std::string& dem = arguments.dem.path;
   return ExitStatusOf(RunOnDem(arguments.dem, [&](const DemRun& run) {
     return arguments.trace_level_m
                ? WriteSweepPicture(dem, arguments.file, *arguments.trace_level_m, run.options,

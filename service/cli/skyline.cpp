@@ -31,7 +31,7 @@ int Run(const SkylineArguments& arguments) {
         Result<SkylineFormat> format =
             file.empty() ? SkylineFormat::kGeoJson : SkylineFormatOf(file);
         if (!format) return std::move(format.error());
-        return SkylineOfDem(arguments.dem.dem, arguments.azimuth_deg, *format, run.options,
+        return SkylineOfDem(arguments.dem.path, arguments.azimuth_deg, *format, run.options,
                             run.watch);
       });
   if (!skyline) return ReportError(skyline.error());

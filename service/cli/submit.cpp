@@ -53,7 +53,7 @@ class RemoteJob {
  private:
   Status Send() {
     std::error_code failure;
-    const std::string& dem = arguments_.dem.dem;
+    const std::string& dem = arguments_.dem.path;
     if (!fs::is_regular_file(dem, failure)) {
       return Error{ErrorCode::kNotFound, "there is no file " + dem};
     }

@@ -17,7 +17,7 @@ struct VerifyArguments {
 
 int Run(const VerifyArguments& arguments) {
   Result<std::vector<ClaimCheck>> checks = RunOnDem(arguments.dem, [&](const DemRun& run) {
-    return VerifyArtifacts(arguments.dem.dem, arguments.directory, run.options,
+    return VerifyArtifacts(arguments.dem.path, arguments.directory, run.options,
                            Watch{run.watch.progress, run.watch.stop});
   });
   if (!checks) return ReportError(checks.error());

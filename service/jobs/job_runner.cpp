@@ -68,7 +68,7 @@ Status JobRunner::Prepare(const Job& job, const fs::path& directory) {
       directory, {input.string(), "out", job.parameters, options_.max_posts, options_.threads});
 }
 
-// Stores a new stage at once, and the share of a stage that is done at most twice a second.
+// Stores a new stage at most ten times a second, and the share of one that is done at most twice.
 Progress JobRunner::ReportTo(const Job& job) {
   using Clock = std::chrono::steady_clock;
   return [this, id = job.id, attempt = job.attempt, last = Clock::time_point(),

@@ -8,10 +8,10 @@ namespace {
 
 [[noreturn]] void Throw(sqlite3* database, const char* doing) {
   const int code = sqlite3_errcode(database);
+  const std::string message = std::string("job store: ") + doing + ": " + sqlite3_errmsg(database);
   const bool full = code == SQLITE_FULL || code == SQLITE_NOMEM;
-  throw SqliteFailure{{full ? ErrorCode::kResourceExhausted : ErrorCode::kIo,
-                       std::string("job store: ") + doing + ": " + sqlite3_errmsg(database),
-                       full ? "no-space" : "job-store"}};
+  if (full) throw SqliteFailure{{ErrorCode::kResourceExhausted, message, "no-space"}};
+  throw SqliteFailure{{ErrorCode::kIo, message, "job-store"}};
 }
 
 }  // namespace

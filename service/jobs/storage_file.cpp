@@ -13,7 +13,8 @@ namespace farhorizon {
 
 Error StorageError(const char* doing) {
   Error error = ErrorFromErrno(doing, errno);
-  error.kind = error.code == ErrorCode::kResourceExhausted ? "no-space" : "storage";
+  error.kind = "storage";
+  if (error.code == ErrorCode::kResourceExhausted) error.kind = "no-space";
   return error;
 }
 

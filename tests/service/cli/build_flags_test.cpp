@@ -23,7 +23,7 @@ TEST(BuildFlags, AreTheParametersOfAJob) {
       "a.tif --levels 3 --max-error 2.5 --silhouette-error 1 --formats drc,geojson "
       "--crs EPSG:32611 --vertical-datum EPSG:5703 --nodata -9999 --work-budget 1000 "
       "--approximate");
-  EXPECT_EQ(arguments.dem, "a.tif");
+  EXPECT_EQ(arguments.path, "a.tif");
   EXPECT_EQ(arguments.flags.parameters, (Parameters{{"levels", "3"},
                                                     {"maxError", "2.5"},
                                                     {"silhouetteError", "1"},

@@ -113,7 +113,7 @@ TEST_P(JobStoreConformance, KeepsTheFailure) {
   EXPECT_EQ(found->failure->message, "no reference system");
 }
 
-TEST_P(JobStoreConformance, HearsNoWordOfAnEarlierAttempt) {
+TEST_P(JobStoreConformance, IgnoresAnEarlierAttempt) {
   Insert();
   const Job earlier = Claim();
   ASSERT_TRUE(
@@ -149,7 +149,7 @@ TEST_P(JobStoreConformance, DismissalAndPublicationHaveOneWinner) {
     ASSERT_TRUE(store_->Dismiss(job.id, time_));
     publisher.join();
     const auto found = store_->Find(job.id);
-    // Published first: the dismissal removed it. Dismissed first: it stays so.
+    // If publication was first, the dismissal removed the job; if not, the job stays dismissed.
     EXPECT_EQ(found.has_value(), !published);
     if (found) {
       EXPECT_EQ(found->state, JobState::kDismissed);
@@ -179,7 +179,7 @@ TEST_P(JobStoreConformance, ProgressNeverFalls) {
   EXPECT_EQ(store_->Find(job.id)->message, "encode");
 }
 
-TEST_P(JobStoreConformance, TakesUpWhatWasRunning) {
+TEST_P(JobStoreConformance, MakesRunningJobsAcceptedAgain) {
   const Job waiting = Insert();
   const Job running = Claim();
   Reopen();
@@ -213,7 +213,7 @@ TEST_P(JobStoreConformance, PagesThroughAllJobsNewestFirst) {
     for (const Job& job : page->jobs) seen.push_back(job.id);
     if (!page->next) break;
     query.before = page->next;
-    Insert();  // what comes meanwhile moves nothing
+    Insert();  // a job that is added between two pages is on neither
   }
   EXPECT_EQ(seen, ids);
 }

@@ -1,4 +1,4 @@
-// The properties of the ObjectStore.
+// The properties of every ObjectStore, on the local one.
 #include "service/jobs/object_store.h"
 
 #include <memory>
