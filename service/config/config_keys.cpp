@@ -47,8 +47,7 @@ ConfigKey Number(std::string name, Field field, std::int64_t least, std::int64_t
 template <typename Field>
 ConfigKey Text(std::string name, Field field, std::string help) {
   const auto get = [field](const Config& config) -> ConfigValue {
-    const std::string text = field(config);
-    return text;
+    return std::string(field(config));
   };
   const auto set = [field](Config& config, const ConfigValue& value) {
     field(config) = std::get<std::string>(value);

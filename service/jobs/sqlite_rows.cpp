@@ -4,11 +4,6 @@
 
 namespace farhorizon {
 
-const char* const kJobColumns =
-    "id, state, filename, parameters, input_sha256, input_bytes, progress, message, created_ms, "
-    "started_ms, finished_ms, updated_ms, attempt, crash_count, failure_code, failure_kind, "
-    "failure_message, timings";
-
 namespace {
 
 std::optional<Error> ReadFailure(const Statement& row) {

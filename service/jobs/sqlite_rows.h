@@ -5,8 +5,12 @@
 
 namespace farhorizon {
 
-/// The columns of the table `jobs` that ReadJob expects, in its order, for SELECT and RETURNING.
-extern const char* const kJobColumns;
+/// The columns of the table `jobs`, in the order in which ReadJob reads them, for SELECT and
+/// RETURNING.
+inline constexpr const char* kJobColumns =
+    "id, state, filename, parameters, input_sha256, input_bytes, progress, message, created_ms, "
+    "started_ms, finished_ms, updated_ms, attempt, crash_count, failure_code, failure_kind, "
+    "failure_message, timings";
 
 /// The job of the current row of a statement that selects kJobColumns.
 Job ReadJob(const Statement& row);
