@@ -2,11 +2,23 @@
 
 #include <array>
 #include <atomic>
-#include <chrono>
+#include <condition_variable>
 #include <cstdio>
 #include <ctime>
+#include <mutex>
 
 namespace farhorizon {
+
+namespace {
+
+std::tm UtcOf(std::int64_t ms) {
+  const std::time_t seconds = static_cast<std::time_t>(ms / 1000);
+  std::tm parts{};
+  ::gmtime_r(&seconds, &parts);
+  return parts;
+}
+
+}  // namespace
 
 std::int64_t NowMs() {
   static std::atomic<std::int64_t> latest{0};
@@ -18,17 +30,6 @@ std::int64_t NowMs() {
   }
   return seen < now ? now : seen;
 }
-
-namespace {
-
-std::tm UtcOf(std::int64_t ms) {
-  const std::time_t seconds = static_cast<std::time_t>(ms / 1000);
-  std::tm parts{};
-  gmtime_r(&seconds, &parts);
-  return parts;
-}
-
-}  // namespace
 
 std::string FormatTime(std::int64_t ms) {
   const std::tm utc = UtcOf(ms);
@@ -44,6 +45,13 @@ std::string FormatHttpDate(std::int64_t ms) {
   std::array<char, 40> text{};
   std::strftime(text.data(), text.size(), "%a, %d %b %Y %H:%M:%S GMT", &utc);
   return text.data();
+}
+
+void Pause(std::chrono::milliseconds time, const std::stop_token& stop) {
+  std::mutex mutex;
+  std::condition_variable_any never;
+  std::unique_lock lock(mutex);
+  never.wait_for(lock, stop, time, [] { return false; });
 }
 
 }  // namespace farhorizon

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
+#include <stop_token>
 #include <string>
 
 namespace farhorizon {
@@ -11,7 +13,10 @@ std::int64_t NowMs();
 /// RFC 3339 in UTC with milliseconds: "2026-01-31T12:00:00.000Z".
 std::string FormatTime(std::int64_t ms);
 
-/// As HTTP's Date field has it: "Sat, 31 Jan 2026 12:00:00 GMT".
+/// The form of HTTP's Date field: "Sat, 31 Jan 2026 12:00:00 GMT".
 std::string FormatHttpDate(std::int64_t ms);
+
+/// Waits for `time`, or until a stop is requested if that is earlier.
+void Pause(std::chrono::milliseconds time, const std::stop_token& stop);
 
 }  // namespace farhorizon

@@ -14,19 +14,7 @@ namespace {
 std::atomic<LogLevel> least_level{LogLevel::kInfo};
 std::atomic<bool> as_json{true};
 
-const char* Name(LogLevel level) {
-  switch (level) {
-    case LogLevel::kDebug:
-      return "debug";
-    case LogLevel::kInfo:
-      return "info";
-    case LogLevel::kWarning:
-      return "warning";
-    case LogLevel::kError:
-      return "error";
-  }
-  return "error";
-}
+const char* NameOf(LogLevel level) { return kLogLevelNames.at(static_cast<std::size_t>(level)); }
 
 std::string Escaped(const nlohmann::json& value) {
   return value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
@@ -38,10 +26,10 @@ nlohmann::json ValueOf(const LogField& field) {
 
 }  // namespace
 
-void ConfigureLog(LogLevel least, LogFormat format) {
-  least_level = least;
-  as_json =
-      format == LogFormat::kJson || (format == LogFormat::kAuto && isatty(STDERR_FILENO) == 0);
+void ConfigureLog(const LogOptions& options) {
+  least_level = options.level;
+  as_json = options.format == LogFormat::kJson ||
+            (options.format == LogFormat::kAuto && ::isatty(STDERR_FILENO) == 0);
 }
 
 void Log(LogLevel level, std::string_view message, std::initializer_list<LogField> fields) {
@@ -50,17 +38,17 @@ void Log(LogLevel level, std::string_view message, std::initializer_list<LogFiel
   std::string line;
   if (as_json) {
     nlohmann::ordered_json object = {
-        {"ts", now}, {"level", Name(level)}, {"msg", std::string(message)}};
+        {"ts", now}, {"level", NameOf(level)}, {"msg", std::string(message)}};
     for (const LogField& field : fields) object[std::string(field.first)] = ValueOf(field);
     line = object.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   } else {
-    line.append(now).append(" ").append(Name(level)).append(" ").append(message);
+    line.append(now).append(" ").append(NameOf(level)).append(" ").append(message);
     for (const LogField& field : fields) {
       line.append(" ").append(field.first).append("=").append(Escaped(ValueOf(field)));
     }
   }
   line += '\n';
-  // Nothing can be done about a log that cannot be written.
+  // A log that cannot be written must not stop the work.
   [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, line.data(), line.size());
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <functional>
-#include <string>
 
 #include <CLI/CLI.hpp>
 
@@ -15,19 +14,21 @@ constexpr int kExitCall = 2;
 constexpr int kExitBug = 70;
 constexpr int kExitInterrupted = 130;
 
-/// What the command line asks for; set by the sub-command that was named.
-using Chosen = std::function<int()>;
+/// The command that the command line names; returns the exit status. Set while CLI11 parses.
+using SelectedCommand = std::function<int()>;
 
-void AddBuild(CLI::App& app, Chosen& chosen);
-void AddHorizon(CLI::App& app, Chosen& chosen);
-void AddSkyline(CLI::App& app, Chosen& chosen);
-void AddVerify(CLI::App& app, Chosen& chosen);
-void AddServe(CLI::App& app, Chosen& chosen);
-void AddSubmit(CLI::App& app, Chosen& chosen);
-void AddHealthcheck(CLI::App& app, Chosen& chosen);
-void AddWorker(CLI::App& app, Chosen& chosen);
+void AddBuild(CLI::App& app, SelectedCommand& selected);
+void AddHorizon(CLI::App& app, SelectedCommand& selected);
+void AddSkyline(CLI::App& app, SelectedCommand& selected);
+void AddVerify(CLI::App& app, SelectedCommand& selected);
+void AddServe(CLI::App& app, SelectedCommand& selected);
+void AddSubmit(CLI::App& app, SelectedCommand& selected);
+void AddHealthcheck(CLI::App& app, SelectedCommand& selected);
+void AddWorker(CLI::App& app, SelectedCommand& selected);
 
-/// Says `error` on stderr; the exit status that it means.
-int Complain(const Error& error);
+/// Prints `error` to standard error; the exit status for its code.
+int ReportError(const Error& error);
+/// kExitDone for a success; reports the error of a failure.
+int ExitStatusOf(Status status);
 
 }  // namespace farhorizon

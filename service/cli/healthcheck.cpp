@@ -1,7 +1,7 @@
 #include <memory>
 
 #include "service/cli/command.h"
-#include "service/config.h"
+#include "service/config/load_config.h"
 #include "service/http/client.h"
 #include "service/http/server.h"
 
@@ -9,9 +9,9 @@ namespace farhorizon {
 
 namespace {
 
-/// Where this container's own service listens, seen from within.
+// The URL of the service in the same container, from its configuration.
 Result<std::string> OwnUrl() {
-  Result<LoadedConfig> loaded = LoadConfig({}, OurEnvironment(), {});
+  Result<LoadedConfig> loaded = LoadConfig({}, ConfigEnvironment(), {});
   if (!loaded) return std::move(loaded.error());
   Result<HostPort> address = ReadHostPort(loaded->config.listen);
   if (!address) return std::move(address.error());
@@ -24,21 +24,21 @@ Result<std::string> OwnUrl() {
 
 int Run(const std::string& given) {
   Result<std::string> text = given.empty() ? OwnUrl() : Result<std::string>(given);
-  if (!text) return Complain(text.error());
+  if (!text) return ReportError(text.error());
   Result<ServiceUrl> url = ReadServiceUrl(*text);
-  if (!url) return Complain(url.error());
+  if (!url) return ReportError(url.error());
   ClientRequest request;
   request.target = "/healthz";
   Result<ClientResponse> response = SendRequest(*url, request);
-  if (!response) return Complain(response.error());
+  if (!response) return ReportError(response.error());
   if (response->status == 200) return kExitDone;
-  return Complain(
+  return ReportError(
       {ErrorCode::kIo, *text + "/healthz answered " + std::to_string(response->status)});
 }
 
 }  // namespace
 
-void AddHealthcheck(CLI::App& app, Chosen& chosen) {
+void AddHealthcheck(CLI::App& app, SelectedCommand& selected) {
   const auto url = std::make_shared<std::string>();
   CLI::App* command =
       app.add_subcommand("healthcheck", "Ask a service whether it is alive; exit status 0 if so");
@@ -46,7 +46,7 @@ void AddHealthcheck(CLI::App& app, Chosen& chosen) {
       ->add_option("--url", *url,
                    "the service (http:// and the address in FARHORIZON_LISTEN, or 127.0.0.1:8080)")
       ->type_name("URL");
-  command->callback([url, &chosen] { chosen = [url] { return Run(*url); }; });
+  command->callback([url, &selected] { selected = [url] { return Run(*url); }; });
 }
 
 }  // namespace farhorizon

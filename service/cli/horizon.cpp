@@ -6,21 +6,17 @@
 #include "core/pipeline/sweep_picture.h"
 #include "core/pipeline/write_horizon.h"
 #include "service/cli/command.h"
-#include "service/cli/reporter.h"
-#include "service/cli/signals.h"
-#include "service/cli/wishes.h"
+#include "service/cli/dem_command.h"
 
 namespace farhorizon {
 
 namespace {
 
-struct Call {
-  std::string dem;
+struct HorizonArguments {
+  DemArguments dem;
   std::string file;
   std::string engine = "auto";
   std::optional<double> trace_level_m;
-  Wishes wishes;
-  ReporterOptions reporter;
 };
 
 Engine EngineOf(const std::string& name) {
@@ -28,56 +24,51 @@ Engine EngineOf(const std::string& name) {
   return name == "kinetic" ? Engine::kKinetic : Engine::kAdaptive;
 }
 
-Workflow WorkflowOf(const Call& call) {
-  if (call.trace_level_m) return Workflow::kTrace;
-  return EngineOf(call.engine) == Engine::kKinetic ? Workflow::kKineticHorizon : Workflow::kHorizon;
+Workflow WorkflowOf(const HorizonArguments& arguments) {
+  if (arguments.trace_level_m) return Workflow::kTrace;
+  return EngineOf(arguments.engine) == Engine::kKinetic ? Workflow::kKineticHorizon
+                                                        : Workflow::kHorizon;
 }
 
-int Run(const Call& call) {
-  Result<BuildOptions> options = call.wishes.Options();
-  if (!options) return Complain(options.error());
-  const StopOnSignal signals;
-  Reporter reporter(call.reporter);
-  const Watch watch{reporter.progress(WorkflowOf(call)), signals.token(), reporter.notice()};
-  Status written =
-      call.trace_level_m
-          ? WriteSweepPicture(call.dem, call.file, *call.trace_level_m, *options, watch)
-          : WriteHorizonEdges(call.dem, call.file, *options, watch, EngineOf(call.engine));
-  reporter.Clear();
-  return written ? kExitDone : Complain(written.error());
+int Run(const HorizonArguments& arguments) {
+  const std::string& dem = arguments.dem.path;
+  return ExitStatusOf(RunOnDem(arguments.dem, WorkflowOf(arguments), [&](const DemRun& run) {
+    return arguments.trace_level_m
+               ? WriteSweepPicture(dem, arguments.file, *arguments.trace_level_m, run.options,
+                                   run.watch)
+               : WriteHorizonEdges(dem, arguments.file, run.options, run.watch,
+                                   EngineOf(arguments.engine));
+  }));
 }
 
 }  // namespace
 
-void AddHorizon(CLI::App& app, Chosen& chosen) {
-  const auto call = std::make_shared<Call>();
+void AddHorizon(CLI::App& app, SelectedCommand& selected) {
+  const auto arguments = std::make_shared<HorizonArguments>();
   CLI::App* command = app.add_subcommand("horizon", "Write only the horizon edges of a DEM");
-  command->add_option("DEM", call->dem, "GeoTIFF, ASCII grid, SRTM HGT, DTED, USGS DEM or ENVI")
-      ->required()
-      ->type_name("");
+  AddDem(*command, arguments->dem);
   command
-      ->add_option("-o,--output", call->file,
+      ->add_option("-o,--output", arguments->file,
                    "file to write; its ending tells the format: .geojson, .fgb, .gpkg; with "
                    "--trace-level .svg")
       ->required()
       ->type_name("FILE");
   command
       ->add_option(
-          "--engine", call->engine,
+          "--engine", arguments->engine,
           "algorithm that finds the edges: adaptive, kinetic, or auto, which is adaptive; all "
           "find the same ones")
       ->check(CLI::IsMember({"adaptive", "kinetic", "auto"}).description(""))
       ->type_name("ENGINE");
   command
-      ->add_option("--trace-level", call->trace_level_m,
+      ->add_option("--trace-level", arguments->trace_level_m,
                    "instead of the edges, draw the sweep at the height of Z metres: contours, "
                    "hulls, bitangents, candidates")
       ->type_name("Z");
-  AddReadWishes(*command, call->wishes);
-  AddWorkWishes(*command, call->wishes);
-  AddThreads(*command, call->wishes);
-  AddReporterOptions(*command, call->reporter);
-  command->callback([call, &chosen] { chosen = [call] { return Run(*call); }; });
+  AddReadFlags(*command, arguments->dem.flags);
+  AddWorkFlags(*command, arguments->dem.flags);
+  AddRunFlags(*command, arguments->dem);
+  command->callback([arguments, &selected] { selected = [arguments] { return Run(*arguments); }; });
 }
 
 }  // namespace farhorizon

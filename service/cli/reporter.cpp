@@ -9,7 +9,9 @@
 namespace farhorizon {
 
 namespace {
+
 constexpr int kBarWidth = 40;
+
 }  // namespace
 
 void AddReporterOptions(CLI::App& command, ReporterOptions& options) {

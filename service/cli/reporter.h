@@ -1,6 +1,5 @@
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <string>
 
@@ -11,14 +10,14 @@
 
 namespace farhorizon {
 
-/// How long work shows itself on stderr.
+/// How the progress of long work is shown on standard error.
 struct ReporterOptions {
   std::string form = "auto";  ///< auto: a bar on a terminal, else nothing; json; none
 };
 
 void AddReporterOptions(CLI::App& command, ReporterOptions& options);
 
-/// Shows progress: a bar that is drawn over, or a JSON object a line.
+/// Shows progress on standard error: a bar that each step draws over, or one JSON object a line.
 class Reporter {
  public:
   explicit Reporter(const ReporterOptions& options);
@@ -26,13 +25,13 @@ class Reporter {
   Reporter(const Reporter&) = delete;
   Reporter& operator=(const Reporter&) = delete;
 
-  /// For one run. Requires: this outlives it.
+  /// Shows each step with its percentage of the workflow. Requires: this outlives it.
   Progress progress(Workflow workflow);
-  /// A line of its own, in every form. Requires: as above.
+  /// Prints each notice on a line of its own, in every form. Requires: this outlives it.
   Notice notice();
-  /// The same with the overall percentage known already.
+  /// Shows `stage`, the share of it that is done, and the percentage of the whole work.
   void Show(const std::string& stage, double done, int percent);
-  /// Takes the bar away, so that a message can stand in its place.
+  /// Removes the bar, so that a message can be printed in its place. So does the destructor.
   void Clear();
 
  private:

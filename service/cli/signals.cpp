@@ -9,7 +9,7 @@ namespace farhorizon {
 
 namespace {
 
-sigset_t Ours() {
+sigset_t StopSignals() {
   sigset_t set;
   ::sigemptyset(&set);
   ::sigaddset(&set, SIGINT);
@@ -19,14 +19,14 @@ sigset_t Ours() {
 
 }  // namespace
 
-void HoldSignals() {
-  const sigset_t set = Ours();
+void BlockSignals() {
+  const sigset_t set = StopSignals();
   ::pthread_sigmask(SIG_BLOCK, &set, nullptr);
   ::signal(SIGPIPE, SIG_IGN);
 }
 
-std::optional<int> NextSignal(std::chrono::milliseconds most) {
-  const sigset_t set = Ours();
+std::optional<int> WaitForSignal(std::chrono::milliseconds most) {
+  const sigset_t set = StopSignals();
   struct timespec time {};
   time.tv_sec = static_cast<std::time_t>(most.count() / 1000);
   time.tv_nsec = static_cast<decltype(time.tv_nsec)>((most.count() % 1000) * 1'000'000);
@@ -36,9 +36,9 @@ std::optional<int> NextSignal(std::chrono::milliseconds most) {
 }
 
 StopOnSignal::StopOnSignal() {
-  HoldSignals();
+  BlockSignals();
   thread_ = std::thread([this] {
-    const sigset_t set = Ours();
+    const sigset_t set = StopSignals();
     int signal = 0;
     while (::sigwait(&set, &signal) == 0 && !ending_) {
       if (!source_.request_stop()) ::_exit(130);
@@ -48,7 +48,8 @@ StopOnSignal::StopOnSignal() {
 
 StopOnSignal::~StopOnSignal() {
   ending_ = true;
-  // It ends no thread: this one waits for it. NOLINTNEXTLINE(bugprone-bad-signal-to-kill-thread)
+  // The thread is in sigwait, so SIGTERM ends no thread but wakes this one.
+  // NOLINTNEXTLINE(bugprone-bad-signal-to-kill-thread)
   ::pthread_kill(thread_.native_handle(), SIGTERM);
   thread_.join();
 }

@@ -8,13 +8,13 @@
 
 namespace farhorizon {
 
-/// Takes SIGINT and SIGTERM away from their defaults, in this thread and those it starts later.
-void HoldSignals();
+/// Blocks SIGINT and SIGTERM in this thread and in those that it starts later; ignores SIGPIPE.
+void BlockSignals();
 
-/// The next SIGINT or SIGTERM that is held; nullopt where none comes within `most`.
-std::optional<int> NextSignal(std::chrono::milliseconds most);
+/// Waits for a blocked SIGINT or SIGTERM and returns it; nullopt if none comes within `most`.
+std::optional<int> WaitForSignal(std::chrono::milliseconds most);
 
-/// Turns the first SIGINT or SIGTERM into a stop request, for as long as this lives; the second ends
+/// While this object lives, the first SIGINT or SIGTERM becomes a stop request, and the second ends
 /// the program at once.
 class StopOnSignal {
  public:

@@ -5,20 +5,16 @@
 #include "core/io/files.h"
 #include "core/pipeline/write_skyline.h"
 #include "service/cli/command.h"
-#include "service/cli/reporter.h"
-#include "service/cli/signals.h"
-#include "service/cli/wishes.h"
+#include "service/cli/dem_command.h"
 
 namespace farhorizon {
 
 namespace {
 
-struct Call {
-  std::string dem;
+struct SkylineArguments {
+  DemArguments dem;
   std::string file;
-  double azimuth = 0;
-  Wishes wishes;
-  ReporterOptions reporter;
+  double azimuth_deg = 0;
 };
 
 Status Print(const std::string& text) {
@@ -28,48 +24,42 @@ Status Print(const std::string& text) {
   return Done{};
 }
 
-int Run(const Call& call) {
-  Result<BuildOptions> options = call.wishes.Options();
-  if (!options) return Complain(options.error());
-  Result<SkylineFormat> format =
-      call.file.empty() ? SkylineFormat::kGeoJson : SkylineFormatOf(call.file);
-  if (!format) return Complain(format.error());
-  const StopOnSignal signals;
-  Reporter reporter(call.reporter);
-  Result<std::string> skyline = SkylineOfDem(
-      call.dem, call.azimuth, *format, *options,
-      Watch{reporter.progress(Workflow::kSkyline), signals.token(), reporter.notice()});
-  reporter.Clear();
-  if (!skyline) return Complain(skyline.error());
-  Status written = call.file.empty() ? Print(*skyline) : WriteFile(call.file, *skyline);
-  return written ? kExitDone : Complain(written.error());
+int Run(const SkylineArguments& arguments) {
+  const std::string& file = arguments.file;
+  Result<std::string> skyline =
+      RunOnDem(arguments.dem, Workflow::kSkyline, [&](const DemRun& run) -> Result<std::string> {
+        Result<SkylineFormat> format =
+            file.empty() ? SkylineFormat::kGeoJson : SkylineFormatOf(file);
+        if (!format) return std::move(format.error());
+        return SkylineOfDem(arguments.dem.path, arguments.azimuth_deg, *format, run.options,
+                            run.watch);
+      });
+  if (!skyline) return ReportError(skyline.error());
+  return ExitStatusOf(file.empty() ? Print(*skyline) : WriteFile(file, *skyline));
 }
 
 }  // namespace
 
-void AddSkyline(CLI::App& app, Chosen& chosen) {
-  const auto call = std::make_shared<Call>();
+void AddSkyline(CLI::App& app, SelectedCommand& selected) {
+  const auto arguments = std::make_shared<SkylineArguments>();
   CLI::App* command = app.add_subcommand(
       "skyline", "Write the horizon edges seen in one direction, from left to right");
-  command->add_option("DEM", call->dem, "GeoTIFF, ASCII grid, SRTM HGT, DTED, USGS DEM or ENVI")
-      ->required()
-      ->type_name("");
+  AddDem(*command, arguments->dem);
   command
-      ->add_option("--azimuth", call->azimuth,
+      ->add_option("--azimuth", arguments->azimuth_deg,
                    "where to look, degrees clockwise from true north at the DEM's middle, -360 to "
                    "360")
       ->required()
       ->type_name("A");
   command
-      ->add_option("-o,--output", call->file,
+      ->add_option("-o,--output", arguments->file,
                    "file to write; its ending tells the format: .geojson or .svg, a picture; "
                    "without it GeoJSON on the standard output")
       ->type_name("FILE");
-  AddReadWishes(*command, call->wishes);
-  AddWorkWishes(*command, call->wishes);
-  AddThreads(*command, call->wishes);
-  AddReporterOptions(*command, call->reporter);
-  command->callback([call, &chosen] { chosen = [call] { return Run(*call); }; });
+  AddReadFlags(*command, arguments->dem.flags);
+  AddWorkFlags(*command, arguments->dem.flags);
+  AddRunFlags(*command, arguments->dem);
+  command->callback([arguments, &selected] { selected = [arguments] { return Run(*arguments); }; });
 }
 
 }  // namespace farhorizon

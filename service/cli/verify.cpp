@@ -4,31 +4,24 @@
 #include <memory>
 
 #include "service/cli/command.h"
-#include "service/cli/reporter.h"
-#include "service/cli/signals.h"
-#include "service/cli/wishes.h"
+#include "service/cli/dem_command.h"
 
 namespace farhorizon {
 
 namespace {
 
-struct Call {
-  std::string dem;
+struct VerifyArguments {
+  DemArguments dem;
   std::string directory;
-  Wishes wishes;
-  ReporterOptions reporter;
 };
 
-int Run(const Call& call) {
-  Result<BuildOptions> options = call.wishes.Options();
-  if (!options) return Complain(options.error());
-  const StopOnSignal signals;
-  Reporter reporter(call.reporter);
+int Run(const VerifyArguments& arguments) {
   Result<std::vector<ClaimCheck>> checks =
-      VerifyArtifacts(call.dem, call.directory, *options,
-                      Watch{reporter.progress(Workflow::kVerify), signals.token()});
-  reporter.Clear();
-  if (!checks) return Complain(checks.error());
+      RunOnDem(arguments.dem, Workflow::kVerify, [&](const DemRun& run) {
+        return VerifyArtifacts(arguments.dem.path, arguments.directory, run.options,
+                               Watch{run.watch.progress, run.watch.stop});
+      });
+  if (!checks) return ReportError(checks.error());
   std::size_t broken = 0;
   for (const ClaimCheck& check : *checks) {
     if (check.holds) continue;
@@ -42,21 +35,18 @@ int Run(const Call& call) {
 
 }  // namespace
 
-void AddVerify(CLI::App& app, Chosen& chosen) {
-  const auto call = std::make_shared<Call>();
+void AddVerify(CLI::App& app, SelectedCommand& selected) {
+  const auto arguments = std::make_shared<VerifyArguments>();
   CLI::App* command = app.add_subcommand(
       "verify", "Measure every claim of DIR/report.json again, from the files alone");
-  command->add_option("DEM", call->dem, "the DEM that the artifacts were made of")
+  AddDem(*command, arguments->dem, "the DEM that the artifacts were made of");
+  command->add_option("DIR", arguments->directory, "the folder of the artifacts")
       ->required()
       ->type_name("");
-  command->add_option("DIR", call->directory, "the folder of the artifacts")
-      ->required()
-      ->type_name("");
-  AddReadWishes(*command, call->wishes);
-  AddThreads(*command, call->wishes);
-  AddReporterOptions(*command, call->reporter);
+  AddReadFlags(*command, arguments->dem.flags);
+  AddRunFlags(*command, arguments->dem);
   command->footer("Exit status 1, and a line a claim on stdout, where one is false.");
-  command->callback([call, &chosen] { chosen = [call] { return Run(*call); }; });
+  command->callback([arguments, &selected] { selected = [arguments] { return Run(*arguments); }; });
 }
 
 }  // namespace farhorizon

@@ -5,12 +5,12 @@
 
 namespace farhorizon {
 
-void AddWorker(CLI::App& app, Chosen& chosen) {
+void AddWorker(CLI::App& app, SelectedCommand& selected) {
   const auto probe = std::make_shared<bool>(false);
   CLI::App* command = app.add_subcommand("worker", "What the service starts for each job");
-  command->group("");  // no command for people
+  command->group("");  // not in help: only the service starts it
   command->add_flag("--probe", *probe, "only read the DEM");
-  command->callback([probe, &chosen] { chosen = [probe] { return RunTask(*probe); }; });
+  command->callback([probe, &selected] { selected = [probe] { return RunTask(*probe); }; });
 }
 
 }  // namespace farhorizon

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "service/unique_fd.h"
+#include "core/io/unique_fd.h"
 #include "service/url_query.h"
 
 namespace farhorizon {

@@ -106,9 +106,7 @@ HttpResponse DismissJob(const HandlerContext& context, const HttpRequest& reques
 }  // namespace
 
 Result<Job> FindJob(const HandlerContext& context, const std::string& id) {
-  if (!IsJobId(id)) {
-    return Error{ErrorCode::kNotFound, "there is no job with this id", "no-such-job"};
-  }
+  if (!IsJobId(id)) return NoSuchJob();
   return context.jobs.Find(id);
 }
 

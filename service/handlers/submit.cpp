@@ -137,7 +137,7 @@ Result<Job> SubmitExchange::Submit() const {
   if (!readable) return std::move(readable.error());
   auto job = context_.jobs.Submit(spool, *submission);
   if (!job) return std::move(job.error());
-  return std::move(job->first);
+  return job;
 }
 
 HttpResponse SubmitExchange::Finish() {

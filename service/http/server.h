@@ -11,8 +11,8 @@
 namespace farhorizon {
 
 struct ServerOptions {
-  std::string host = "127.0.0.1";
-  std::uint16_t port = 8080;  ///< 0: any that is free
+  std::string host;
+  std::uint16_t port = 0;  ///< 0: any that is free
   int io_threads = 2;
   int handler_threads = 8;
   std::size_t max_head_bytes = 16384;

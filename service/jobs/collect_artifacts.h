@@ -9,9 +9,10 @@
 
 namespace farhorizon {
 
-/// Takes what a worker left in `directory` into the store: the files that its manifest.json names,
-/// and that. Believes the manifest only as far as the bytes bear it out.
-/// Errors: kUnsupportedData "worker-crashed" where the two differ; those of the store.
+/// Puts a worker's files into the store: those that `directory`/manifest.json lists, and the
+/// manifest. Every size and SHA-256 of the manifest is checked against the file's bytes.
+/// Errors: kUnsupportedData "worker-crashed" where the manifest is malformed or differs from the
+///   files; those of the store.
 Result<std::vector<Artifact>> CollectArtifacts(const std::filesystem::path& directory,
                                                ObjectStore& objects);
 

@@ -1,6 +1,5 @@
 #include "service/jobs/data_directory.h"
 
-#include <array>
 #include <fcntl.h>
 #include <string>
 #include <sys/file.h>
@@ -9,7 +8,7 @@
 #include <unistd.h>
 #include <utility>
 
-#include "service/jobs/durable_file.h"
+#include "service/jobs/storage_file.h"
 
 namespace farhorizon {
 
@@ -21,16 +20,16 @@ Error Unusable(const std::filesystem::path& root, const std::string& why) {
 
 }  // namespace
 
-Result<DataDirectory> OpenDataDirectory(const std::filesystem::path& wished) {
+Result<DataDirectory> OpenDataDirectory(const std::filesystem::path& path) {
   std::error_code failure;
-  const std::filesystem::path root = std::filesystem::absolute(wished, failure).lexically_normal();
+  const std::filesystem::path root = std::filesystem::absolute(path, failure).lexically_normal();
   std::filesystem::create_directories(root, failure);
   if (failure) {
     return Unusable(root, "cannot be made (" + failure.message() +
                               "); give --data a folder that this user can write");
   }
   struct stat info {};
-  if (::stat(root.c_str(), &info) != 0) return Unusable(root, FileError("stat").message);
+  if (::stat(root.c_str(), &info) != 0) return Unusable(root, StorageError("stat").message);
   if (info.st_uid != ::geteuid()) {
     return Unusable(root, "belongs to another user (" + std::to_string(info.st_uid) +
                               "); run as that user or change its owner");
@@ -38,7 +37,7 @@ Result<DataDirectory> OpenDataDirectory(const std::filesystem::path& wished) {
   DataDirectory directory{root, UniqueFd(::open((root / "lock").c_str(),
                                                 O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0600))};
   if (!directory.lock) {
-    return Unusable(root, FileError("make the lock file").message +
+    return Unusable(root, StorageError("make the lock file").message +
                               "; give --data a folder that this user can write");
   }
   if (::flock(directory.lock.get(), LOCK_EX | LOCK_NB) != 0) {

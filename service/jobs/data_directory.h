@@ -3,11 +3,12 @@
 #include <filesystem>
 
 #include "core/base/result.h"
-#include "service/unique_fd.h"
+#include "core/io/unique_fd.h"
 
 namespace farhorizon {
 
-/// The folder that a service keeps its state in, held against every other process while this lives.
+/// The folder with a service's state. Its lock file is locked while this object lives, so that one
+/// process at a time uses the folder.
 struct DataDirectory {
   std::filesystem::path root;
   UniqueFd lock;
@@ -18,9 +19,10 @@ struct DataDirectory {
   [[nodiscard]] std::filesystem::path Work() const { return root / "work"; }
 };
 
-/// Makes the folder where it is missing, locks it, and clears what a killed process left half-done.
-/// Errors: kIo, naming the folder and the remedy: cannot be made or written, another user's, or in
-///   use by another process.
+/// Makes the folder if it is missing, locks it, and empties spool and work of what an earlier
+/// process left there.
+/// Errors: kIo, with the folder and the remedy: it cannot be made or written, belongs to another
+///   user, or another process uses it.
 Result<DataDirectory> OpenDataDirectory(const std::filesystem::path& root);
 
 }  // namespace farhorizon

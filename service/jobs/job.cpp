@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <sys/random.h>
+
+#include "core/base/hex.h"
+#include "service/random.h"
 
 namespace farhorizon {
 
@@ -11,8 +13,8 @@ namespace {
 constexpr std::array kStates = {JobState::kAccepted, JobState::kRunning, JobState::kSuccessful,
                                 JobState::kFailed, JobState::kDismissed};
 constexpr std::size_t kLongestFilename = 100;
-
-bool IsLowerHex(char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); }
+// Where a UUID's text has its dashes, in rising order.
+constexpr std::array<std::size_t, 4> kDashes = {8, 13, 18, 23};
 
 bool IsFilenameCharacter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' ||
@@ -55,38 +57,33 @@ bool MayFollow(JobState from, JobState to) {
 }
 
 std::string NewJobId(std::int64_t now_ms) {
-  std::array<unsigned char, 16> bytes{};
-  Check(getrandom(bytes.data(), bytes.size(), 0) == static_cast<ssize_t>(bytes.size()),
-        "the kernel gives 16 random bytes");
+  std::array<unsigned char, 16> bytes = RandomBytes();
   for (std::size_t i = 0; i < 6; ++i) {
     bytes[i] = static_cast<unsigned char>(static_cast<std::uint64_t>(now_ms) >> (8U * (5 - i)));
   }
   bytes[6] = static_cast<unsigned char>(0x70U | (bytes[6] & 0x0FU));  // RFC 9562: version 7
   bytes[8] = static_cast<unsigned char>(0x80U | (bytes[8] & 0x3FU));  // and its variant
-  static constexpr std::string_view kDigits = "0123456789abcdef";
-  std::string id;
-  for (std::size_t i = 0; i < bytes.size(); ++i) {
-    if (i == 4 || i == 6 || i == 8 || i == 10) id += '-';
-    id += kDigits[bytes[i] >> 4U];
-    id += kDigits[bytes[i] & 15U];
-  }
+  std::string id = ToHex(bytes);
+  for (const std::size_t dash : kDashes) id.insert(dash, 1, '-');
   return id;
 }
 
 bool IsJobId(std::string_view text) {
   if (text.size() != 36) return false;
   for (std::size_t i = 0; i < text.size(); ++i) {
-    const bool dash = i == 8 || i == 13 || i == 18 || i == 23;
-    if (dash ? text[i] != '-' : !IsLowerHex(text[i])) return false;
+    const bool dash = std::find(kDashes.begin(), kDashes.end(), i) != kDashes.end();
+    if (dash ? text[i] != '-' : !IsLowerHexDigit(text[i])) return false;
   }
   return true;
 }
 
-std::string SafeFilename(std::string_view wished) {
-  const std::size_t slash = wished.find_last_of("/\\");
-  if (slash != std::string_view::npos) wished = wished.substr(slash + 1);
+Error NoSuchJob() { return {ErrorCode::kNotFound, "there is no job with this id", "no-such-job"}; }
+
+std::string SafeFilename(std::string_view path) {
+  const std::size_t slash = path.find_last_of("/\\");
+  if (slash != std::string_view::npos) path = path.substr(slash + 1);
   std::string name;
-  for (const char c : wished) {
+  for (const char c : path) {
     if (!IsFilenameCharacter(c)) continue;
     if (name.empty() && (c == '.' || c == '-')) continue;
     name += c;

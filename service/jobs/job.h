@@ -12,23 +12,25 @@
 
 namespace farhorizon {
 
-/// Where a job stands, in the words of OGC API - Processes.
+/// The state of a job, in the words of OGC API - Processes.
 enum class JobState { kAccepted, kRunning, kSuccessful, kFailed, kDismissed };
 
 /// "accepted", "running", …
 const char* JobStateName(JobState state);
+/// The state that has this name; nullopt for any other text.
 std::optional<JobState> JobStateOf(std::string_view name);
 
-/// Whether nothing follows `state`.
+/// True for the states that no other state follows.
 bool IsTerminal(JobState state);
 
-/// The state machine: accepted -> running -> successful | failed; running -> accepted (the worker or
-/// the service stopped); accepted | running -> dismissed. Nothing leaves a terminal state.
+/// The state machine: accepted -> running -> successful | failed; running -> accepted (the worker
+/// or the service stopped); accepted | running -> dismissed. A terminal state is the last.
 bool MayFollow(JobState from, JobState to);
 
 /// A UUIDv7 in lower-case text: 48 bits of time, 74 random ones.
 std::string NewJobId(std::int64_t now_ms);
-/// Whether `text` has the form of one: no other text reaches a store.
+/// True for a UUID in lower-case text. Requests with any other text as an id are refused before
+/// they reach a store.
 bool IsJobId(std::string_view text);
 
 /// One piece of work, as it is stored. Times are milliseconds since 1970.
@@ -45,13 +47,13 @@ struct Job {
   std::optional<std::int64_t> started_ms;
   std::optional<std::int64_t> finished_ms;
   std::int64_t updated_ms = 0;
-  std::int64_t attempt = 0;  ///< times it was started; fences off the late word of an earlier one
+  std::int64_t attempt = 0;  ///< number of starts so far; identifies the current run
   std::int64_t crash_count = 0;
-  std::optional<Error> failure;           ///< set where state is kFailed
+  std::optional<Error> failure;           ///< set if and only if state is kFailed
   std::map<std::string, double> timings;  ///< seconds by stage, of the run that succeeded
 };
 
-/// A file that a job leaves, by its content.
+/// One output file of a job.
 struct Artifact {
   std::string name;
   std::string media_type;
@@ -59,12 +61,15 @@ struct Artifact {
   std::string sha256;
 };
 
-/// A base name that is safe as a file's name and in a header: the part after the last slash or
-/// backslash, ASCII letters, digits, '.', '_' and '-', not starting with '.' or '-', at most 100
-/// characters; "dem" where nothing is left.
-std::string SafeFilename(std::string_view wished);
+/// The Error of a call that names a job which does not exist: kNotFound "no-such-job".
+Error NoSuchJob();
 
-/// Whether `name` may name an artifact: as SafeFilename leaves it.
+/// A name that is safe for a file and in a header: of the part after the last slash or backslash,
+/// the ASCII letters, digits, '.', '_' and '-' from the first that is neither '.' nor '-', at most
+/// the last 100; "dem" where none is left.
+std::string SafeFilename(std::string_view path);
+
+/// True for a name that SafeFilename would return unchanged.
 bool IsArtifactName(std::string_view name);
 
 }  // namespace farhorizon

@@ -1,19 +1,30 @@
 #include "service/jobs/job_service.h"
 
-#include <fcntl.h>
-#include <fstream>
 #include <system_error>
 
 #include "service/clock.h"
-#include "service/jobs/durable_file.h"
 #include "service/jobs/local_object_store.h"
 #include "service/jobs/sqlite_job_store.h"
+#include "service/jobs/storage_file.h"
 #include "service/log.h"
-#include "service/worker/message.h"
+#include "service/worker/worker_protocol.h"
 
 namespace farhorizon {
 
+namespace {
+
 namespace fs = std::filesystem;
+
+WorkerLimits ProbeLimits(const ProbeOptions& probe) {
+  WorkerLimits limits;
+  limits.memory_bytes = probe.memory_bytes;
+  limits.cpu_seconds = probe.wall_seconds;
+  limits.wall_seconds = probe.wall_seconds;
+  limits.file_bytes = std::int64_t{1} << 20U;  // a probe writes only what goes to standard error
+  return limits;
+}
+
+}  // namespace
 
 Result<std::unique_ptr<JobService>> JobService::Open(JobServiceOptions options) {
   Result<DataDirectory> directory = OpenDataDirectory(options.data);
@@ -25,7 +36,7 @@ Result<std::unique_ptr<JobService>> JobService::Open(JobServiceOptions options) 
   Result<std::int64_t> recovered = (*jobs)->RecoverRunning(NowMs());
   if (!recovered) return std::move(recovered.error());
   if (*recovered > 0) Log(LogLevel::kWarning, "jobs taken up again", {{"jobs", *recovered}});
-  Status cleared = ObjectKeeper(**jobs, **objects).RemoveAllUnnamed();
+  Status cleared = ObjectCollector(**jobs, **objects).RemoveAllUnreferenced();
   if (!cleared) return std::move(cleared.error());
   return std::unique_ptr<JobService>(new JobService(std::move(options), *std::move(directory),
                                                     *std::move(jobs), *std::move(objects)));
@@ -37,10 +48,10 @@ JobService::JobService(JobServiceOptions options, DataDirectory directory,
       directory_(std::move(directory)),
       jobs_(std::move(jobs)),
       objects_(std::move(objects)),
-      keeper_(*jobs_, *objects_),
-      probes_(options_.engine.workers),
-      engine_(std::make_unique<JobEngine>(*jobs_, *objects_, keeper_, directory_.Work(),
-                                          options_.engine)) {}
+      collector_(*jobs_, *objects_),
+      probes_(options_.workers),
+      runner_(*jobs_, *objects_, collector_, directory_.Work(), options_.runner),
+      engine_(std::make_unique<JobEngine>(*jobs_, runner_, options_.workers)) {}
 
 JobService::~JobService() = default;
 
@@ -77,49 +88,47 @@ Status JobService::CheckReady() {
 }
 
 Status JobService::Probe(const SpoolFile& upload, const Submission& submission) {
-  if (upload.bytes() > options_.probe_max_bytes) return Done{};
+  if (upload.bytes() > options_.probe.max_bytes) return Done{};
   const fs::path directory = directory_.Work() / ("probe-" + std::to_string(next_probe_++));
   const fs::path input = fs::path("in") / submission.filename;
   std::error_code failure;
   fs::create_directories(directory / "in", failure);
-  // The upload is nobody's object yet: a link will do, and the worker may only harm its own input.
+  // The upload is not an object of the store yet. So a hard link suffices: by writing to it, a
+  // worker could damage only its own input.
   if (!failure) fs::create_hard_link(upload.path(), directory / input, failure);
-  std::ofstream task(directory / "task.json", std::ios::binary);
-  task << WriteTask({input.string(), "", submission.parameters, options_.engine.max_posts, 1});
-  task.close();
-  Status verdict = Done{};
-  if (!failure && task) {
+  const RunnerOptions& runner = options_.runner;
+  const WorkerTask task{input.string(), "", submission.parameters, runner.max_posts, 1};
+  Status readable = Done{};
+  if (!failure && WriteTaskFile(directory, task)) {
     probes_.acquire();
     WorkerOutcome outcome =
-        RunWorker({options_.engine.worker_program, true, directory, options_.probe_limits}, {}, {});
+        RunWorker({runner.worker_program, true, directory, ProbeLimits(options_.probe)}, {}, {});
     probes_.release();
     if (outcome.end == WorkerEnd::kFailed) {
-      verdict = std::move(outcome.error);
+      readable = std::move(outcome.error);
     } else if (outcome.end == WorkerEnd::kCrashed) {
       Log(LogLevel::kWarning, "probe crashed",
-          {{"code", outcome.error.kind}, {"last_words", outcome.last_words}});
+          {{"code", outcome.error.kind}, {"last_words", outcome.stderr_tail}});
     }
   }
   fs::remove_all(directory, failure);
-  return verdict;
+  return readable;
 }
 
-Result<std::pair<Job, bool>> JobService::Submit(const SpoolFile& upload,
-                                                const Submission& submission) {
-  auto held = keeper_.Hold();
+Result<Job> JobService::Submit(const SpoolFile& upload, const Submission& submission) {
+  auto pin = collector_.Pin();
   Result<StoredObject> stored = objects_->PutFile(upload.path());
   if (!stored) return std::move(stored.error());
   const std::int64_t now = NowMs();
-  Result<std::pair<Job, bool>> inserted =
-      jobs_->Insert({NewJobId(now), submission.filename, submission.parameters, stored->sha256,
-                     stored->bytes, submission.idempotency_key},
-                    now);
-  held.unlock();
+  Result<Job> inserted = jobs_->Insert({NewJobId(now), submission.filename, submission.parameters,
+                                        stored->sha256, stored->bytes, submission.idempotency_key},
+                                       now);
+  pin.unlock();
   if (inserted) {
     engine_->Wake();
     return inserted;
   }
-  Status removed = keeper_.RemoveUnnamed({stored->sha256});  // no row came to name it
+  Status removed = collector_.RemoveUnreferenced({stored->sha256});
   if (!removed) Log(LogLevel::kWarning, "an object is left", {{"error", removed.error().message}});
   return inserted;
 }
@@ -133,7 +142,8 @@ Result<OpenArtifact> JobService::Open(const std::string& id, const std::string& 
     if (object && object->bytes == artifact.bytes) {
       return OpenArtifact{std::move(artifact), *std::move(object)};
     }
-    // Gone between the two questions: removed with its job. Gone with its row still there: lost.
+    // If the job is gone by now, it was dismissed between the two calls. If not, the object is
+    // lost.
     Result<Job> job = jobs_->Find(id);
     if (!job) return std::move(job.error());
     return Error{ErrorCode::kIo, "this artifact is damaged or lost; submit the DEM again",
@@ -152,7 +162,7 @@ Result<Job> JobService::Dismiss(const std::string& id) {
   engine_->Cancel(id);
   std::vector<std::string> names = {before->input_sha256};
   for (const Artifact& artifact : *artifacts) names.push_back(artifact.sha256);
-  Status removed = keeper_.RemoveUnnamed(names);
+  Status removed = collector_.RemoveUnreferenced(names);
   if (!removed) Log(LogLevel::kWarning, "objects are left", {{"error", removed.error().message}});
   return dismissed;
 }

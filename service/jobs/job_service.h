@@ -2,33 +2,42 @@
 
 #include <atomic>
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <semaphore>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "core/base/result.h"
 #include "service/jobs/data_directory.h"
 #include "service/jobs/job_engine.h"
+#include "service/jobs/job_runner.h"
 #include "service/jobs/job_store.h"
-#include "service/jobs/object_keeper.h"
+#include "service/jobs/object_collector.h"
 #include "service/jobs/object_store.h"
 #include "service/jobs/spool_file.h"
 
 namespace farhorizon {
 
-struct JobServiceOptions {
-  std::filesystem::path data;
-  EngineOptions engine;
-  std::int64_t max_waiting = 1000;
-  std::int64_t min_free_bytes = 0;
-  WorkerLimits probe_limits;
-  std::int64_t probe_max_bytes = 0;  ///< larger uploads are read by their job only
+/// Limits of reading an upload before its job is accepted.
+struct ProbeOptions {
+  std::int64_t max_bytes = std::int64_t{1} << 26U;  ///< larger uploads are read by their job only
+  std::int64_t memory_bytes = std::int64_t{1} << 31U;
+  std::int64_t wall_seconds = 20;
 };
 
-/// A client's DEM and its wishes.
+struct JobServiceOptions {
+  std::filesystem::path data = "farhorizon-data";
+  int workers = 1;  ///< jobs at once
+  RunnerOptions runner;
+  std::int64_t max_waiting = 1000;
+  std::int64_t min_free_bytes = std::int64_t{1} << 28U;
+  ProbeOptions probe;
+};
+
+/// A client's DEM and its parameters.
 struct Submission {
   std::string filename;  ///< as SafeFilename gives it
   Parameters parameters;
@@ -41,42 +50,44 @@ struct OpenArtifact {
   OpenObject object;
 };
 
-/// Everything that handlers can ask of jobs: the stores, the engine and the rules between them.
+/// The interface of jobs for the handlers: stores, engine and the rules that connect them.
 /// Threads: safe.
 class JobService {
  public:
-  /// Opens the data directory, takes up what an earlier process left, and starts the engine.
+  /// Opens the data directory, makes jobs of an earlier process accepted again, and starts the
+  /// engine.
   /// Errors: kIo, with the remedy.
   static Result<std::unique_ptr<JobService>> Open(JobServiceOptions options);
   ~JobService();
 
-  /// Whether a new job would be taken now. Errors: kResourceExhausted "draining", "queue-full",
-  ///   "no-space".
+  /// Succeeds if a new job would be accepted now. Errors: kResourceExhausted "draining",
+  ///   "queue-full", "no-space".
   Status CheckRoom();
   Result<SpoolFile> NewSpoolFile() { return SpoolFile::Create(directory_.Spool()); }
 
-  /// Lets a worker read the upload, without building anything. Succeeds too where it cannot be told
-  /// within the probe's limits: the job will tell. Errors: what ReadDem said.
+  /// Reads the upload in a worker process, without building anything. Succeeds also where the
+  /// limits of the probe end the worker: the job has larger ones. Errors: those of ReadDem.
   Status Probe(const SpoolFile& upload, const Submission& submission);
 
-  /// Stores bytes and job; `second` is true where an earlier submission with this key is answered.
-  /// Both are durable when this returns. Errors: those of the stores.
-  Result<std::pair<Job, bool>> Submit(const SpoolFile& upload, const Submission& submission);
+  /// Stores the bytes and an accepted job, durably, and returns the job: an earlier one where the
+  /// idempotency key has made one. Errors: those of the stores.
+  Result<Job> Submit(const SpoolFile& upload, const Submission& submission);
 
   Result<Job> Find(const std::string& id) { return jobs_->Find(id); }
   Result<JobPage> List(const JobQuery& query) { return jobs_->List(query); }
   Result<std::vector<Artifact>> Artifacts(const std::string& id) { return jobs_->Artifacts(id); }
   /// Errors: kNotFound; kIo "result-corrupt" where the object is missing or has another size.
   Result<OpenArtifact> Open(const std::string& id, const std::string& name);
+  /// Dismisses the job, stops its worker and removes its objects. Errors: kNotFound.
   Result<Job> Dismiss(const std::string& id);
 
-  /// Whether new work can be taken and finished. Errors: as CheckRoom, and those of the stores.
+  /// Succeeds if new jobs can be accepted and run. Errors: as CheckRoom, and those of the stores.
   Status CheckReady();
 
-  /// Takes nothing more; says so in CheckReady and CheckRoom.
+  /// Accepts and starts no further job; CheckReady and CheckRoom fail from now on.
   void Drain();
   bool WaitIdle(std::chrono::milliseconds most) { return engine_->WaitIdle(most); }
-  /// Gives back what still runs. The last call.
+  /// Stops every worker; their jobs are accepted again. The last call.
   void Stop() { engine_->Stop(); }
 
  private:
@@ -88,10 +99,11 @@ class JobService {
   DataDirectory directory_;
   std::unique_ptr<JobStore> jobs_;
   std::unique_ptr<ObjectStore> objects_;
-  ObjectKeeper keeper_;
+  ObjectCollector collector_;
   std::atomic<bool> draining_{false};
   std::atomic<std::int64_t> next_probe_{0};
   std::counting_semaphore<> probes_;
+  JobRunner runner_;
   std::unique_ptr<JobEngine> engine_;
 };
 

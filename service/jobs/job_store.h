@@ -1,9 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "core/base/result.h"
@@ -11,7 +11,7 @@
 
 namespace farhorizon {
 
-/// What a client hands in; becomes an accepted job.
+/// A job as it is submitted; Insert makes an accepted job of it.
 struct NewJob {
   std::string id;
   std::string filename;
@@ -21,13 +21,14 @@ struct NewJob {
   std::optional<std::string> idempotency_key;
 };
 
+/// The jobs that a page of the list is to have.
 struct JobQuery {
   std::vector<JobState> states;       ///< empty: all
-  std::optional<std::string> before;  ///< only jobs whose id is less: the page's cursor
+  std::optional<std::string> before;  ///< only jobs with a lesser id: the page's cursor
   int limit = 10;
 };
 
-/// Newest first. next: the cursor of the following page.
+/// Newest first. next: the cursor of the following page, unset on the last.
 struct JobPage {
   std::vector<Job> jobs;
   std::optional<std::string> next;
@@ -35,12 +36,12 @@ struct JobPage {
 
 enum class RequeueReason { kWorkerCrashed, kServiceStopped };
 
-/// Where jobs live. Every call that changes something is durable when it returns.
+/// The table of all jobs. A change is durable when its call returns.
 ///
 /// Properties, which the conformance suite holds every implementation to:
-/// (1) A change of state happens only where MayFollow allows it, and at most once.
-/// (2) A word from a run (`attempt`) counts only while that run is the job's present one: the calls
-///     that take an attempt answer false otherwise and change nothing.
+/// (1) A job's state changes only as MayFollow allows.
+/// (2) A call with an `attempt` has an effect only while the job is running and `attempt` is its
+///     current attempt; otherwise the call returns false.
 /// (3) One idempotency key makes at most one job.
 /// Errors, of every call: kIo where the store cannot be read or written, kResourceExhausted where
 /// the disk is full.
@@ -52,17 +53,18 @@ class JobStore {
   JobStore(const JobStore&) = delete;
   JobStore& operator=(const JobStore&) = delete;
 
-  /// Stores an accepted job; `second` is true where the key's job was there already and is answered.
-  /// Errors: kInvalidArgument "idempotency-key-reused" where the key came with another body or
-  ///   other parameters.
-  virtual Result<std::pair<Job, bool>> Insert(const NewJob& job, std::int64_t now_ms) = 0;
+  /// Stores an accepted job and returns it. If the store knows the idempotency key, stores nothing
+  /// and returns the key's job.
+  /// Errors: kInvalidArgument "idempotency-key-reused" where the key's job has another input, name
+  ///   or other parameters.
+  virtual Result<Job> Insert(const NewJob& job, std::int64_t now_ms) = 0;
 
   /// Errors: kNotFound.
   virtual Result<Job> Find(const std::string& id) = 0;
   virtual Result<JobPage> List(const JobQuery& query) = 0;
   virtual Result<std::int64_t> CountWaiting() = 0;
 
-  /// Takes the oldest accepted job and makes it running, with the next attempt.
+  /// Makes the oldest accepted job running, with the next attempt; nullopt if none is accepted.
   virtual Result<std::optional<Job>> ClaimNext(std::int64_t now_ms) = 0;
   virtual Result<bool> ReportProgress(const std::string& id, std::int64_t attempt, int progress,
                                       const std::string& message, std::int64_t now_ms) = 0;
@@ -76,18 +78,19 @@ class JobStore {
                                std::int64_t now_ms) = 0;
 
   /// An accepted or running job becomes dismissed; a finished one is removed with its artifacts.
-  /// Answers the job as it is shown last: dismissed. Errors: kNotFound.
+  /// Returns the dismissed job. Errors: kNotFound.
   virtual Result<Job> Dismiss(const std::string& id, std::int64_t now_ms) = 0;
 
-  /// Makes every running job accepted again: for the start of the only process on this store.
+  /// Makes every running job accepted again and returns their number. Requires: no job runs, as at
+  /// the start of the only process on this store.
   virtual Result<std::int64_t> RecoverRunning(std::int64_t now_ms) = 0;
 
-  /// By name. Empty unless the job is successful.
+  /// The job's artifacts in the order of their names. Empty unless the job is successful.
   virtual Result<std::vector<Artifact>> Artifacts(const std::string& id) = 0;
-  /// Whether any job's input or artifact is this object.
+  /// True if the object is the input or an artifact of a job.
   virtual Result<bool> IsReferenced(const std::string& sha256) = 0;
 
-  /// Whether the store can be written now.
+  /// Succeeds if the store can be written now.
   virtual Status Ping() = 0;
 };
 

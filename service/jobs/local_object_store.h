@@ -8,8 +8,9 @@
 
 namespace farhorizon {
 
-/// Objects as files, `root`/ab/<sha256>, read-only. PutFile and Materialise copy, so that nobody
-/// outside ever holds an object's own file; temporary files stand in `root`/temp.
+/// Objects as read-only files `root`/ab/<sha256>, where ab are the first two digits. PutFile and
+/// CopyTo copy bytes, so that no other process holds a descriptor of an object's own file;
+/// temporary files are in `root`/temp.
 /// Errors: kIo where the folder cannot be made.
 Result<std::unique_ptr<ObjectStore>> OpenLocalObjectStore(const std::filesystem::path& root);
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/base/result.h"
-#include "service/unique_fd.h"
+#include "core/io/unique_fd.h"
 
 namespace farhorizon {
 
@@ -16,17 +16,18 @@ struct OpenObject {
   std::int64_t bytes = 0;
 };
 
+/// The name and the size of a stored object.
 struct StoredObject {
   std::string sha256;
   std::int64_t bytes = 0;
 };
 
-/// Write-once files named by their content: uploads and artifacts.
+/// Write-once files named by the SHA-256 of their content: uploads and artifacts.
 ///
 /// Properties, which the conformance suite holds every implementation to:
-/// (1) What PutFile answered is durable and reads back byte for byte until Remove.
-/// (2) An object is never seen in part. (3) Putting the same bytes twice stores them once.
-/// Threads: safe; Remove of an object while it is put is the caller's to prevent.
+/// (1) An object that PutFile has answered is durable and reads back byte for byte until Remove.
+/// (2) A reader never finds a part of an object. (3) Putting the same bytes twice stores them once.
+/// Threads: safe; Requires: nobody removes an object while another thread puts it.
 class ObjectStore {
  public:
   ObjectStore() = default;
@@ -34,22 +35,24 @@ class ObjectStore {
   ObjectStore(const ObjectStore&) = delete;
   ObjectStore& operator=(const ObjectStore&) = delete;
 
-  /// Takes the file in, leaving `file` absent or as it was. Requires: a regular file, no link.
-  /// Errors: kIo, kResourceExhausted "no-space".
+  /// Stores the file's bytes. Afterwards `file` is gone or unchanged. Requires: a regular file, no
+  /// link. Errors: kIo, kResourceExhausted "no-space".
   virtual Result<StoredObject> PutFile(const std::filesystem::path& file) = 0;
 
   /// Errors: kNotFound.
   virtual Result<OpenObject> Open(const std::string& sha256) = 0;
 
-  /// Puts the object where a program that must not see the store can read it, as `target`.
-  virtual Status Materialise(const std::string& sha256, const std::filesystem::path& target) = 0;
+  /// Copies the object to the new file `target`, for a program that must not reach the store.
+  /// Errors: kNotFound; kIo "input-corrupt" where the stored bytes have another SHA-256.
+  virtual Status CopyTo(const std::string& sha256, const std::filesystem::path& target) = 0;
 
-  /// Absent ones are no error.
+  /// Removes the object if the store has it.
   virtual Status Remove(const std::string& sha256) = 0;
+  /// The names of all objects.
   virtual Result<std::vector<std::string>> List() = 0;
 };
 
-/// Whether `text` is a SHA-256 in lower-case hexadecimal.
+/// True for a SHA-256 in lower-case hexadecimal.
 bool IsSha256(const std::string& text);
 
 }  // namespace farhorizon

@@ -1,22 +1,25 @@
 #include "service/jobs/spool_file.h"
 
-#include <algorithm>
 #include <atomic>
 #include <fcntl.h>
+#include <unistd.h>
 
-#include "service/jobs/durable_file.h"
+#include "core/io/posix_file.h"
+#include "service/jobs/storage_file.h"
 
 namespace farhorizon {
 
 namespace {
+
 constexpr std::size_t kBeginningBytes = 4096;
+
 }  // namespace
 
 Result<SpoolFile> SpoolFile::Create(const std::filesystem::path& directory) {
   static std::atomic<std::int64_t> next{0};
   const std::filesystem::path path = directory / ("upload-" + std::to_string(next++));
   UniqueFd fd(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0600));
-  if (!fd) return FileError("make a spool file");
+  if (!fd) return StorageError("make a spool file");
   return SpoolFile(path, std::move(fd));
 }
 
@@ -25,13 +28,12 @@ SpoolFile::~SpoolFile() {
 }
 
 Status SpoolFile::Write(std::string_view bytes) {
-  Status written = WriteAll(fd_.get(), bytes);
-  if (!written) return written;
+  if (!WriteAll(fd_.get(), bytes)) return StorageError("write");
   if (beginning_.size() < kBeginningBytes) {
     beginning_ += bytes.substr(0, kBeginningBytes - beginning_.size());
   }
   bytes_ += static_cast<std::int64_t>(bytes.size());
-  return written;
+  return Done{};
 }
 
 }  // namespace farhorizon

@@ -6,11 +6,11 @@
 #include <string_view>
 
 #include "core/base/result.h"
-#include "service/unique_fd.h"
+#include "core/io/unique_fd.h"
 
 namespace farhorizon {
 
-/// An upload on its way: a private file that is removed with this object.
+/// A private file for the bytes of an upload; removed with this object.
 class SpoolFile {
  public:
   /// Makes a new file in `directory`. Errors: kIo, kResourceExhausted "no-space".
@@ -20,10 +20,11 @@ class SpoolFile {
   SpoolFile& operator=(SpoolFile&&) noexcept = delete;
   ~SpoolFile();
 
+  /// Appends `bytes`. Errors: as Create.
   Status Write(std::string_view bytes);
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   [[nodiscard]] std::int64_t bytes() const { return bytes_; }
-  /// The first bytes, at most 4096: enough to tell a format.
+  /// The first bytes, at most 4096: enough to recognise a raster format.
   [[nodiscard]] const std::string& beginning() const { return beginning_; }
 
  private:

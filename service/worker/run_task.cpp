@@ -7,49 +7,42 @@
 #include <new>
 #include <optional>
 #include <string>
-#include <unistd.h>
 
 #include "core/io/dem_reader.h"
-#include "core/io/files.h"
+#include "core/io/posix_file.h"
 #include "core/pipeline/build.h"
 #include "service/stage_timer.h"
-#include "service/worker/message.h"
+#include "service/worker/worker_protocol.h"
 
 namespace farhorizon {
 
 namespace {
 
-constexpr int kMessages = 3;
-constexpr std::chrono::milliseconds kBetweenReports{100};
+constexpr std::chrono::milliseconds kReportInterval{100};
 
-void Say(const WorkerMessage& message) {
-  const std::string line = WriteMessage(message);
-  std::size_t said = 0;
-  while (said < line.size()) {
-    const ssize_t size = ::write(kMessages, line.data() + said, line.size() - said);
-    if (size <= 0) return;  // nobody listens any more; the supervisor ends us
-    said += static_cast<std::size_t>(size);
-  }
+// A failure is ignored: if nothing reads the messages, the supervisor is about to kill this
+// process.
+void Send(const WorkerMessage& message) {
+  [[maybe_unused]] const bool sent = WriteAll(kWorkerMessageFd, WriteMessage(message));
 }
 
-/// Tells at once of a new stage and of a stage's end, and of steps between them now and then.
-Progress Telling() {
-  struct Told {
+// Sends a new stage and the end of a stage at once, and the share of a stage that is done at most
+// ten times a second.
+Progress SendProgress() {
+  struct Sent {
     std::optional<Stage> stage;
     std::chrono::steady_clock::time_point at;
   };
-  return [last = std::make_shared<Told>()](Stage stage, double done) {
+  return [last = std::make_shared<Sent>()](Stage stage, double done) {
     const auto now = std::chrono::steady_clock::now();
-    if (last->stage == stage && done < 1 && now - last->at < kBetweenReports) return;
+    if (last->stage == stage && done < 1 && now - last->at < kReportInterval) return;
     *last = {stage, now};
-    Say(WorkerProgress{stage, done});
+    Send(WorkerProgress{stage, done});
   };
 }
 
 Status Run(bool probe_only, StageTimer& timer) {
-  Result<std::string> text = ReadFile("task.json", 1U << 20U);
-  if (!text) return std::move(text.error());
-  Result<WorkerTask> task = ReadTask(*text);
+  Result<WorkerTask> task = ReadTaskFile();
   if (!task) return std::move(task.error());
   Result<BuildOptions> options = ParseOptions(task->parameters);
   if (!options) return std::move(options.error());
@@ -60,7 +53,8 @@ Status Run(bool probe_only, StageTimer& timer) {
     if (!dem) return std::move(dem.error());
     return Done{};
   }
-  return BuildArtifacts(task->input, task->output, *options, Watch{timer.Listen(Telling()), {}});
+  return BuildArtifacts(task->input, task->output, *options,
+                        Watch{timer.Listen(SendProgress()), {}});
 }
 
 }  // namespace
@@ -70,14 +64,15 @@ int RunTask(bool probe_only) {
     StageTimer timer;
     Status status = Run(probe_only, timer);
     if (!status) {
-      Say(status.error());
+      Send(status.error());
       return 1;
     }
-    Say(WorkerDone{timer.Seconds()});
+    Send(WorkerDone{timer.Seconds()});
     return 0;
   } catch (const std::bad_alloc&) {
-    Say(Error{ErrorCode::kResourceExhausted,
-              "the DEM needs more memory than a job may have; send a smaller one", "memory-limit"});
+    Send(Error{ErrorCode::kResourceExhausted,
+               "the DEM needs more memory than a job may have; send a smaller one",
+               "memory-limit"});
     return 1;
   } catch (const std::exception& bug) {
     std::fprintf(stderr, "internal error: %s\n", bug.what());

@@ -2,8 +2,9 @@
 
 namespace farhorizon {
 
-/// The worker process: does what task.json in the working directory says and tells descriptor 3.
-/// Returns its exit status: 0 done, 1 the data's fault, 70 ours.
+/// The worker process: does the task of the working directory's task.json and writes its messages
+/// to kWorkerMessageFd. probe_only: reads the raster and builds nothing.
+/// Returns the exit status: 0 done, 1 the data is at fault, 70 our own bug.
 int RunTask(bool probe_only);
 
 }  // namespace farhorizon

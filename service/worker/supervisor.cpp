@@ -12,6 +12,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "service/worker/worker_protocol.h"
+
 namespace farhorizon {
 
 namespace {
@@ -19,81 +21,82 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kLongestLine = 16384;
-constexpr std::streamoff kLastWordsBytes = 2000;
+constexpr std::streamoff kStderrTailBytes = 2000;
 
-/// Splits what a worker says into lines and keeps its last word.
-class Listener {
+// Splits a worker's bytes into messages, passes progress on and keeps the message that ends the
+// work.
+class MessageReader {
  public:
-  explicit Listener(const Progress& progress) : progress_(progress) {}
+  explicit MessageReader(const Progress& progress) : progress_(progress) {}
 
-  /// False where it speaks nonsense.
-  bool Hear(std::string_view bytes) {
+  // False where the bytes violate the protocol.
+  bool Add(std::string_view bytes) {
     buffer_ += bytes;
     std::size_t end = 0;
     while ((end = buffer_.find('\n')) != std::string::npos) {
-      if (!HearLine(std::string_view(buffer_).substr(0, end))) return false;
+      if (!AddLine(std::string_view(buffer_).substr(0, end))) return false;
       buffer_.erase(0, end + 1);
     }
     return buffer_.size() <= kLongestLine;
   }
-  [[nodiscard]] const std::optional<WorkerMessage>& last_word() const { return last_word_; }
+  [[nodiscard]] const std::optional<WorkerMessage>& final_message() const { return final_message_; }
 
  private:
-  bool HearLine(std::string_view line) {
+  bool AddLine(std::string_view line) {
     std::optional<WorkerMessage> message = ReadMessage(line);
-    if (!message || last_word_) return false;
+    if (!message || final_message_) return false;
     if (const auto* step = std::get_if<WorkerProgress>(&*message)) {
       if (progress_) progress_(step->stage, step->done);
     } else {
-      last_word_ = std::move(message);
+      final_message_ = std::move(message);
     }
     return true;
   }
 
   const Progress& progress_;
   std::string buffer_;
-  std::optional<WorkerMessage> last_word_;
+  std::optional<WorkerMessage> final_message_;
 };
 
-enum class Watched { kEnded, kStopped, kTimedOut, kNonsense };
+enum class WaitResult { kEnded, kStopped, kTimedOut, kProtocolError };
 
-/// Reads what there is; false where it is nonsense. open: cleared at the end of the stream.
-bool ReadSome(const Child& child, Listener& listener, bool& open) {
+// Reads once; false where the bytes violate the protocol. open: cleared at the end of the stream.
+bool ReadMessages(const ChildProcess& child, MessageReader& reader, bool& open) {
   std::array<char, 8192> bytes{};
-  const ssize_t size = ::read(child.messages(), bytes.data(), bytes.size());
+  const ssize_t size = ::read(child.message_fd(), bytes.data(), bytes.size());
   if (size < 0) return errno == EINTR || errno == EAGAIN;
   open = size > 0;
-  return listener.Hear({bytes.data(), static_cast<std::size_t>(size)});
+  return reader.Add({bytes.data(), static_cast<std::size_t>(size)});
 }
 
-/// Listens until the worker ends, or somebody or the clock says stop.
-Watched WatchChild(const Child& child, Listener& listener, int stop_event,
-                   Clock::time_point deadline) {
+// Reads messages until the worker ends, `stop_event` is readable or the deadline has passed.
+WaitResult WaitForChild(const ChildProcess& child, MessageReader& reader, int stop_event,
+                        Clock::time_point deadline) {
   bool open = true;
   for (;;) {
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now());
-    if (left.count() <= 0) return Watched::kTimedOut;
-    std::array<struct pollfd, 3> waits = {{{open ? child.messages() : -1, POLLIN, 0},
-                                           {child.end(), POLLIN, 0},
+    if (left.count() <= 0) return WaitResult::kTimedOut;
+    std::array<struct pollfd, 3> waits = {{{open ? child.message_fd() : -1, POLLIN, 0},
+                                           {child.pidfd(), POLLIN, 0},
                                            {stop_event, POLLIN, 0}}};
     const auto timeout = std::min<std::int64_t>(left.count(), 60'000);
     if (::poll(waits.data(), waits.size(), static_cast<int>(timeout)) < 0 && errno != EINTR) {
-      return Watched::kNonsense;
+      return WaitResult::kProtocolError;
     }
-    if (waits[2].revents != 0) return Watched::kStopped;
+    if (waits[2].revents != 0) return WaitResult::kStopped;
     if (waits[0].revents != 0) {
-      if (!ReadSome(child, listener, open)) return Watched::kNonsense;
+      if (!ReadMessages(child, reader, open)) return WaitResult::kProtocolError;
     } else if (waits[1].revents != 0) {
-      return Watched::kEnded;  // and nothing is left in the pipe
+      return WaitResult::kEnded;  // poll reported no unread message
     }
   }
 }
 
-std::string LastWords(const std::filesystem::path& directory) {
+std::string StderrTail(const std::filesystem::path& directory) {
   std::ifstream file(directory / "stderr.txt", std::ios::binary | std::ios::ate);
   if (!file) return {};
   const std::streamoff size = file.tellg();
-  file.seekg(std::max<std::streamoff>(0, size - kLastWordsBytes));
+  file.seekg(std::max<std::streamoff>(0, size - kStderrTailBytes));
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
@@ -107,13 +110,14 @@ WorkerOutcome TimedOut(const char* what) {
                      "; send a smaller DEM or ask for fewer levels");
 }
 
-/// Judges an end that nobody asked for.
-WorkerOutcome Judge(int status, const std::optional<WorkerMessage>& last_word) {
-  if (WIFEXITED(status) && last_word) {
-    if (const auto* done = std::get_if<WorkerDone>(&*last_word)) {
-      if (WEXITSTATUS(status) == 0)
+// The outcome of a worker that ended by itself. status: as of waitpid.
+WorkerOutcome OutcomeOfExit(int status, const std::optional<WorkerMessage>& final_message) {
+  if (WIFEXITED(status) && final_message) {
+    if (const auto* done = std::get_if<WorkerDone>(&*final_message)) {
+      if (WEXITSTATUS(status) == 0) {
         return {WorkerEnd::kDone, {ErrorCode::kIo, ""}, done->timings, {}};
-    } else if (const auto* error = std::get_if<Error>(&*last_word)) {
+      }
+    } else if (const auto* error = std::get_if<Error>(&*final_message)) {
       if (WEXITSTATUS(status) == 1) return {WorkerEnd::kFailed, *error, {}, {}};
     }
   }
@@ -124,7 +128,7 @@ WorkerOutcome Judge(int status, const std::optional<WorkerMessage>& last_word) {
       return Crashed(ErrorCode::kResourceExhausted, "file-limit",
                      "the work wrote a file larger than the limit; ask for fewer triangles");
     }
-    if (signal == SIGKILL) {  // not by us: the kernel, short of memory
+    if (signal == SIGKILL) {  // sent by the kernel, which is out of memory
       return Crashed(ErrorCode::kResourceExhausted, "memory-limit",
                      "the work was ended for want of memory; send a smaller DEM");
     }
@@ -145,30 +149,31 @@ WorkerOutcome RunWorker(const WorkerCall& call, const Progress& progress,
   const std::stop_callback wake(stop, [&stop_event] { ::eventfd_write(stop_event.get(), 1); });
   std::vector<std::string> arguments = {"worker"};
   if (call.probe_only) arguments.emplace_back("--probe");
-  Result<Child> child = Child::Start(call.program, arguments, call.directory, call.limits);
+  Result<ChildProcess> child =
+      ChildProcess::Start(call.program, arguments, call.directory, call.limits);
   if (!child) return {WorkerEnd::kCrashed, std::move(child.error()), {}, {}};
-  Listener listener(progress);
+  MessageReader reader(progress);
   const Clock::time_point deadline = Clock::now() + std::chrono::seconds(call.limits.wall_seconds);
-  const Watched watched = WatchChild(*child, listener, stop_event.get(), deadline);
-  if (watched != Watched::kEnded) child->Kill();
+  const WaitResult waited = WaitForChild(*child, reader, stop_event.get(), deadline);
+  if (waited != WaitResult::kEnded) child->Kill();
   const int status = child->Wait();
   WorkerOutcome outcome;
-  switch (watched) {
-    case Watched::kEnded:
-      outcome = Judge(status, listener.last_word());
+  switch (waited) {
+    case WaitResult::kEnded:
+      outcome = OutcomeOfExit(status, reader.final_message());
       break;
-    case Watched::kStopped:
+    case WaitResult::kStopped:
       outcome = {WorkerEnd::kStopped, {ErrorCode::kCancelled, "stopped", ""}, {}, {}};
       break;
-    case Watched::kTimedOut:
+    case WaitResult::kTimedOut:
       outcome = TimedOut("time");
       break;
-    case Watched::kNonsense:
+    case WaitResult::kProtocolError:
       outcome = Crashed(ErrorCode::kIo, "worker-crashed",
                         "the worker said what it should not; the fault is ours");
       break;
   }
-  outcome.last_words = LastWords(call.directory);
+  outcome.stderr_tail = StderrTail(call.directory);
   return outcome;
 }
 

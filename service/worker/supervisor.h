@@ -7,35 +7,36 @@
 
 #include "core/base/progress.h"
 #include "core/base/result.h"
-#include "service/worker/child.h"
-#include "service/worker/message.h"
+#include "service/worker/child_process.h"
 
 namespace farhorizon {
 
 enum class WorkerEnd {
-  kDone,     ///< it said so and ended well
-  kFailed,   ///< it said why: the data's or the task's fault; trying again would not help
-  kCrashed,  ///< it died, or was killed by a limit, or spoke nonsense
-  kStopped,  ///< we were asked to stop it
+  kDone,     ///< the worker sent that it is done, and exited with status 0
+  kFailed,   ///< the worker sent an error of the data or the task; a second run would have it too
+  kCrashed,  ///< the worker died, exceeded a limit or violated the protocol
+  kStopped,  ///< a stop was requested
 };
 
 struct WorkerOutcome {
   WorkerEnd end = WorkerEnd::kCrashed;
-  Error error = {ErrorCode::kIo, "", ""};  ///< set unless kDone; kind "worker-crashed",
-                                           ///< "memory-limit" or "timeout" where it crashed
+  /// Set unless `end` is kDone. Of a crash, the kind is "worker-crashed", "worker-not-started",
+  /// "memory-limit", "file-limit" or "timeout".
+  Error error = {ErrorCode::kIo, "", ""};
   std::map<std::string, double> timings;
-  std::string last_words;  ///< the end of its standard error, for the log
+  std::string stderr_tail;  ///< the end of the worker's standard error, for the log
 };
 
+/// How to start one worker process.
 struct WorkerCall {
-  std::string program = "/proc/self/exe";
+  std::string program;
   bool probe_only = false;          ///< read the raster, build nothing
-  std::filesystem::path directory;  ///< its own; holds task.json and the input
+  std::filesystem::path directory;  ///< the worker's own; contains task.json and the input
   WorkerLimits limits;
 };
 
-/// Runs a worker process to its end and says how that was. Whatever the worker does, this returns
-/// within the wall-clock limit and a moment.
+/// Runs a worker process to its end. Returns within the wall-clock limit and the time of a kill,
+/// whatever the worker does.
 WorkerOutcome RunWorker(const WorkerCall& call, const Progress& progress,
                         const std::stop_token& stop);
 

@@ -9,7 +9,7 @@
 
 #include "core/base/stage.h"
 #include "service/handlers/status_info.h"
-#include "service/worker/message.h"
+#include "service/worker/worker_protocol.h"
 #include "tests/support/json_schema.h"
 #include "tests/support/temp_dir.h"
 

@@ -22,9 +22,10 @@ class HandlersTest : public testing::Test {
   void SetUp() override {
     JobServiceOptions options;
     options.data = folder_ / "data";
-    options.engine.workers = 0;  // nothing runs: jobs stay where the test puts them
+    options.workers = 0;  // nothing runs: jobs stay where the test puts them
     options.max_waiting = 2;
-    options.probe_max_bytes = -1;  // no worker looks at uploads
+    options.min_free_bytes = 0;
+    options.probe.max_bytes = -1;  // no worker looks at uploads
     auto opened = JobService::Open(options);
     ASSERT_TRUE(opened) << opened.error().message;
     jobs_ = *std::move(opened);

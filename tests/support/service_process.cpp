@@ -34,7 +34,7 @@ Process::Process(const std::vector<std::string>& words, const std::vector<std::s
   std::vector<std::string> variables = environment;
   for (char** entry = environ; *entry != nullptr; ++entry) {
     const std::string_view variable = *entry;
-    // What configures a service of the user's, or these tests (FARHORIZON_DEM_DIR), is not for this one.
+    // Such variables configure another service, or these tests (FARHORIZON_DEM_DIR).
     if (!variable.starts_with("FARHORIZON_")) variables.emplace_back(variable);
   }
   const std::vector<char*> argument_list = Pointers(arguments);
@@ -88,7 +88,7 @@ RawAnswer Exchange(std::uint16_t port, const std::string& bytes) {
   std::size_t sent = 0;
   while (sent < bytes.size()) {
     const ssize_t size = ::send(fd, bytes.data() + sent, bytes.size() - sent, MSG_NOSIGNAL);
-    if (size <= 0) break;  // refused early: the answer tells
+    if (size <= 0) break;  // the service answered and closed before the end of the request
     sent += static_cast<std::size_t>(size);
   }
   std::string text;

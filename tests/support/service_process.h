@@ -9,10 +9,11 @@
 
 namespace farhorizon {
 
-/// `farhorizon` as a process of its own; killed with this object.
+/// A process of the program `farhorizon`; killed with this object.
 class Process {
  public:
-  /// environment: "NAME=value", beside that of the test. Standard error goes to the file `log`.
+  /// environment: "NAME=value", added to the environment of the test without its FARHORIZON_
+  /// variables. Standard error goes to the file `log`.
   Process(const std::vector<std::string>& words, const std::vector<std::string>& environment,
           const std::filesystem::path& log);
   Process(const Process&) = delete;
@@ -20,31 +21,33 @@ class Process {
   ~Process();
 
   void Signal(int signal) const;
-  /// Its exit status, or 128 + the signal that ended it; -1 where it has not ended by then.
+  /// Its exit status, or 128 + the signal that ended it; -1 where it runs longer
+  /// than `most`.
   int Wait(std::chrono::seconds most = std::chrono::seconds(60));
 
  private:
   pid_t pid_ = -1;
 };
 
-/// One answer, as it came over a socket.
+/// An HTTP response, as the bytes that a socket received.
 struct RawAnswer {
-  int status = 0;  ///< 0: the connection ended without one
+  int status = 0;  ///< 0: the connection ended without a response
   std::string head;
   std::string body;
 };
 
-/// Sends `bytes` to a port of loopback and reads until the other side closes, or 20 s have passed.
+/// Sends `bytes` to a port of loopback and reads until the service closes the connection or is
+/// silent for 20 s.
 RawAnswer Exchange(std::uint16_t port, const std::string& bytes);
 
-/// A whole request that ends its connection.
+/// Sends one complete request with "Connection: close".
 RawAnswer Ask(std::uint16_t port, const std::string& method, const std::string& target,
               const std::string& headers = "", const std::string& body = "");
 
-/// A connected socket, or -1.
+/// A socket that is connected to the port of loopback; -1 where none listens.
 int Connect(std::uint16_t port);
 
-/// The port that a service says in its log that it has; 0 where it says none within 20 s.
+/// The port that the log of a service names; 0 where it names none within 20 s.
 std::uint16_t PortOf(const std::filesystem::path& log);
 
 }  // namespace farhorizon

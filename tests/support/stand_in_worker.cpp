@@ -1,4 +1,4 @@
-// A worker that does what its input's name says, to see what the service makes of it.
+// A worker that misbehaves in the way that the name of its input tells, to test the service.
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -10,14 +10,15 @@
 #include <vector>
 
 #include "core/io/files.h"
-#include "service/worker/message.h"
+#include "core/io/posix_file.h"
+#include "service/worker/worker_protocol.h"
 
 namespace {
 
 using namespace farhorizon;
 
-void Say(const std::string& line) {
-  if (::write(3, line.data(), line.size()) < 0) std::_Exit(3);
+void Send(const std::string& line) {
+  if (!WriteAll(kWorkerMessageFd, line)) std::_Exit(3);
 }
 
 void WriteOne(const std::string& folder, const std::string& bytes) {
@@ -35,9 +36,9 @@ int Misbehave(const WorkerTask& task) {
   if (Named(task, "segv")) std::raise(SIGSEGV);
   if (Named(task, "exit3")) return 3;
   if (Named(task, "hang")) std::this_thread::sleep_for(std::chrono::hours(1));
-  if (Named(task, "nonsense")) Say("{\"done\": [[[[[[[[]]]]]]]]}\n");
+  if (Named(task, "nonsense")) Send("{\"done\": [[[[[[[[]]]]]]]]}\n");
   if (Named(task, "endless")) {
-    for (;;) Say(std::string(4096, 'x'));
+    for (;;) Send(std::string(4096, 'x'));
   }
   if (Named(task, "spin")) {
     for (volatile bool forever = true; forever;) {
@@ -51,24 +52,24 @@ int Misbehave(const WorkerTask& task) {
   if (Named(task, "liar")) {
     WriteOne(task.output, "{}");
     if (!WriteFile(task.output + "/report.json", "{ }")) return 4;
-    Say(WriteMessage(WorkerDone{}));
+    Send(WriteMessage(WorkerDone{}));
     return 0;
   }
   if (Named(task, "refused")) {
-    Say(WriteMessage(
+    Send(WriteMessage(
         Error{ErrorCode::kUnsupportedData, "the DEM has no reference system", "no-crs"}));
     return 1;
   }
   if (Named(task, "slow")) {
     for (int i = 0; i < 20; ++i) {
-      Say(WriteMessage(WorkerProgress{Stage::kSweep, i / 20.0}));
+      Send(WriteMessage(WorkerProgress{Stage::kSweep, i / 20.0}));
       std::this_thread::sleep_for(std::chrono::milliseconds(100));
     }
   }
   WriteOne(task.output, "{\"descriptors\": " + std::to_string(::access("/proc/self/fd/4", F_OK)) +
                             ", \"environment\": " +
                             (std::getenv("SECRET") != nullptr ? "\"open\"" : "\"closed\"") + "}");
-  Say(WriteMessage(WorkerDone{{{"sweep", 0.5}}}));
+  Send(WriteMessage(WorkerDone{{{"sweep", 0.5}}}));
   return 0;
 }
 
@@ -76,16 +77,14 @@ int Misbehave(const WorkerTask& task) {
 
 int main(int argc, char** argv) {
   const std::vector<std::string> words(argv, argv + argc);
-  Result<std::string> text = ReadFile("task.json");
-  if (!text) return 70;
-  Result<WorkerTask> task = ReadTask(*text);
+  Result<WorkerTask> task = ReadTaskFile();
   if (!task) return 70;
   if (words.back() != "--probe") return Misbehave(*task);
   if (Named(*task, "unreadable")) {
-    Say(WriteMessage(Error{ErrorCode::kResourceExhausted, "too large", "raster-too-large"}));
+    Send(WriteMessage(Error{ErrorCode::kResourceExhausted, "too large", "raster-too-large"}));
     return 1;
   }
   if (Named(*task, "probe-segv")) std::raise(SIGSEGV);
-  Say(WriteMessage(WorkerDone{}));
+  Send(WriteMessage(WorkerDone{}));
   return 0;
 }

@@ -31,13 +31,15 @@ declare -A may=(
   [core/io]="core/base core/geometry core/terrain core/horizon core/horizon/lines_of_sight core/horizon/trace core/geo"
   [core/pipeline]="$below_pipeline"
   [core/pipeline/verify]="$below_pipeline core/pipeline"
-  # The service's own root: configuration and the wrapper header of Asio. main.cpp is below.
+  # The service's own root: clock, log, and the wrapper header of Asio. main.cpp is below.
   [service]="core/base"
   [service/worker]="core/base core/io core/pipeline service"
   [service/jobs]="core/base core/io core/pipeline service service/worker"
   [service/handlers]="core/base core/io core/pipeline service service/jobs"
   [service/http]="core/base service service/handlers"
-  [service/cli]="core/base core/io core/pipeline service service/worker service/jobs service/handlers service/http core/pipeline/verify core/horizon core/horizon/search"
+  # The configuration consists of the options of the parts, so it stands above them.
+  [service/config]="core/base service service/worker service/jobs service/http"
+  [service/cli]="core/base core/io core/pipeline service service/worker service/jobs service/handlers service/http core/pipeline/verify core/horizon core/horizon/search service/config"
   [service/main.cpp]="core/base service service/cli"
 )
 
@@ -51,7 +53,7 @@ foreign=(
   'boost/multiprecision/ @ ^core/exact/'
   'boost/ @ ^service/asio\.h$ ^service/(http|worker|cli)/'
   'sqlite3 @ ^service/jobs/[a-z_0-9]+\.cpp$'
-  'nlohmann/ @ ^core/(io|pipeline)/[^/]+\.cpp$ ^service/[a-z_0-9]+\.(h|cpp)$ ^service/(handlers|jobs|worker|cli)/'
+  'nlohmann/ @ ^core/(io|pipeline)/[^/]+\.cpp$ ^service/[a-z_0-9]+\.(h|cpp)$ ^service/(handlers|jobs|worker|config|cli)/'
   'openssl/ @ ^core/io/[^/]+\.cpp$'
   'CLI/ @ ^service/(main\.cpp$|cli/)'
   # The system's own: files in core/io, processes and sockets in service.

@@ -12,7 +12,7 @@ expect() { # STATUS TEXT FILE INCLUDE: what check_layers.sh does when FILE inclu
   rm -rf "${tree:?}"/*
   mkdir -p "$tree/core/base" "$tree/service" "$(dirname "$tree/$3")"
   echo '#include <vector>' >"$tree/core/base/result.h"
-  echo '#include "core/base/result.h"' >"$tree/service/config.h"
+  echo '#include "core/base/result.h"' >"$tree/service/log.h"
   echo "#include $4" >>"$tree/$3"
   output=$("$check" "$tree" 2>&1) || status=$?
   if [[ $status -ne $1 || $output != *"$2"* ]]; then

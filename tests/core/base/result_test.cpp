@@ -52,5 +52,15 @@ TEST(Error, WithinPutsTheStepInFront) {
   EXPECT_EQ(outer.kind, "truncated");
 }
 
+TEST(ErrorCodeFromName, ReadsBackEveryName) {
+  for (const ErrorCode code :
+       {ErrorCode::kInvalidArgument, ErrorCode::kNotFound, ErrorCode::kUnsupportedData,
+        ErrorCode::kResourceExhausted, ErrorCode::kCancelled, ErrorCode::kIo}) {
+    EXPECT_EQ(ErrorCodeFromName(ErrorCodeName(code)), code);
+  }
+  EXPECT_EQ(ErrorCodeFromName("unknown"), std::nullopt);
+  EXPECT_EQ(ErrorCodeFromName(""), std::nullopt);
+}
+
 }  // namespace
 }  // namespace farhorizon

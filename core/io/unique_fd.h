@@ -1,11 +1,11 @@
 #pragma once
 
-#include <unistd.h>
 #include <utility>
 
 namespace farhorizon {
 
-/// A file descriptor that is closed once, by its owner.
+/// A file descriptor that its one owner closes. Destructor and Reset leave errno as it is, so that
+/// the cause of a failure survives them.
 class UniqueFd {
  public:
   UniqueFd() = default;
@@ -20,11 +20,12 @@ class UniqueFd {
   ~UniqueFd() { Reset(); }
 
   [[nodiscard]] int get() const { return fd_; }
+  /// True while a descriptor is held.
   explicit operator bool() const { return fd_ >= 0; }
-  void Reset(int fd = -1) {
-    if (fd_ >= 0) ::close(fd_);
-    fd_ = fd;
-  }
+  /// Closes the descriptor and holds `fd` instead.
+  void Reset(int fd = -1);
+  /// Closes the descriptor; false, with errno set, where closing reports a late write error.
+  bool Close();
 
  private:
   int fd_ = -1;

@@ -1,8 +1,10 @@
-#include "service/worker/message.h"
+#include "service/worker/worker_protocol.h"
 
-#include <cmath>
+#include <fstream>
 
 #include <nlohmann/json.hpp>
+
+#include "core/io/files.h"
 
 namespace farhorizon {
 
@@ -10,6 +12,8 @@ namespace {
 
 using nlohmann::json;
 
+constexpr const char* kTaskFile = "task.json";
+constexpr std::uintmax_t kLargestTask = 1U << 20U;
 constexpr std::size_t kLongestText = 2000;
 
 std::string Line(const json& object) {
@@ -68,6 +72,20 @@ Result<WorkerTask> ReadTask(const std::string& text) {
   } catch (const json::exception& failure) {
     return Error{ErrorCode::kInvalidArgument, std::string("worker's task: ") + failure.what()};
   }
+}
+
+Status WriteTaskFile(const std::filesystem::path& directory, const WorkerTask& task) {
+  std::ofstream file(directory / kTaskFile, std::ios::binary);
+  file << WriteTask(task);
+  file.close();
+  if (!file) return Error{ErrorCode::kIo, "write the worker's task", "storage"};
+  return Done{};
+}
+
+Result<WorkerTask> ReadTaskFile() {
+  Result<std::string> text = ReadFile(kTaskFile, kLargestTask);
+  if (!text) return std::move(text.error());
+  return ReadTask(*text);
 }
 
 std::string WriteMessage(const WorkerMessage& message) {

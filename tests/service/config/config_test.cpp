@@ -1,4 +1,4 @@
-#include "service/config.h"
+#include "service/config/config.h"
 
 #include <fstream>
 #include <iterator>
@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "service/config/config_keys.h"
+#include "service/config/load_config.h"
 #include "tests/support/temp_dir.h"
 
 namespace farhorizon {
@@ -29,6 +31,22 @@ TEST(Config, EveryKeyHasItsOwnNameVariableAndHelp) {
   EXPECT_TRUE(variables.count("FARHORIZON_HTTP_MAX_BODY_BYTES"));
 }
 
+TEST(Config, EveryKeyHasItsOwnField) {
+  for (const ConfigKey& key : ConfigKeys()) {
+    Config config;
+    ConfigValue value = std::string("other");
+    if (!key.choices.empty()) value = key.choices.back();
+    if (!key.IsText()) value = key.most;
+    ASSERT_NE(key.get(config), value) << key.name;
+    key.set(config, value);
+    EXPECT_EQ(key.get(config), value) << key.name;
+    for (const ConfigKey& other : ConfigKeys()) {
+      if (other.name == key.name) continue;
+      EXPECT_EQ(other.get(config), other.get(Config{})) << key.name << " and " << other.name;
+    }
+  }
+}
+
 TEST(Config, FlagsComeBeforeEnvironmentBeforeFileBeforeDefaults) {
   const TempDir folder;
   std::ofstream(folder.path() / "c.json")
@@ -38,8 +56,8 @@ TEST(Config, FlagsComeBeforeEnvironmentBeforeFileBeforeDefaults) {
                  {{"workers", "5"}});
   ASSERT_TRUE(loaded);
   EXPECT_EQ(loaded->config.workers, 5);
-  EXPECT_EQ(loaded->config.data, "e");
-  EXPECT_EQ(loaded->config.http_io_threads, 3);
+  EXPECT_EQ(loaded->config.jobs.data, "e");
+  EXPECT_EQ(loaded->config.http.io_threads, 3);
   EXPECT_EQ(loaded->config.listen, "127.0.0.1:8080");
   EXPECT_EQ(loaded->origins.at("workers"), "the command line");
   EXPECT_EQ(loaded->origins.at("data"), "FARHORIZON_DATA");

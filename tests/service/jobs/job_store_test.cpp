@@ -1,5 +1,4 @@
-// What every JobStore and ObjectStore must do, whatever it is made of. A new implementation adds a
-// line to the lists at the end.
+// The properties of every JobStore. A new implementation adds a line to INSTANTIATE_TEST_SUITE_P.
 #include <atomic>
 #include <functional>
 #include <memory>
@@ -8,8 +7,6 @@
 
 #include <gtest/gtest.h>
 
-#include "service/jobs/local_object_store.h"
-#include "service/jobs/object_keeper.h"
 #include "service/jobs/sqlite_job_store.h"
 #include "tests/support/temp_dir.h"
 
@@ -32,7 +29,7 @@ class JobStoreConformance : public testing::TestWithParam<OpenJobs> {
                std::string(64, content[0]), 5,         key};
     auto inserted = store_->Insert(job, time_);
     EXPECT_TRUE(inserted);
-    return inserted->first;
+    return *inserted;
   }
   Job Claim() {
     auto claimed = store_->ClaimNext(++time_);
@@ -116,7 +113,7 @@ TEST_P(JobStoreConformance, KeepsTheFailure) {
   EXPECT_EQ(found->failure->message, "no reference system");
 }
 
-TEST_P(JobStoreConformance, HearsNoWordOfAnEarlierAttempt) {
+TEST_P(JobStoreConformance, IgnoresAnEarlierAttempt) {
   Insert();
   const Job earlier = Claim();
   ASSERT_TRUE(
@@ -152,7 +149,7 @@ TEST_P(JobStoreConformance, DismissalAndPublicationHaveOneWinner) {
     ASSERT_TRUE(store_->Dismiss(job.id, time_));
     publisher.join();
     const auto found = store_->Find(job.id);
-    // Published first: the dismissal removed it. Dismissed first: it stays so.
+    // If publication was first, the dismissal removed the job; if not, the job stays dismissed.
     EXPECT_EQ(found.has_value(), !published);
     if (found) {
       EXPECT_EQ(found->state, JobState::kDismissed);
@@ -182,7 +179,7 @@ TEST_P(JobStoreConformance, ProgressNeverFalls) {
   EXPECT_EQ(store_->Find(job.id)->message, "encode");
 }
 
-TEST_P(JobStoreConformance, TakesUpWhatWasRunning) {
+TEST_P(JobStoreConformance, MakesRunningJobsAcceptedAgain) {
   const Job waiting = Insert();
   const Job running = Claim();
   Reopen();
@@ -196,8 +193,7 @@ TEST_P(JobStoreConformance, OneKeyMakesOneJob) {
   NewJob again{NewJobId(++time_), "dem.tif", {{"levels", "2"}}, first.input_sha256, 5, "key"};
   const auto replayed = store_->Insert(again, time_);
   ASSERT_TRUE(replayed);
-  EXPECT_TRUE(replayed->second);
-  EXPECT_EQ(replayed->first.id, first.id);
+  EXPECT_EQ(replayed->id, first.id);
   again.input_sha256 = std::string(64, 'f');
   EXPECT_EQ(store_->Insert(again, time_).error().kind, "idempotency-key-reused");
   again.input_sha256 = first.input_sha256;
@@ -217,7 +213,7 @@ TEST_P(JobStoreConformance, PagesThroughAllJobsNewestFirst) {
     for (const Job& job : page->jobs) seen.push_back(job.id);
     if (!page->next) break;
     query.before = page->next;
-    Insert();  // what comes meanwhile moves nothing
+    Insert();  // a job that is added between two pages is on neither
   }
   EXPECT_EQ(seen, ids);
 }
@@ -259,70 +255,6 @@ TEST(SqliteJobStore, SeesAByteTurnedInItsPages) {
   for (std::size_t i = 4096; i < 4096 + 64 && i < bytes.size(); ++i) bytes[i] = '\x5A';
   SpillFile(path, bytes);
   EXPECT_FALSE(OpenSqliteJobStore(path));
-}
-
-class ObjectStoreTest : public testing::Test {
- protected:
-  void SetUp() override {
-    auto opened = OpenLocalObjectStore(folder_ / "objects");
-    ASSERT_TRUE(opened);
-    store_ = *std::move(opened);
-  }
-  std::string Put(const std::string& bytes) {
-    SpillFile(folder_ / "file", bytes);
-    auto stored = store_->PutFile(folder_ / "file");
-    EXPECT_TRUE(stored);
-    return stored->sha256;
-  }
-
-  TempDir folder_;
-  std::unique_ptr<ObjectStore> store_;
-};
-
-TEST_F(ObjectStoreTest, GivesBackWhatItWasGiven) {
-  const std::string name = Put("hello");
-  EXPECT_EQ(name, "2cf24dba5fb0a30e26e83b2ac5b9e29e1b161e5c1fa7425e73043362938b9824");
-  EXPECT_EQ(store_->Open(name)->bytes, 5);
-  ASSERT_TRUE(store_->Materialise(name, folder_ / "copy"));
-  EXPECT_EQ(SlurpFile(folder_ / "copy"), "hello");
-  EXPECT_FALSE(std::filesystem::exists(folder_ / "file"));
-}
-
-TEST_F(ObjectStoreTest, StoresTheSameBytesOnce) {
-  EXPECT_EQ(Put("a"), Put("a"));
-  EXPECT_EQ(store_->List()->size(), 1U);
-}
-
-TEST_F(ObjectStoreTest, ForgetsWhatIsRemoved) {
-  const std::string name = Put("a");
-  EXPECT_TRUE(store_->Remove(name));
-  EXPECT_TRUE(store_->Remove(name));
-  EXPECT_EQ(store_->Open(name).error().code, ErrorCode::kNotFound);
-}
-
-TEST_F(ObjectStoreTest, FollowsNoLink) {
-  SpillFile(folder_ / "secret", "s");
-  std::filesystem::create_symlink(folder_ / "secret", folder_ / "link");
-  EXPECT_FALSE(store_->PutFile(folder_ / "link"));
-  EXPECT_FALSE(store_->Open("../secret"));
-}
-
-TEST_F(ObjectStoreTest, SeesADamagedObjectBeforeAWorkerDoes) {
-  const std::string name = Put("hello");
-  const auto path = folder_ / "objects" / name.substr(0, 2) / name;
-  std::filesystem::permissions(path, std::filesystem::perms::owner_all);
-  SpillFile(path, "hellp");
-  EXPECT_EQ(store_->Materialise(name, folder_ / "copy").error().kind, "input-corrupt");
-}
-
-TEST_F(ObjectStoreTest, KeepsWhatARowNamesAndNothingElse) {
-  auto jobs = OpenSqliteJobStore(folder_ / "jobs.sqlite");
-  ASSERT_TRUE(jobs);
-  const std::string named = Put("named");
-  Put("unnamed");
-  ASSERT_TRUE((*jobs)->Insert({NewJobId(1), "a", {}, named, 5, {}}, 1));
-  ASSERT_TRUE(ObjectKeeper(**jobs, *store_).RemoveAllUnnamed());
-  EXPECT_EQ(*store_->List(), std::vector<std::string>{named});
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
@@ -12,7 +14,10 @@
 
 namespace farhorizon {
 
-/// What a worker is asked to do; stands as task.json in its working directory.
+/// The descriptor to which a worker writes its messages.
+constexpr int kWorkerMessageFd = 3;
+
+/// The work of one worker process; the file task.json of its working directory.
 struct WorkerTask {
   std::string input;      ///< the raster, relative to the working directory
   std::string output;     ///< the folder for the artifacts, likewise
@@ -25,8 +30,13 @@ std::string WriteTask(const WorkerTask& task);
 /// Errors: kInvalidArgument.
 Result<WorkerTask> ReadTask(const std::string& text);
 
-/// What a worker says, a JSON object a line on its descriptor 3: how far it is, and once at its end
-/// that it is done or why not.
+/// Writes `directory`/task.json. Errors: kIo "storage".
+Status WriteTaskFile(const std::filesystem::path& directory, const WorkerTask& task);
+/// Reads task.json of the working directory. Errors: as ReadFile and ReadTask.
+Result<WorkerTask> ReadTaskFile();
+
+/// A worker's messages, one JSON object a line: progress any number of times, then at most once
+/// that the work is done or the error that stopped it.
 struct WorkerProgress {
   Stage stage = Stage::kRead;
   double done = 0;
@@ -38,8 +48,8 @@ using WorkerMessage = std::variant<WorkerProgress, WorkerDone, Error>;
 
 /// One line, with its newline.
 std::string WriteMessage(const WorkerMessage& message);
-/// nullopt for anything that WriteMessage does not write: a worker may have been taken over by what
-/// it reads.
+/// nullopt for anything that WriteMessage does not write: a hostile raster may have taken control
+/// of the worker.
 std::optional<WorkerMessage> ReadMessage(std::string_view line);
 
 }  // namespace farhorizon

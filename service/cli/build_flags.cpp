@@ -1,4 +1,4 @@
-#include "service/cli/wishes.h"
+#include "service/cli/build_flags.h"
 
 #include <algorithm>
 #include <thread>
@@ -7,19 +7,19 @@ namespace farhorizon {
 
 namespace {
 
-void Add(CLI::App& command, Wishes& wishes, const char* flag, const char* parameter,
+void Add(CLI::App& command, BuildFlags& flags, const char* flag, const char* parameter,
          const char* type, const char* help) {
   command
       .add_option_function<std::string>(
           flag,
-          [&wishes, parameter](const std::string& value) { wishes.parameters[parameter] = value; },
+          [&flags, parameter](const std::string& value) { flags.parameters[parameter] = value; },
           help)
       ->type_name(type);
 }
 
 }  // namespace
 
-Result<BuildOptions> Wishes::Options() const {
+Result<BuildOptions> BuildFlags::Options() const {
   Result<BuildOptions> options = ParseOptions(parameters);
   if (!options) return options;
   const int cores = static_cast<int>(std::thread::hardware_concurrency());
@@ -29,39 +29,39 @@ Result<BuildOptions> Wishes::Options() const {
   return options;
 }
 
-void AddBuildWishes(CLI::App& command, Wishes& wishes) {
-  Add(command, wishes, "--levels", "levels", "N",
+void AddBuildFlags(CLI::App& command, BuildFlags& flags) {
+  Add(command, flags, "--levels", "levels", "N",
       "number of levels of detail, 1 to 12; level 0 is the finest (5)");
-  Add(command, wishes, "--max-error", "maxError", "M",
+  Add(command, flags, "--max-error", "maxError", "M",
       "vertical error that level 0 may have, metres; each further level may have twice the one "
       "before (an eighth of the cell size)");
-  Add(command, wishes, "--silhouette-error", "silhouetteError", "M",
+  Add(command, flags, "--silhouette-error", "silhouetteError", "M",
       "silhouette error that level 0 may have, metres; 0 keeps every horizon edge (0)");
-  Add(command, wishes, "--formats", "formats", "a,b,...",
+  Add(command, flags, "--formats", "formats", "a,b,...",
       "of 3dtiles, drc, geojson, flatgeobuf (3dtiles,drc,geojson)");
-  AddReadWishes(command, wishes);
-  AddWorkWishes(command, wishes);
+  AddReadFlags(command, flags);
+  AddWorkFlags(command, flags);
 }
 
-void AddReadWishes(CLI::App& command, Wishes& wishes) {
-  Add(command, wishes, "--crs", "crs", "CRS", "reference system, instead of the file's");
-  Add(command, wishes, "--vertical-datum", "verticalDatum", "CRS",
+void AddReadFlags(CLI::App& command, BuildFlags& flags) {
+  Add(command, flags, "--crs", "crs", "CRS", "reference system, instead of the file's");
+  Add(command, flags, "--vertical-datum", "verticalDatum", "CRS",
       "vertical reference system, instead of the file's");
-  Add(command, wishes, "--nodata", "nodata", "H", "height that stands for no data");
+  Add(command, flags, "--nodata", "nodata", "H", "height that stands for no data");
 }
 
-void AddWorkWishes(CLI::App& command, Wishes& wishes) {
-  Add(command, wishes, "--work-budget", "workBudget", "N",
+void AddWorkFlags(CLI::App& command, BuildFlags& flags) {
+  Add(command, flags, "--work-budget", "workBudget", "N",
       "decisions about edges after which to give up (2000 for each edge of the terrain, at least a "
       "billion)");
   command.add_flag_callback(
-      "--approximate", [&wishes] { wishes.parameters["approximate"] = "true"; },
+      "--approximate", [&flags] { flags.parameters["approximate"] = "true"; },
       "where the work budget does not suffice, keep what is undecided, marked as such");
 }
 
-void AddThreads(CLI::App& command, Wishes& wishes) {
+void AddThreads(CLI::App& command, BuildFlags& flags) {
   command
-      .add_option("--threads", wishes.threads,
+      .add_option("--threads", flags.threads,
                   "threads to work with; never changes a byte of the result (all cores)")
       ->check(CLI::Range(1, 1024))
       ->type_name("N");

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <string>
+#include <type_traits>
+#include <utility>
+
+#include <CLI/CLI.hpp>
+
+#include "core/base/progress.h"
+#include "core/base/result.h"
+#include "core/pipeline/build.h"
+#include "core/pipeline/progress_plan.h"
+#include "service/cli/build_flags.h"
+#include "service/cli/reporter.h"
+#include "service/cli/signals.h"
+
+namespace farhorizon {
+
+/// The formats of the positional argument DEM, for help.
+constexpr const char* kDemFormats = "GeoTIFF, ASCII grid, SRTM HGT, DTED, USGS DEM or ENVI";
+
+/// The arguments that every command on a DEM has.
+struct DemArguments {
+  std::string path;
+  BuildFlags flags;
+  ReporterOptions reporter;
+};
+
+/// Adds the positional argument DEM. Requires: `arguments` outlives the parse.
+void AddDem(CLI::App& command, DemArguments& arguments, const char* help = kDemFormats);
+/// Adds --threads and --progress. Requires: as above.
+void AddRunFlags(CLI::App& command, DemArguments& arguments);
+
+/// A command while it works: its options, progress, and a stop token for SIGINT and SIGTERM.
+struct DemRun {
+  const BuildOptions& options;
+  Reporter& reporter;
+  Watch watch;
+};
+
+/// Calls work(const DemRun&) and returns its Result, after the progress bar was removed.
+/// workflow: the stages that `work` goes through.
+/// Errors: those of BuildFlags::Options and of `work`.
+template <typename Work>
+auto RunOnDem(const DemArguments& arguments, Workflow workflow, Work work)
+    -> std::invoke_result_t<Work, const DemRun&> {
+  Result<BuildOptions> options = arguments.flags.Options();
+  if (!options) return std::move(options.error());
+  const StopOnSignal signals;
+  Reporter reporter(arguments.reporter);
+  const Watch watch{reporter.progress(workflow), signals.token(), reporter.notice()};
+  return work(DemRun{*options, reporter, watch});
+}
+
+}  // namespace farhorizon

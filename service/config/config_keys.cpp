@@ -1,0 +1,198 @@
+// The table of all keys: the name, the field, the limits and the help of each are here and nowhere
+// else. The default of a key is that of its field.
+#include "service/config/config_keys.h"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <type_traits>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+namespace farhorizon {
+
+namespace {
+
+constexpr std::int64_t kDay = 86400;
+constexpr std::int64_t kTebibyte = std::int64_t{1} << 40U;
+
+// A function from a Config to the field at the end of a path: a member of Config, a member of that
+// member, and so on.
+template <typename... Members>
+auto Path(Members... members) {
+  return [members...](auto& config) -> auto& { return (config.*....*members); };
+}
+
+// field: an integer or a duration in seconds.
+template <typename Field>
+ConfigKey Number(std::string name, Field field, std::int64_t least, std::int64_t most,
+                 std::string help) {
+  const auto get = [field](const Config& config) -> ConfigValue {
+    const auto value = field(config);
+    if constexpr (std::is_integral_v<decltype(value)>) {
+      return static_cast<std::int64_t>(value);
+    } else {
+      return static_cast<std::int64_t>(value.count());
+    }
+  };
+  const auto set = [field](Config& config, const ConfigValue& value) {
+    auto& target = field(config);
+    target = static_cast<std::remove_reference_t<decltype(target)>>(std::get<std::int64_t>(value));
+  };
+  return {std::move(name), std::move(help), least, most, {}, get, set};
+}
+
+// field: a string or a path.
+template <typename Field>
+ConfigKey Text(std::string name, Field field, std::string help) {
+  const auto get = [field](const Config& config) -> ConfigValue {
+    return std::string(field(config));
+  };
+  const auto set = [field](Config& config, const ConfigValue& value) {
+    field(config) = std::get<std::string>(value);
+  };
+  return {std::move(name), std::move(help), 0, 0, {}, get, set};
+}
+
+// field: an enum whose enumerators have `names`, in this order.
+template <typename Field, std::size_t kCount>
+ConfigKey Choice(std::string name, Field field, const std::array<const char*, kCount>& names,
+                 std::string help) {
+  const std::vector<std::string> choices(names.begin(), names.end());
+  const auto get = [field, choices](const Config& config) -> ConfigValue {
+    return choices.at(static_cast<std::size_t>(field(config)));
+  };
+  const auto set = [field, choices](Config& config, const ConfigValue& value) {
+    const auto found = std::find(choices.begin(), choices.end(), std::get<std::string>(value));
+    auto& target = field(config);
+    target = static_cast<std::remove_reference_t<decltype(target)>>(
+        std::distance(choices.begin(), found));
+  };
+  return {std::move(name), std::move(help), 0, 0, choices, get, set};
+}
+
+std::vector<ConfigKey> HttpKeys() {
+  const auto http = [](auto field) { return Path(&Config::http, field); };
+  return {
+      Number("http.ioThreads", http(&ServerOptions::io_threads), 1, 64, "threads that move bytes"),
+      Number("http.handlerThreads", http(&ServerOptions::handler_threads), 1, 256,
+             "threads that answer requests"),
+      Number("http.maxBodyBytes", Path(&Config::max_body_bytes), 1, kTebibyte,
+             "largest upload taken; larger ones get 413"),
+      Number("http.maxHeadBytes", http(&ServerOptions::max_head_bytes), 1024, 1 << 20,
+             "largest request head taken; larger ones get 431"),
+      Number("http.headSeconds", http(&ServerOptions::head_time), 1, kDay,
+             "time for a request's head to come in"),
+      Number("http.idleSeconds", http(&ServerOptions::idle_time), 1, kDay,
+             "time that a connection may wait between requests"),
+      Number("http.bodyGraceSeconds", http(&ServerOptions::body_grace), 1, kDay,
+             "time before the least rate of a body counts"),
+      Number("http.bodyBytesPerSecond", http(&ServerOptions::body_bytes_per_second), 1, kTebibyte,
+             "least rate of a body"),
+      Number("http.writeSeconds", http(&ServerOptions::write_time), 1, kDay,
+             "time for a client to take each 64 KiB of an answer"),
+      Number("http.maxConnections", http(&ServerOptions::max_connections), 1, 1'000'000,
+             "connections at once; more get 503"),
+      Number("http.maxConnectionsPerAddress", http(&ServerOptions::max_connections_per_address), 1,
+             1'000'000, "connections at once from one address"),
+      Text("http.corsOrigin", http(&ServerOptions::cors_origin),
+           "web pages of which origin may read answers: * for all, empty for none"),
+  };
+}
+
+std::vector<ConfigKey> JobKeys() {
+  const auto jobs = [](auto... fields) { return Path(&Config::jobs, fields...); };
+  return {
+      Number("jobs.maxWaiting", jobs(&JobServiceOptions::max_waiting), 1, 1'000'000,
+             "jobs that may wait; more are refused with 503"),
+      Number("jobs.maxPosts", jobs(&JobServiceOptions::runner, &RunnerOptions::max_posts), 4,
+             1'000'000'000, "largest DEM taken, in posts; larger ones get 413"),
+      Number("jobs.minFreeBytes", jobs(&JobServiceOptions::min_free_bytes), 0, kTebibyte,
+             "room on the disk below which uploads are refused with 507"),
+      Number("jobs.drainSeconds", Path(&Config::drain_time), 0, kDay,
+             "time that running jobs get to end when the service is stopped"),
+  };
+}
+
+std::vector<ConfigKey> WorkerKeys() {
+  const auto runner = [](auto... fields) {
+    return Path(&Config::jobs, &JobServiceOptions::runner, fields...);
+  };
+  const auto limit = [&](auto field) { return runner(&RunnerOptions::limits, field); };
+  const auto probe = [](auto field) {
+    return Path(&Config::jobs, &JobServiceOptions::probe, field);
+  };
+  return {
+      Text("worker.program", runner(&RunnerOptions::worker_program),
+           "the program that does a job's work: this one"),
+      Number("worker.threads", runner(&RunnerOptions::threads), 1, 1024, "threads of each worker"),
+      Number("worker.memoryBytes", limit(&WorkerLimits::memory_bytes), 1 << 28, kTebibyte,
+             "address space of a worker"),
+      Number("worker.wallSeconds", limit(&WorkerLimits::wall_seconds), 1, 30 * kDay,
+             "time that a job may take"),
+      Number("worker.cpuSeconds", limit(&WorkerLimits::cpu_seconds), 1, 30 * kDay,
+             "processor time that a job may take, of all threads together"),
+      Number("worker.fileBytes", limit(&WorkerLimits::file_bytes), 1 << 20, kTebibyte,
+             "largest file that a worker may write"),
+      Number("probe.maxBytes", probe(&ProbeOptions::max_bytes), 0, kTebibyte,
+             "largest upload that is read before its 201; larger ones are read by their job"),
+      Number("probe.memoryBytes", probe(&ProbeOptions::memory_bytes), 1 << 28, kTebibyte,
+             "address space of that reading"),
+      Number("probe.wallSeconds", probe(&ProbeOptions::wall_seconds), 1, 3600,
+             "time for that reading"),
+  };
+}
+
+std::vector<ConfigKey> AllKeys() {
+  std::vector<ConfigKey> keys = {
+      Text("listen", Path(&Config::listen),
+           "HOST:PORT to listen on; port 0 takes any that is free"),
+      Text("data", Path(&Config::jobs, &JobServiceOptions::data),
+           "the folder for jobs, uploads and artifacts"),
+      Text("publicUrl", Path(&Config::public_url),
+           "the URL under which clients reach the service; empty: http:// and the address"),
+      Number("workers", Path(&Config::workers), 0, 1024,
+             "jobs at once; 0: as many as there are cores"),
+  };
+  for (std::vector<ConfigKey> section : {HttpKeys(), JobKeys(), WorkerKeys()}) {
+    std::move(section.begin(), section.end(), std::back_inserter(keys));
+  }
+  keys.push_back(Choice("log.level", Path(&Config::log, &LogOptions::level), kLogLevelNames,
+                        "the least that is logged"));
+  keys.push_back(Choice("log.format", Path(&Config::log, &LogOptions::format), kLogFormatNames,
+                        "auto: text on a terminal, else JSON"));
+  return keys;
+}
+
+}  // namespace
+
+bool ConfigKey::IsText() const { return std::holds_alternative<std::string>(get(Config{})); }
+
+std::string ConfigKey::Environment() const {
+  std::string variable(kEnvironmentPrefix);
+  for (const char c : name) {
+    if (c >= 'A' && c <= 'Z') variable += '_';
+    variable += c == '.' ? '_' : c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+  }
+  return variable;
+}
+
+const std::vector<ConfigKey>& ConfigKeys() {
+  static const std::vector<ConfigKey> keys = AllKeys();
+  return keys;
+}
+
+std::string WriteConfig(const Config& config) {
+  using nlohmann::ordered_json;
+  ordered_json document = ordered_json::object();
+  for (const ConfigKey& key : ConfigKeys()) {
+    const std::size_t dot = key.name.find('.');
+    ordered_json& section = dot == std::string::npos ? document : document[key.name.substr(0, dot)];
+    const std::string leaf = dot == std::string::npos ? key.name : key.name.substr(dot + 1);
+    std::visit([&](const auto& value) { section[leaf] = value; }, key.get(config));
+  }
+  return document.dump(2) + "\n";
+}
+
+}  // namespace farhorizon

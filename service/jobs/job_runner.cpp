@@ -1,0 +1,169 @@
+#include "service/jobs/job_runner.h"
+
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <system_error>
+
+#include "core/pipeline/progress_plan.h"
+#include "service/clock.h"
+#include "service/jobs/collect_artifacts.h"
+#include "service/log.h"
+#include "service/worker/worker_protocol.h"
+
+namespace farhorizon {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::chrono::milliseconds kReportInterval{500};
+constexpr std::chrono::milliseconds kRetryInterval{1000};
+constexpr std::int64_t kMaxRestarts = 1;
+
+}  // namespace
+
+JobRunner::JobRunner(JobStore& jobs, ObjectStore& objects, ObjectCollector& collector,
+                     fs::path work_directory, RunnerOptions options)
+    : jobs_(jobs),
+      objects_(objects),
+      collector_(collector),
+      work_directory_(std::move(work_directory)),
+      options_(std::move(options)) {}
+
+void JobRunner::Run(const Job& job, const std::stop_token& stop) {
+  Log(LogLevel::kInfo, "job starts", {{"job_id", job.id}, {"attempt", job.attempt}});
+  const fs::path directory = work_directory_ / (job.id + "-" + std::to_string(job.attempt));
+  try {
+    // A dismissal between the claim and this line had no worker to stop.
+    Result<bool> current = jobs_.ReportProgress(job.id, job.attempt, 0, "starting", NowMs());
+    if (current && !*current) return;
+    Status prepared = Prepare(job, directory);
+    if (!prepared) {
+      StoreFailure(job, prepared.error(), stop);
+    } else {
+      const WorkerCall call{options_.worker_program, false, directory, options_.limits};
+      StoreOutcome(job, RunWorker(call, ReportTo(job), stop), directory, stop);
+    }
+  } catch (const std::exception& bug) {
+    Log(LogLevel::kError, "internal error", {{"job_id", job.id}, {"error", bug.what()}});
+    StoreFailure(job,
+                 {ErrorCode::kIo, "the service failed inside; the fault is ours", "internal-error"},
+                 stop);
+  }
+  std::error_code ignored;
+  fs::remove_all(directory, ignored);
+}
+
+Status JobRunner::Prepare(const Job& job, const fs::path& directory) {
+  std::error_code failure;
+  fs::remove_all(directory, failure);
+  fs::create_directories(directory / "in", failure);
+  if (!failure) fs::create_directory(directory / "out", failure);
+  if (failure) {
+    return Error{ErrorCode::kIo, "make a working folder: " + failure.message(), "storage"};
+  }
+  const fs::path input = fs::path("in") / job.filename;
+  Status copied = objects_.CopyTo(job.input_sha256, directory / input);
+  if (!copied) return copied;
+  return WriteTaskFile(
+      directory, {input.string(), "out", job.parameters, options_.max_posts, options_.threads});
+}
+
+// Stores a new stage at most ten times a second, and the share of one that is done at most twice.
+Progress JobRunner::ReportTo(const Job& job) {
+  using Clock = std::chrono::steady_clock;
+  struct Shown {
+    OverallProgress overall{Workflow::kBuild};
+    std::optional<Stage> stage;
+    Clock::time_point at;
+  };
+  return [this, id = job.id, attempt = job.attempt, shown = std::make_shared<Shown>()](
+             Stage stage, double done) {
+    const int percent = shown->overall.Percent(stage, done);
+    const Clock::time_point now = Clock::now();
+    if (shown->stage == stage && now - shown->at < kReportInterval) return;
+    if (shown->stage != stage && now - shown->at < kReportInterval / 5) return;
+    shown->stage = stage;
+    shown->at = now;
+    Result<bool> stored = jobs_.ReportProgress(id, attempt, percent, StageName(stage), NowMs());
+    if (!stored) Log(LogLevel::kWarning, "progress lost", {{"error", stored.error().message}});
+  };
+}
+
+void JobRunner::StoreOutcome(const Job& job, const WorkerOutcome& outcome,
+                             const fs::path& directory, const std::stop_token& stop) {
+  switch (outcome.end) {
+    case WorkerEnd::kDone: {
+      Status published = Publish(job, outcome, directory);
+      if (!published) StoreFailure(job, published.error(), stop);
+      return;
+    }
+    case WorkerEnd::kFailed:
+      StoreFailure(job, outcome.error, stop);
+      return;
+    case WorkerEnd::kCrashed:
+      Log(LogLevel::kError, "worker crashed",
+          {{"job_id", job.id},
+           {"code", outcome.error.kind},
+           {"error", outcome.error.message},
+           {"last_words", outcome.stderr_tail}});
+      StoreCrash(job, outcome.error, stop);
+      return;
+    case WorkerEnd::kStopped:
+      // Either the job was dismissed, and Requeue has no effect, or the service is being stopped.
+      Result<bool> requeued =
+          jobs_.Requeue(job.id, job.attempt, RequeueReason::kServiceStopped, NowMs());
+      Log(LogLevel::kInfo, "job stopped",
+          {{"job_id", job.id}, {"requeued", std::int64_t{requeued && *requeued ? 1 : 0}}});
+      return;
+  }
+}
+
+void JobRunner::StoreCrash(const Job& job, const Error& error, const std::stop_token& stop) {
+  // A second run would exceed the same limit of time or file size again. Memory may have been short
+  // because another job used it.
+  const bool repeatable = error.kind == "timeout" || error.kind == "file-limit";
+  if (repeatable || job.crash_count >= kMaxRestarts) return StoreFailure(job, error, stop);
+  Result<bool> again = jobs_.Requeue(job.id, job.attempt, RequeueReason::kWorkerCrashed, NowMs());
+  if (!again) {
+    Log(LogLevel::kError, "cannot requeue", {{"job_id", job.id}, {"error", again.error().message}});
+  }
+}
+
+Status JobRunner::Publish(const Job& job, const WorkerOutcome& outcome, const fs::path& directory) {
+  std::vector<std::string> objects;
+  {
+    const auto pin = collector_.Pin();
+    Result<std::vector<Artifact>> artifacts = CollectArtifacts(directory / "out", objects_);
+    if (!artifacts) return std::move(artifacts.error());
+    Result<bool> published =
+        jobs_.Publish(job.id, job.attempt, *artifacts, outcome.timings, NowMs());
+    if (!published) return std::move(published.error());
+    if (*published) {
+      const std::int64_t took = NowMs() - job.started_ms.value_or(job.created_ms);
+      Log(LogLevel::kInfo, "job successful", {{"job_id", job.id}, {"dur_ms", took}});
+      return Done{};
+    }
+    for (const Artifact& artifact : *artifacts) objects.push_back(artifact.sha256);
+  }
+  // The job was dismissed while it ran: no row references its artifacts.
+  return collector_.RemoveUnreferenced(objects);
+}
+
+void JobRunner::StoreFailure(const Job& job, const Error& error, const std::stop_token& stop) {
+  for (;;) {
+    Result<bool> failed = jobs_.Fail(job.id, job.attempt, error, NowMs());
+    if (failed) break;
+    // The store cannot be written. The job stays running in it; if the store does not recover
+    // before the service ends, RecoverRunning makes the job accepted at the next start.
+    Log(LogLevel::kError, "cannot store a failure",
+        {{"job_id", job.id}, {"error", failed.error().message}});
+    Pause(kRetryInterval, stop);
+    if (stop.stop_requested()) return;
+  }
+  Log(LogLevel::kWarning, "job failed",
+      {{"job_id", job.id}, {"code", error.kind}, {"error", error.message}});
+}
+
+}  // namespace farhorizon

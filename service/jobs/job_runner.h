@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <stop_token>
+#include <string>
+
+#include "core/base/progress.h"
+#include "core/base/result.h"
+#include "service/jobs/job_store.h"
+#include "service/jobs/object_collector.h"
+#include "service/jobs/object_store.h"
+#include "service/worker/supervisor.h"
+
+namespace farhorizon {
+
+/// How each job's worker is started.
+struct RunnerOptions {
+  std::string worker_program = "/proc/self/exe";
+  WorkerLimits limits;
+  std::int64_t max_posts = 64'000'000;
+  int threads = 1;  ///< of one worker
+};
+
+/// Runs one job in a worker process: input, worker, artifacts, final state.
+///
+/// A job's artifacts become visible by one conditional change of its row, after their objects are
+/// durable. A job whose worker crashes is accepted once more; then it fails.
+/// Threads: safe.
+class JobRunner {
+ public:
+  /// Requires: the stores and the collector outlive this object.
+  JobRunner(JobStore& jobs, ObjectStore& objects, ObjectCollector& collector,
+            std::filesystem::path work_directory, RunnerOptions options);
+
+  /// Runs `job` and stores how it ended. A stop ends the worker: then the job is accepted again,
+  /// unless it was dismissed.
+  void Run(const Job& job, const std::stop_token& stop);
+
+ private:
+  Status Prepare(const Job& job, const std::filesystem::path& directory);
+  void StoreOutcome(const Job& job, const WorkerOutcome& outcome,
+                    const std::filesystem::path& directory, const std::stop_token& stop);
+  void StoreCrash(const Job& job, const Error& error, const std::stop_token& stop);
+  Status Publish(const Job& job, const WorkerOutcome& outcome,
+                 const std::filesystem::path& directory);
+  void StoreFailure(const Job& job, const Error& error, const std::stop_token& stop);
+  Progress ReportTo(const Job& job);
+
+  JobStore& jobs_;
+  ObjectStore& objects_;
+  ObjectCollector& collector_;
+  std::filesystem::path work_directory_;
+  RunnerOptions options_;
+};
+
+}  // namespace farhorizon

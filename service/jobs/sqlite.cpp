@@ -1,0 +1,98 @@
+#include "service/jobs/sqlite.h"
+
+#include <sqlite3.h>
+
+namespace farhorizon {
+
+namespace {
+
+[[noreturn]] void Throw(sqlite3* database, const char* doing) {
+  const int code = sqlite3_errcode(database);
+  const std::string message = std::string("job store: ") + doing + ": " + sqlite3_errmsg(database);
+  const bool full = code == SQLITE_FULL || code == SQLITE_NOMEM;
+  if (full) throw SqliteFailure{{ErrorCode::kResourceExhausted, message, "no-space"}};
+  throw SqliteFailure{{ErrorCode::kIo, message, "job-store"}};
+}
+
+}  // namespace
+
+Database::~Database() { sqlite3_close(handle_); }
+
+void Database::Open(const std::filesystem::path& path) {
+  const int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_FULLMUTEX;
+  if (sqlite3_open_v2(path.c_str(), &handle_, flags, nullptr) != SQLITE_OK) Throw(handle_, "open");
+}
+
+void Database::Execute(const char* sql) {
+  if (sqlite3_exec(handle_, sql, nullptr, nullptr, nullptr) != SQLITE_OK) {
+    Throw(handle_, "execute");
+  }
+}
+
+std::int64_t Database::Pragma(const std::string& name) {
+  Statement statement(*this, "PRAGMA " + name);
+  return statement.Step() ? statement.Integer(0) : 0;
+}
+
+Statement::Statement(const Database& database, const std::string& sql)
+    : database_(database.handle()) {
+  if (sqlite3_prepare_v2(database_, sql.c_str(), -1, &handle_, nullptr) != SQLITE_OK) {
+    Throw(database_, "prepare");
+  }
+}
+
+Statement::~Statement() { sqlite3_finalize(handle_); }
+
+Statement& Statement::Bind(const std::string& value) {
+  return CheckBound(sqlite3_bind_text64(handle_, ++bound_, value.data(), value.size(),
+                                        SQLITE_TRANSIENT, SQLITE_UTF8));
+}
+
+Statement& Statement::Bind(std::int64_t value) {
+  return CheckBound(sqlite3_bind_int64(handle_, ++bound_, value));
+}
+
+Statement& Statement::CheckBound(int code) {
+  if (code != SQLITE_OK) Throw(database_, "bind");
+  return *this;
+}
+
+bool Statement::Step() {
+  const int code = sqlite3_step(handle_);
+  if (code == SQLITE_ROW) return true;
+  if (code == SQLITE_DONE) return false;
+  Throw(database_, "step");
+}
+
+int Statement::Run() {
+  while (Step()) {
+  }
+  return sqlite3_changes(database_);
+}
+
+bool Statement::IsNull(int column) const {
+  return sqlite3_column_type(handle_, column) == SQLITE_NULL;
+}
+
+std::int64_t Statement::Integer(int column) const { return sqlite3_column_int64(handle_, column); }
+
+std::string Statement::Text(int column) const {
+  const unsigned char* text = sqlite3_column_text(handle_, column);
+  const int size = sqlite3_column_bytes(handle_, column);
+  return text == nullptr ? std::string() : std::string(text, text + size);
+}
+
+Transaction::Transaction(Database& database) : database_(database) {
+  database_.Execute("BEGIN IMMEDIATE");
+}
+
+Transaction::~Transaction() {
+  if (!committed_) sqlite3_exec(database_.handle(), "ROLLBACK", nullptr, nullptr, nullptr);
+}
+
+void Transaction::Commit() {
+  database_.Execute("COMMIT");
+  committed_ = true;
+}
+
+}  // namespace farhorizon

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "service/jobs/job.h"
+#include "service/jobs/sqlite.h"
+
+namespace farhorizon {
+
+/// The columns of the table `jobs`, in the order in which ReadJob reads them, for SELECT and
+/// RETURNING.
+inline constexpr const char* kJobColumns =
+    "id, state, filename, parameters, input_sha256, input_bytes, progress, message, created_ms, "
+    "started_ms, finished_ms, updated_ms, attempt, crash_count, failure_code, failure_kind, "
+    "failure_message, timings";
+
+/// The job of the current row of a statement that selects kJobColumns.
+Job ReadJob(const Statement& row);
+
+/// The job with this id; nullopt without one.
+std::optional<Job> SelectJob(const Database& database, const std::string& id);
+
+}  // namespace farhorizon

@@ -1,0 +1,90 @@
+#include "service/jobs/sqlite_schema.h"
+
+namespace farhorizon {
+
+namespace {
+
+constexpr int kApplicationId = 0x46484A53;  // "FHJS"
+constexpr int kSchemaVersion = 1;
+
+constexpr const char* kSchema = R"(
+CREATE TABLE jobs (
+  id TEXT PRIMARY KEY,
+  state TEXT NOT NULL CHECK (state IN ('accepted','running','successful','failed','dismissed')),
+  filename TEXT NOT NULL,
+  parameters TEXT NOT NULL,
+  input_sha256 TEXT NOT NULL,
+  input_bytes INTEGER NOT NULL,
+  progress INTEGER NOT NULL DEFAULT 0 CHECK (progress BETWEEN 0 AND 100),
+  message TEXT NOT NULL DEFAULT '',
+  created_ms INTEGER NOT NULL,
+  started_ms INTEGER,
+  finished_ms INTEGER,
+  updated_ms INTEGER NOT NULL,
+  attempt INTEGER NOT NULL DEFAULT 0,
+  crash_count INTEGER NOT NULL DEFAULT 0,
+  failure_code TEXT,
+  failure_kind TEXT,
+  failure_message TEXT,
+  timings TEXT NOT NULL DEFAULT '{}',
+  CHECK ((finished_ms IS NOT NULL) = (state IN ('successful','failed','dismissed'))),
+  CHECK ((failure_code IS NOT NULL) = (state = 'failed'))
+) STRICT, WITHOUT ROWID;
+CREATE INDEX jobs_by_state ON jobs (state, id);
+CREATE INDEX jobs_by_input ON jobs (input_sha256);
+CREATE TABLE artifacts (
+  job_id TEXT NOT NULL REFERENCES jobs (id) ON DELETE CASCADE,
+  name TEXT NOT NULL,
+  media_type TEXT NOT NULL,
+  bytes INTEGER NOT NULL,
+  sha256 TEXT NOT NULL,
+  PRIMARY KEY (job_id, name)
+) STRICT, WITHOUT ROWID;
+CREATE INDEX artifacts_by_object ON artifacts (sha256);
+CREATE TABLE idempotency_keys (
+  key TEXT PRIMARY KEY,
+  job_id TEXT NOT NULL REFERENCES jobs (id) ON DELETE CASCADE,
+  created_ms INTEGER NOT NULL
+) STRICT, WITHOUT ROWID;
+CREATE INDEX idempotency_keys_by_job ON idempotency_keys (job_id);
+)";
+
+void Migrate(Database& database) {
+  Transaction transaction(database);
+  if (database.Pragma("user_version") == 0) {
+    database.Execute(kSchema);
+    database.Execute(("PRAGMA application_id = " + std::to_string(kApplicationId)).c_str());
+    database.Execute(("PRAGMA user_version = " + std::to_string(kSchemaVersion)).c_str());
+  }
+  transaction.Commit();
+}
+
+}  // namespace
+
+void PrepareSchema(Database& database) {
+  const std::int64_t application = database.Pragma("application_id");
+  const std::int64_t version = database.Pragma("user_version");
+  const bool is_new = database.Pragma("page_count") == 0;
+  if (!is_new && application != kApplicationId) {
+    throw SqliteFailure{{ErrorCode::kIo, "the file is no job store of farhorizon"}};
+  }
+  if (version > kSchemaVersion) {
+    throw SqliteFailure{{ErrorCode::kIo, "the file comes from a newer farhorizon (schema " +
+                                             std::to_string(version) + ", this one knows " +
+                                             std::to_string(kSchemaVersion) + ")"}};
+  }
+  database.Execute(
+      "PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA foreign_keys = ON;"
+      "PRAGMA trusted_schema = OFF; PRAGMA mmap_size = 0; PRAGMA busy_timeout = 2000;");
+  // Some builds of SQLite ignore the pragma, and durability depends on it.
+  if (database.Pragma("synchronous") != 2) {
+    throw SqliteFailure{{ErrorCode::kIo, "cannot set synchronous=FULL"}};
+  }
+  Migrate(database);
+  Statement check(database, "PRAGMA quick_check(1)");
+  if (!check.Step() || check.Text(0) != "ok") {
+    throw SqliteFailure{{ErrorCode::kIo, "quick_check says: " + check.Text(0)}};
+  }
+}
+
+}  // namespace farhorizon

@@ -1,0 +1,39 @@
+#include "service/jobs/storage_file.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <fcntl.h>
+#include <limits>
+#include <sys/stat.h>
+#include <sys/statvfs.h>
+
+#include "core/io/posix_file.h"
+
+namespace farhorizon {
+
+Error StorageError(const char* doing) {
+  Error error = ErrorFromErrno(doing, errno);
+  error.kind = "storage";
+  if (error.code == ErrorCode::kResourceExhausted) error.kind = "no-space";
+  return error;
+}
+
+Result<UniqueFd> OpenForReading(const std::filesystem::path& path) {
+  // O_NONBLOCK: opening a pipe that stands in the file's place must not wait for a writer.
+  UniqueFd fd(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK));
+  if (!fd && errno == ENOENT) return Error{ErrorCode::kNotFound, "no such file"};
+  if (!fd) return StorageError("open a file");
+  struct stat info {};
+  if (::fstat(fd.get(), &info) != 0) return StorageError("look at a file");
+  if (!S_ISREG(info.st_mode)) return Error{ErrorCode::kIo, "not a regular file", "storage"};
+  return fd;
+}
+
+Result<std::int64_t> FreeBytes(const std::filesystem::path& path) {
+  struct statvfs info {};
+  if (::statvfs(path.c_str(), &info) != 0) return StorageError("look at the disk");
+  const auto most = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
+  return static_cast<std::int64_t>(std::min<std::uint64_t>(info.f_bavail * info.f_frsize, most));
+}
+
+}  // namespace farhorizon

@@ -1,0 +1,83 @@
+#include "service/cli/build_flags.h"
+
+#include <gtest/gtest.h>
+
+#include "service/cli/dem_command.h"
+
+namespace farhorizon {
+namespace {
+
+// The arguments of a command that has all flags of a build.
+DemArguments Parsed(const std::string& line) {
+  DemArguments arguments;
+  CLI::App app;
+  AddDem(app, arguments);
+  AddBuildFlags(app, arguments.flags);
+  AddRunFlags(app, arguments);
+  app.parse(line);
+  return arguments;
+}
+
+TEST(BuildFlags, AreTheParametersOfAJob) {
+  const DemArguments arguments = Parsed(
+      "a.tif --levels 3 --max-error 2.5 --silhouette-error 1 --formats drc,geojson "
+      "--crs EPSG:32611 --vertical-datum EPSG:5703 --nodata -9999 --work-budget 1000 "
+      "--approximate");
+  EXPECT_EQ(arguments.path, "a.tif");
+  EXPECT_EQ(arguments.flags.parameters, (Parameters{{"levels", "3"},
+                                                    {"maxError", "2.5"},
+                                                    {"silhouetteError", "1"},
+                                                    {"formats", "drc,geojson"},
+                                                    {"crs", "EPSG:32611"},
+                                                    {"verticalDatum", "EPSG:5703"},
+                                                    {"nodata", "-9999"},
+                                                    {"workBudget", "1000"},
+                                                    {"approximate", "true"}}));
+}
+
+TEST(BuildFlags, BecomeTheOptionsOfABuild) {
+  Result<BuildOptions> options =
+      Parsed("a.tif --levels 3 --crs EPSG:32611 --threads 2").flags.Options();
+  ASSERT_TRUE(options) << options.error().message;
+  EXPECT_EQ(options->levels, 3);
+  EXPECT_EQ(options->crs, "EPSG:32611");
+  EXPECT_EQ(options->threads, 2);
+}
+
+TEST(BuildFlags, TakeAllCoresUnlessTold) {
+  Result<BuildOptions> options = Parsed("a.tif").flags.Options();
+  ASSERT_TRUE(options);
+  EXPECT_GE(options->threads, 1);
+  EXPECT_THROW(Parsed("a.tif --threads 0"), CLI::ParseError);
+}
+
+TEST(BuildFlags, RefuseWhatAJobRefuses) {
+  for (const char* line : {"a.tif --levels 99", "a.tif --levels x", "a.tif --max-error -1"}) {
+    Result<BuildOptions> options = Parsed(line).flags.Options();
+    ASSERT_FALSE(options) << line;
+    EXPECT_EQ(options.error().code, ErrorCode::kInvalidArgument) << line;
+  }
+  EXPECT_THROW(Parsed("a.tif --levles 2"), CLI::ParseError);
+  EXPECT_THROW(Parsed("--levels 2"), CLI::ParseError);
+}
+
+TEST(RunOnDem, GivesOptionsToTheWorkAndReturnsItsAnswer) {
+  const DemArguments arguments = Parsed("a.tif --levels 4 --progress none");
+  const Result<int> levels =
+      RunOnDem(arguments, [](const DemRun& run) -> Result<int> { return run.options.levels; });
+  ASSERT_TRUE(levels);
+  EXPECT_EQ(*levels, 4);
+}
+
+TEST(RunOnDem, DoesNoWorkWithInvalidFlags) {
+  bool worked = false;
+  Status done = RunOnDem(Parsed("a.tif --levels 99"), [&](const DemRun&) -> Status {
+    worked = true;
+    return Done{};
+  });
+  EXPECT_FALSE(done);
+  EXPECT_FALSE(worked);
+}
+
+}  // namespace
+}  // namespace farhorizon

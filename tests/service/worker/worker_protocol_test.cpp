@@ -1,0 +1,67 @@
+#include "service/worker/worker_protocol.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/temp_dir.h"
+
+namespace farhorizon {
+namespace {
+
+// The message that a line of WriteMessage reads back as.
+template <typename Message>
+Message ReadBack(const WorkerMessage& message) {
+  const std::string line = WriteMessage(message);
+  EXPECT_EQ(line.find('\n'), line.size() - 1);
+  const std::optional<WorkerMessage> read = ReadMessage(line.substr(0, line.size() - 1));
+  EXPECT_TRUE(read && std::holds_alternative<Message>(*read)) << line;
+  return std::get<Message>(*read);
+}
+
+TEST(WorkerProtocol, ReadsBackEveryMessage) {
+  const auto progress = ReadBack<WorkerProgress>(WorkerProgress{"sweep", 0.5});
+  EXPECT_EQ(progress.stage, "sweep");
+  EXPECT_EQ(progress.done, 0.5);
+  const auto done = ReadBack<WorkerDone>(WorkerDone{{{"sweep", 1.25}}});
+  EXPECT_EQ(done.timings, (std::map<std::string, double>{{"sweep", 1.25}}));
+  const auto error = ReadBack<Error>(Error{ErrorCode::kUnsupportedData, "no\nCRS \xff", "no-crs"});
+  EXPECT_EQ(error.code, ErrorCode::kUnsupportedData);
+  EXPECT_EQ(error.kind, "no-crs");
+  EXPECT_EQ(error.message, "no\nCRS \xEF\xBF\xBD");
+}
+
+TEST(WorkerProtocol, RefusesWhatNoWorkerWrites) {
+  for (const char* line :
+       {"", "x", "[]", "{}", "{\"stage\": \"sweep\"}", "{\"done\": \"1\"}", "{\"done\": 1.5}",
+        "{\"done\": -0.1}", "{\"done\": [[[[[[]]]]]]}", "{\"timings\": []}",
+        "{\"timings\": {\"a\": \"b\"}}", "{\"error\": 1}",
+        "{\"error\": {\"code\": \"none\", \"kind\": \"a\", \"message\": \"b\"}}",
+        "{\"error\": {\"code\": \"io\", \"kind\": \"A b\", \"message\": \"c\"}}"}) {
+    EXPECT_FALSE(ReadMessage(line)) << line;
+  }
+  std::string many;
+  for (int i = 0; i < 101; ++i) many += (i ? ", \"" : "\"") + std::to_string(i) + "\": 1";
+  EXPECT_FALSE(ReadMessage("{\"timings\": {" + many + "}}"));
+}
+
+TEST(WorkerProtocol, ShortensTexts) {
+  const auto progress = ReadBack<WorkerProgress>(WorkerProgress{std::string(5000, 'a'), 1});
+  EXPECT_EQ(progress.stage.size(), 2000U);
+}
+
+TEST(WorkerProtocol, ReadsBackATask) {
+  const TempDir folder;
+  const WorkerTask task{"in/a.tif", "out", {{"levels", "2"}}, 1000, 3};
+  ASSERT_TRUE(WriteTaskFile(folder.path(), task));
+  Result<WorkerTask> read = ReadTask(SlurpFile(folder / "task.json"));
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read->input, task.input);
+  EXPECT_EQ(read->output, task.output);
+  EXPECT_EQ(read->parameters, task.parameters);
+  EXPECT_EQ(read->max_posts, task.max_posts);
+  EXPECT_EQ(read->threads, task.threads);
+  EXPECT_FALSE(WriteTaskFile(folder / "missing", task));
+  for (const char* text : {"", "{}", "[]", "{\"input\": 1}"}) EXPECT_FALSE(ReadTask(text)) << text;
+}
+
+}  // namespace
+}  // namespace farhorizon
