@@ -1,3 +1,9 @@
+// The order at a corner is kept in place by small changes, or found anew from the depths, by one
+// pass over the sorted half tangents (Rebuild) [Archambault03, sections 3.2.1, 3.2.3 and 3.2.5].
+// All order is that of TangentTable::Before. Active bitangents are sorted, so that a place among
+// them is found by bisection; inactive ones are not.
+// Cost: O(log k) for a place among k active bitangents; O(k log n) for a Rebuild of k half
+// tangents.
 #include "core/horizon/kinetic/corner_order.h"
 
 #include <algorithm>

@@ -1,3 +1,8 @@
+// The conductor of algorithm 3.1 of [Archambault03]: what happens at an event, in the numbered
+// steps of scene.h. All state is in the parts. What a step leaves for later ones (marks, crossings,
+// collinear pairs, dropped arcs, changed hulls) is used up when RestoreInvariants() returns. Cost
+// of an event: O(h log h) for each changed hull of h corners, O(m (h + log n)) for each new one
+// among m hulls and n certificates, and O(k log n) for each stale corner with k half tangents.
 #include "core/horizon/kinetic/scene.h"
 
 #include <algorithm>
@@ -83,13 +88,13 @@ void Scene::FailTangent(HalfTangentId half, std::size_t which) {
 }
 
 void Scene::RestoreInvariants() {
-  // 1. and 2.
+  // 1. Hulls and 2. collisions, until no two hulls intersect.
   do {
     UpdateHulls();
   } while (JoinIntersecting());
   counts_.clusters_max =
       std::max(counts_.clusters_max, static_cast<std::int64_t>(hulls_.clusters().size()));
-  // 3.
+  // 3. Collinear corners.
   const bool nothing_else = hulls_.changed().empty() && marks_.stale().empty() &&
                             motion_.crossings().empty() && collinear_.AreOne();
   if (nothing_else) {
@@ -98,16 +103,16 @@ void Scene::RestoreInvariants() {
     collinear_.MarkStale();
     motion_.CrossEdges();
   }
-  // 4.
+  // 4. Displaced corners.
   motion_.WalkDisplaced();
-  // 5.
+  // 5. Pairs.
   MakeTangentsOfNewHulls();
   depths_.ReleaseDropped();
-  // 6.
+  // 6. Propagation.
   PropagateMarks();
-  // 7.
+  // 7. Rebuilding.
   RebuildStale();
-  // 8.
+  // 8. Interior points.
   hulls_.LocateInteriorPoints();
 }
 
@@ -117,9 +122,10 @@ void Scene::UpdateHulls() {
   }
 }
 
-// Joins two hulls that intersect just after now, if there are any. Before, an inner tangent proved
-// that they are disjoint; so only those need to be asked of which one is new, or of which an inner
-// tangent may not support them any more.
+// Joins two hulls that intersect just after now; false if there are none. Before, the inner
+// tangents proved that they are disjoint. So only those pairs are asked of which one hull is new,
+// or of which an inner tangent may no longer support both: one that has failed, or one at a
+// displaced corner.
 bool Scene::JoinIntersecting() {
   if (JoinNewHull()) return true;
   for (const TangentMotion::Crossing& crossing : motion_.crossings()) {

@@ -1,3 +1,7 @@
+// A half tangent moves in one of two ways: across one edge of its hull, where nothing else happens,
+// so that all else stays as it is (CrossEdge); or by walking as far as it has to (Walk), and then
+// the order at the corners that it leaves and comes to is found anew.
+// Cost: O(log n) for an edge; for a walk, the corners on the way and the half tangents at its ends.
 #include "core/horizon/kinetic/tangent_motion.h"
 
 #include <algorithm>

@@ -1,3 +1,6 @@
+// Bitangents by walking from corner to corner [Archambault03, section 3.2.2], with the signs of
+// orientations just after now. The table is triangular: hulls of slots i < j have the four tangents
+// from (j (j - 1) / 2 + i) * 4 on.
 #include "core/horizon/kinetic/tangent_table.h"
 
 #include <algorithm>

@@ -85,9 +85,9 @@ class TangentTable {
   /// What `other` occludes of the lines that touch c.
   [[nodiscard]] std::array<Arc, 2> ArcsAt(ClusterId c, ClusterId other) const;
 
-  /// By how many corners the half tangent is to move, at least, to support its own hull: 0, or the
-  /// way to the next (1) or the previous corner (-1). From any corner of a convex polygon and any
-  /// point outside it, these steps lead to the right one of the two tangents.
+  /// The step to take towards the corner at which the half tangent supports its own hull: to the
+  /// next corner (1), to the previous one (-1), or none (0). From any corner of a convex polygon and
+  /// any point outside it, such steps lead to the right one of the two tangents.
   [[nodiscard]] int StepAt(HalfTangentId half) const;
   /// Whether the tangent supports both hulls at corners.
   [[nodiscard]] bool Supports(TangentId t) const;

@@ -26,10 +26,22 @@ TargetSegment TargetOf(const Segment& s) {
                         : TargetSegment{s.b, s.a, Ties::kPass};
 }
 
+// By digits of 60 bits. For the conversion of Boost from fewer bits to more, g++ 12 warns of a read
+// past the end of the smaller number.
+Int1280 ToInt1280(const Wide& value) {
+  const Wide magnitude = value < 0 ? Wide(-value) : value;
+  Int1280 result;
+  for (int shift = 960; shift >= 0; shift -= 60) {
+    const Wide digit = (magnitude >> static_cast<unsigned>(shift)) & ((Wide(1) << 60) - 1);
+    result = (result << 60) + Int1280(static_cast<std::int64_t>(digit));
+  }
+  return value < 0 ? Int1280(-result) : result;
+}
+
 // t as it is counted from the lower end.
 WideDyadic FromLow(const Segment& s, const DyadicNumber& t) {
   const Wide whole = Wide(1) << static_cast<unsigned>(t.exponent);
-  return {Int1280(s.a.z <= s.b.z ? t.numerator : Wide(whole - t.numerator)), t.exponent};
+  return {ToInt1280(s.a.z <= s.b.z ? t.numerator : Wide(whole - t.numerator)), t.exponent};
 }
 
 // The sign of the cross product of a curve's direction at t and `direction`.
@@ -46,7 +58,7 @@ bool Contains(const VisibleRegion& region, const Segment& edge, const DyadicNumb
   const std::int64_t x = std::int64_t{target.high.x} - target.low.x;
   const std::int64_t y = std::int64_t{target.high.y} - target.low.y;
   if (x * direction[1] - y * direction[0] < 0) direction = {-direction[0], -direction[1]};
-  const WideVector v{Int1280(direction[0]), Int1280(direction[1])};
+  const WideVector v{ToInt1280(direction[0]), ToInt1280(direction[1])};
   const WideDyadic at = FromLow(edge, t);
   return std::any_of(region.cells().begin(), region.cells().end(), [&](const StripCell& cell) {
     return Compare(cell.from.root, at) <= 0 && Compare(cell.to.root, at) >= 0 &&
