@@ -42,4 +42,10 @@ std::string Sha256::Finish() {
   return text;
 }
 
+std::string Sha256Hex(std::string_view bytes) {
+  Sha256 sum;
+  sum.Add(bytes);
+  return sum.Finish();
+}
+
 }  // namespace farhorizon

@@ -7,8 +7,11 @@
 #include <utility>
 
 #include "core/horizon/find_horizon.h"
-#include "core/io/files.h"
+#include "core/io/file.h"
 #include "core/io/horizon_features.h"
+#include "core/io/manifest.h"
+#include "core/io/media_type.h"
+#include "core/io/sha256.h"
 #include "core/io/tileset.h"
 #include "core/pipeline/level_artifact.h"
 #include "core/pipeline/level_plan.h"

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/horizon/trace/sweep_trace.h"
-#include "core/io/files.h"
+#include "core/io/file.h"
 #include "core/io/sweep_svg.h"
 #include "core/pipeline/terrain_input.h"
 

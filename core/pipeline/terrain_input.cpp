@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/io/dem_reader.h"
-#include "core/io/files.h"
+#include "core/io/file.h"
 #include "core/pipeline/edge_measures.h"
 
 namespace farhorizon {

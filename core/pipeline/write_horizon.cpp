@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "core/horizon/find_horizon.h"
-#include "core/io/files.h"
+#include "core/io/file.h"
 #include "core/io/horizon_features.h"
 #include "core/pipeline/terrain_input.h"
 

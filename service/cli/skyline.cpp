@@ -2,7 +2,7 @@
 #include <memory>
 #include <string>
 
-#include "core/io/files.h"
+#include "core/io/file.h"
 #include "core/pipeline/write_skyline.h"
 #include "service/cli/command.h"
 #include "service/cli/reporter.h"

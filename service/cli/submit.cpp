@@ -10,7 +10,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/io/files.h"
+#include "core/io/file.h"
+#include "core/io/manifest.h"
 #include "service/cli/command.h"
 #include "service/cli/reporter.h"
 #include "service/cli/signals.h"

@@ -8,7 +8,7 @@
 #include <unistd.h>
 
 #include "core/io/dem_reader.h"
-#include "core/io/files.h"
+#include "core/io/file.h"
 #include "core/pipeline/build.h"
 #include "service/stage_timer.h"
 #include "service/worker/message.h"

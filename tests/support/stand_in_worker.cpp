@@ -9,7 +9,9 @@
 #include <unistd.h>
 #include <vector>
 
-#include "core/io/files.h"
+#include "core/io/file.h"
+#include "core/io/manifest.h"
+#include "core/io/sha256.h"
 #include "service/worker/message.h"
 
 namespace {

@@ -9,8 +9,9 @@
 
 #include "core/horizon/find_horizon.h"
 #include "core/horizon/lines/highest_over_line.h"
-#include "core/io/files.h"
+#include "core/io/file.h"
 #include "core/io/horizon_features.h"
+#include "core/io/manifest.h"
 #include "core/io/tileset.h"
 #include "core/pipeline/level_artifact.h"
 #include "core/pipeline/report.h"

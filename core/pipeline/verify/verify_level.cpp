@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "core/io/files.h"
+#include "core/io/file.h"
 #include "core/io/glb.h"
 
 namespace farhorizon {

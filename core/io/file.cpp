@@ -1,4 +1,4 @@
-#include "core/io/files.h"
+#include "core/io/file.h"
 
 #include <cerrno>
 #include <cstring>
@@ -6,8 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 #include <utility>
-
-#include <nlohmann/json.hpp>
+#include <vector>
 
 #include "core/io/sha256.h"
 
@@ -91,12 +90,6 @@ Status FillAndSync(Descriptor& file, const std::filesystem::path& path, std::str
 
 }  // namespace
 
-std::string Sha256Hex(std::string_view bytes) {
-  Sha256 sum;
-  sum.Add(bytes);
-  return sum.Finish();
-}
-
 Result<std::string> Sha256OfFile(const std::filesystem::path& path) {
   Sha256 sum;
   Status read = ReadPieces(path, [&](std::string_view piece) -> Status {
@@ -139,58 +132,6 @@ Status WriteFile(const std::filesystem::path& path, std::string_view bytes) {
   const Descriptor parent(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (parent.valid()) fsync(parent.get());
   return Done{};
-}
-
-std::string MediaTypeOf(const std::string& name) {
-  static constexpr std::pair<std::string_view, std::string_view> kTypes[] = {
-      {".glb", "model/gltf-binary"},
-      {".drc", "application/vnd.google.draco"},
-      {".geojson", "application/geo+json"},
-      {".json", "application/json"},
-      {".fgb", "application/vnd.flatgeobuf"},
-      {".gpkg", "application/geopackage+sqlite3"},
-      {".terrain", "application/vnd.quantized-mesh"},
-      {".html", "text/html; charset=utf-8"},
-      {".js", "text/javascript; charset=utf-8"},
-      {".css", "text/css; charset=utf-8"},
-      {".png", "image/png"},
-      {".svg", "image/svg+xml"},
-      {".tif", "image/tiff; application=geotiff"},
-      {".tiff", "image/tiff; application=geotiff"}};
-  const std::string ending = std::filesystem::path(name).extension().string();
-  for (const auto& [known, type] : kTypes) {
-    if (ending == known) return std::string(type);
-  }
-  return "application/octet-stream";
-}
-
-std::string WriteManifest(const std::vector<ManifestEntry>& entries) {
-  nlohmann::ordered_json artifacts = nlohmann::ordered_json::array();
-  for (const ManifestEntry& entry : entries) {
-    artifacts.push_back({{"name", entry.name},
-                         {"media_type", entry.media_type},
-                         {"bytes", entry.bytes},
-                         {"sha256", entry.sha256}});
-  }
-  nlohmann::ordered_json manifest;
-  manifest["artifacts"] = std::move(artifacts);
-  return manifest.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
-}
-
-Result<std::vector<ManifestEntry>> ReadManifest(const std::string& text) {
-  try {
-    const nlohmann::json manifest = nlohmann::json::parse(text);
-    std::vector<ManifestEntry> entries;
-    for (const nlohmann::json& artifact : manifest.at("artifacts")) {
-      entries.push_back(
-          {artifact.at("name").get<std::string>(), artifact.at("media_type").get<std::string>(),
-           artifact.at("bytes").get<std::uintmax_t>(), artifact.at("sha256").get<std::string>()});
-    }
-    return entries;
-  } catch (const nlohmann::json::exception& failure) {
-    return Error{ErrorCode::kUnsupportedData,
-                 std::string("manifest.json cannot be read: ") + failure.what(), "bad-manifest"};
-  }
 }
 
 }  // namespace farhorizon
