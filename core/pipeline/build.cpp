@@ -1,4 +1,6 @@
-// A DEM becomes a tileset: read, sweep, simplify, encode, measure, write.
+// A DEM becomes a tileset: read, find the horizon, simplify, encode, measure, write. Each step is a
+// function of its own file; this one has their order, the tileset's region and the list of
+// artifacts.
 #include "core/pipeline/build.h"
 
 #include <algorithm>
@@ -9,10 +11,12 @@
 #include "core/horizon/find_horizon.h"
 #include "core/io/file.h"
 #include "core/io/horizon_features.h"
+#include "core/io/horizon_vector.h"
 #include "core/io/manifest.h"
 #include "core/io/media_type.h"
 #include "core/io/sha256.h"
 #include "core/io/tileset.h"
+#include "core/pipeline/build_features.h"
 #include "core/pipeline/level_artifact.h"
 #include "core/pipeline/level_plan.h"
 #include "core/pipeline/report.h"
@@ -32,8 +36,8 @@ std::string_view AsText(const std::vector<std::uint8_t>& bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-// Writes artifacts one by one and takes them all back, the folder included if it made it, unless the
-// work is finished.
+// Writes artifacts one by one. Removes them all, and the folder if Open made it, unless Finish has
+// succeeded.
 class ArtifactWriter {
  public:
   explicit ArtifactWriter(fs::path directory) : directory_(std::move(directory)) {}
@@ -61,7 +65,7 @@ class ArtifactWriter {
     return WriteFile(directory_ / name, bytes);
   }
 
-  /// A file that something else has written to PathOf(name).
+  // Adds a file that the caller has written to PathOf(name).
   Status AddWritten(const std::string& name) {
     Result<std::string> bytes = ReadFile(PathOf(name));
     if (!bytes) return std::move(bytes.error());
@@ -85,6 +89,7 @@ class ArtifactWriter {
   bool finished_ = false;
 };
 
+// For each horizon edge the coarsest level that keeps it, -1 for none.
 std::vector<int> LevelsKept(const Horizon& horizon, const std::vector<Lod>& chain) {
   std::vector<int> level_kept(horizon.edges.size(), -1);
   for (std::size_t level = 0; level < chain.size(); ++level) {
@@ -95,40 +100,50 @@ std::vector<int> LevelsKept(const Horizon& horizon, const std::vector<Lod>& chai
   return level_kept;
 }
 
-Status WriteTilesetFor(const TerrainInput& source, const std::vector<LevelReport>& levels,
-                       ArtifactWriter& writer) {
-  Result<BoundingRegion> region = source.Region();
-  if (!region) return std::move(region.error());
-  // Flat triangles sink below the curved earth, and vertices are rounded: no lower than this.
-  const double margin = levels.back().geometric_error_m + levels.back().quantization_step_m;
+// The terrain's region, with room for what the coarsest level may add to it.
+Result<BoundingRegion> RegionWithMargin(const TerrainInput& input, const LevelReport& coarsest) {
+  Result<BoundingRegion> region = input.Region();
+  if (!region) return region;
+  // Flat triangles sink below the curved earth, and vertices are rounded: by no more than this.
+  const double margin = coarsest.geometric_error_m + coarsest.quantization_step_m;
   region->min_height_m -= margin;
   region->max_height_m += margin;
+  // Vertices are rounded by less than a step in plan. No radian of latitude is shorter than this:
+  // a (1 - e^2) of WGS 84, at the equator, is 6335439 m. A radian of longitude is shorter by the
+  // cosine of the latitude; the floor keeps the margin finite at the poles.
   constexpr double kLeastMetresPerRadian = 6335000;
-  region->south -= levels.back().quantization_step_m / kLeastMetresPerRadian;
-  region->north += levels.back().quantization_step_m / kLeastMetresPerRadian;
+  region->south -= coarsest.quantization_step_m / kLeastMetresPerRadian;
+  region->north += coarsest.quantization_step_m / kLeastMetresPerRadian;
   const double across =
-      levels.back().quantization_step_m /
+      coarsest.quantization_step_m /
       (kLeastMetresPerRadian *
        std::max(0.01, std::cos(std::max(std::abs(region->south), std::abs(region->north)))));
   region->west -= across;
   region->east += across;
+  return region;
+}
+
+Status WriteTilesetFor(const TerrainInput& input, const std::vector<LevelReport>& levels,
+                       ArtifactWriter& writer) {
+  Result<BoundingRegion> region = RegionWithMargin(input, levels.back());
+  if (!region) return std::move(region.error());
   std::vector<TilesetLevel> tiles;
   tiles.reserve(levels.size());
   for (const LevelReport& level : levels) {
     tiles.push_back({"lod" + std::to_string(level.level) + ".glb", level.geometric_error_m});
   }
-  const double size_m =
-      std::hypot(source.georeference().column_step_m() * (source.dem().columns - 1),
-                 source.georeference().row_step_m() * (source.dem().rows - 1));
+  const Georeference& georeference = input.georeference();
+  const double size_m = std::hypot(georeference.column_step_m() * (input.dem().columns - 1),
+                                   georeference.row_step_m() * (input.dem().rows - 1));
   return writer.Add("tileset.json", WriteTileset(tiles, *region, RoundUp(size_m),
-                                                 source.georeference().frame().EnuToEcef()));
+                                                 georeference.frame().EnuToEcef()));
 }
 
-Status WriteFeatures(const TerrainInput& source, const Horizon& horizon,
+Status WriteFeatures(const TerrainInput& input, const Horizon& horizon,
                      const std::vector<int>& level_kept, const BuildOptions& options,
                      const Watch& watch, ArtifactWriter& writer) {
   Result<std::vector<HorizonFeature>> features =
-      source.Features(horizon, level_kept, options.threads, watch);
+      BuildFeatures(input, horizon, level_kept, options.threads, watch);
   if (!features) return std::move(features.error());
   if (Asks(options, "geojson")) {
     Status added = writer.Add("horizon.geojson", WriteHorizonGeoJson(*features));
@@ -167,7 +182,7 @@ Result<std::vector<LevelReport>> WriteLevels(const LevelContext& context,
     } else {
       level->report.drc_bytes = 0;
     }
-    // A client refines towards smaller errors, so a level may not claim less than a finer one.
+    // Clients refine towards smaller errors: no level may claim a smaller error than a finer one.
     if (i > 0) {
       level->report.geometric_error_m =
           std::max(level->report.geometric_error_m, reports.back().geometric_error_m);
@@ -184,41 +199,37 @@ Status BuildArtifacts(const fs::path& dem, const fs::path& directory, const Buil
   Status checked = CheckOptions(options);
   if (!checked) return checked;
   watch.Report("read", 0);
-  Result<std::unique_ptr<TerrainInput>> source = TerrainInput::Open(dem, options);
-  if (!source) return std::move(source.error());
-  Result<std::vector<LevelPlan>> plans = PlanLevels(**source, options);
+  Result<std::unique_ptr<TerrainInput>> input = TerrainInput::Open(dem, options);
+  if (!input) return std::move(input.error());
+  Result<std::vector<LevelPlan>> plans = PlanLevels(**input, options);
   if (!plans) return std::move(plans.error());
 
-  Result<Horizon> horizon = FindHorizon((*source)->terrain(),
-                                        {.threads = options.threads,
-                                         .work_budget = options.work_budget,
-                                         .approximate = options.approximate},
-                                        watch);
+  Result<Horizon> horizon = FindHorizon((*input)->terrain(), HorizonOptionsOf(options), watch);
   if (!horizon) return std::move(horizon.error());
 
   std::vector<LevelBudget> budgets;
   for (const LevelPlan& plan : *plans) budgets.push_back(plan.budget);
-  Result<std::vector<Lod>> chain = BuildLodChain((*source)->terrain(), *horizon, budgets, watch);
+  Result<std::vector<Lod>> chain = BuildLodChain((*input)->terrain(), *horizon, budgets, watch);
   if (!chain) return std::move(chain.error());
 
-  Result<PostNormals> normals = FindPostNormals((*source)->terrain(), (*source)->georeference());
+  Result<PostNormals> normals = FindPostNormals((*input)->terrain(), (*input)->georeference());
   if (!normals) return std::move(normals.error());
   ArtifactWriter writer(directory);
   Status opened = writer.Open();
   if (!opened) return opened;
-  const LevelContext context{(*source)->terrain(), *horizon, (*source)->georeference(), *normals,
+  const LevelContext context{(*input)->terrain(), *horizon, (*input)->georeference(), *normals,
                              watch};
   Result<std::vector<LevelReport>> levels = WriteLevels(context, *plans, *chain, options, writer);
   if (!levels) return std::move(levels.error());
   if (Asks(options, "3dtiles")) {
-    Status tileset = WriteTilesetFor(**source, *levels, writer);
+    Status tileset = WriteTilesetFor(**input, *levels, writer);
     if (!tileset) return tileset;
   }
   watch.Report("write", 0);
   Status features =
-      WriteFeatures(**source, *horizon, LevelsKept(*horizon, *chain), options, watch, writer);
+      WriteFeatures(**input, *horizon, LevelsKept(*horizon, *chain), options, watch, writer);
   if (!features) return features;
-  const Report report{Version(), (*source)->report(),
+  const Report report{Version(), (*input)->report(),
                       static_cast<std::int64_t>(horizon->edges.size()), horizon->statistics,
                       *levels};
   Status reported = writer.Add("report.json", WriteReport(report));

@@ -37,7 +37,7 @@ int Run(const Call& call) {
   const StopOnSignal signals;
   Reporter reporter(call.reporter);
   Result<std::string> skyline =
-      SkylineOfDem(call.dem, call.azimuth, *format, *options,
+      WriteSkyline(call.dem, call.azimuth, *format, *options,
                    Watch{reporter.progress(), signals.token(), reporter.notice()});
   reporter.Clear();
   if (!skyline) return Complain(skyline.error());

@@ -61,13 +61,14 @@ Dem Unlevel(std::int32_t columns, std::int32_t rows, std::uint32_t seed) {
   });
 }
 
-// O1: each slanted edge is seen in the quarter turn in which the one beside it does not rise above it.
+// O1: each slanted edge is seen in the quarter turn in which the one beside it does not rise above
+// it.
 TEST(EdgeMeasures, EachEdgeOfAPyramidIsSeenInAQuarterTurn) {
   const std::vector<Viewed> views = ViewsOf(AsciiDem(".0.\n010\n.0."), kMetres);
   ASSERT_EQ(views.size(), 4U);
   for (const Viewed& v : views) {
-    // The edges to the north and to the south lie north: seen from the east and the west, 45 degrees
-    // to each side. The others across.
+    // The edges to the north and to the south lie north: seen from the east and the west, 45
+    // degrees to each side. The others across.
     const bool upright = v.edge == Edge{1, 4} || v.edge == Edge{4, 7};
     if (upright) {
       EXPECT_THAT(v.view.azimuths, ElementsAre(std::array{45.0, 135.0}));
@@ -93,8 +94,8 @@ TEST(EdgeMeasures, ALoneRidgeIsSeenFromAllAround) {
   EXPECT_NEAR(ridge->view.line_measure_m, 2, 1e-12);
 }
 
-// [Crofton1868]: the lines that meet a convex region measure its perimeter, and each has its skyline on one
-// edge. So nothing is missing, and nothing is there twice.
+// [Crofton1868]: the lines that meet a convex region measure its perimeter, and each has its
+// skyline on one edge. So nothing is missing, and nothing is there twice.
 TEST(EdgeMeasures, MeasuresAddUpToThePerimeter) {
   for (std::uint32_t seed = 1; seed <= 30; ++seed) {
     const auto columns = static_cast<std::int32_t>(3 + seed % 20);
@@ -107,7 +108,8 @@ TEST(EdgeMeasures, MeasuresAddUpToThePerimeter) {
 }
 
 TEST(EdgeMeasures, MeasuresAddUpToThePerimeterOnStretchedAndSlantedGrounds) {
-  // A parallelogram: columns 3 m to the north-east, rows 20 m to the south-south-east; and mirrored.
+  // A parallelogram: columns 3 m to the north-east, rows 20 m to the south-south-east; and
+  // mirrored.
   for (const GroundStep& step : {GroundStep{2, 2.2, 7.5, -18}, GroundStep{-2, 2.2, 7.5, -18}}) {
     const double perimeter = 2 * (11 * std::hypot(step.column_east_m, step.column_north_m) +
                                   9 * std::hypot(step.row_east_m, step.row_north_m));
@@ -121,8 +123,8 @@ bool Within(const std::vector<std::array<double, 2>>& intervals, double value, d
   });
 }
 
-// Random lines against the plainest twin: the edges that attain the greatest height over a line have its
-// azimuth and its point.
+// Random lines against the plainest twin: the edges that attain the greatest height over a line
+// have its azimuth and its point.
 TEST(EdgeMeasures, RandomLinesSeeOnlyWhatIsPublished) {
   const Dem dem = Unlevel(9, 8, 11);
   const Terrain terrain = *Terrain::Build(dem);

@@ -165,7 +165,7 @@ LocalMesh EveryNth(std::int32_t size, std::int32_t step) {
   const std::int32_t across = (size - 1) / step + 1;
   for (std::int32_t r = 0; r < across; ++r) {
     for (std::int32_t c = 0; c < across; ++c) {
-      mesh.sources.push_back(static_cast<std::uint32_t>(r * step * size + c * step));
+      mesh.posts.push_back(static_cast<std::uint32_t>(r * step * size + c * step));
       if (r + 1 == across || c + 1 == across) continue;
       const auto nw = static_cast<std::uint32_t>(r * across + c);
       const auto down = static_cast<std::uint32_t>(across);
@@ -206,11 +206,11 @@ TEST(MeanNormals, WeighPostsByTheSquareOfTheirShare) {
   const Placed some = Hills(25);
   const PostNormals posts = *FindPostNormals(some.terrain, some.georeference);
   const LocalMesh mesh = EveryNth(25, 8);
-  std::vector<UnitNormal> sums(mesh.sources.size(), {0, 0, 0});
+  std::vector<UnitNormal> sums(mesh.posts.size(), {0, 0, 0});
   for (const auto& t : mesh.triangles) {
     std::array<Point3i, 3> p{};
     for (std::size_t k = 0; k < 3; ++k) {
-      p[k] = some.terrain.Point(static_cast<VertexId>(mesh.sources[t[k]]));
+      p[k] = some.terrain.Point(static_cast<VertexId>(mesh.posts[t[k]]));
     }
     const std::array<UnitNormal, 3> here = SumsOver(some, posts, p);
     for (std::size_t i = 0; i < 9; ++i) sums[t[i / 3]][i % 3] += here[i / 3][i % 3];
@@ -240,8 +240,8 @@ TEST(MeanNormals, VerticesThatAreSplitBetweenFansGetTheNormalOfTheWhole) {
   LocalMesh split = whole;
   for (auto& t : split.triangles) {
     for (std::uint32_t& v : t) {
-      split.sources.push_back(split.sources[v]);
-      v = static_cast<std::uint32_t>(split.sources.size() - 1);
+      split.posts.push_back(split.posts[v]);
+      v = static_cast<std::uint32_t>(split.posts.size() - 1);
     }
   }
   const std::vector<UnitNormal> expected = MeanNormals(some.terrain, posts, whole);

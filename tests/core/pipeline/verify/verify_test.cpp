@@ -10,6 +10,7 @@
 
 #include "core/io/glb.h"
 #include "core/io/horizon_features.h"
+#include "core/pipeline/build.h"
 #include "tests/support/temp_dir.h"
 
 namespace farhorizon {
@@ -83,12 +84,12 @@ TEST_F(Verify, AzimuthsThatAreNotTheEdgesAreFound) {
   Result<std::vector<HorizonFeature>> features =
       ReadHorizonGeoJson(SlurpFile(folder_ / "out" / "horizon.geojson"));
   for (HorizonFeature& f : *features) {
-    for (auto& [from, to] : f.azimuths) {
+    for (auto& [from, to] : f.measures.azimuths) {
       const double turn = from < 90 ? 90 : -90;
       from += turn;
       to += turn;
     }
-    std::sort(f.azimuths.begin(), f.azimuths.end());
+    std::sort(f.measures.azimuths.begin(), f.measures.azimuths.end());
   }
   SpillFile(folder_ / "out" / "horizon.geojson", WriteHorizonGeoJson(*features));
   const std::vector<std::string> lines = False();
@@ -109,16 +110,16 @@ TEST_F(Verify, SpansAndWeightsThatAreNotTheEdgesAreFound) {
     SpillFile(folder_ / "out" / "horizon.geojson", WriteHorizonGeoJson(*features));
     return found;
   };
-  EXPECT_TRUE(claim([](HorizonFeature& f) { f.spans[0][1] -= 1e-4; }));
-  EXPECT_TRUE(claim([](HorizonFeature& f) { f.line_measure_m *= 1.001; }));
-  EXPECT_TRUE(claim([](HorizonFeature& f) { f.angular_share += 1e-4; }));
-  EXPECT_TRUE(claim([](HorizonFeature& f) { f.skyline_drop_m += 0.01; }));
+  EXPECT_TRUE(claim([](HorizonFeature& f) { f.measures.spans[0][1] -= 1e-4; }));
+  EXPECT_TRUE(claim([](HorizonFeature& f) { f.measures.line_measure_m *= 1.001; }));
+  EXPECT_TRUE(claim([](HorizonFeature& f) { f.measures.angular_share += 1e-4; }));
+  EXPECT_TRUE(claim([](HorizonFeature& f) { f.measures.skyline_drop_m += 0.01; }));
 }
 
-TEST_F(Verify, ProminencesBelowTheEdgesAreFound) {
+TEST_F(Verify, SkylineDropsBelowTheEdgesAreFound) {
   Result<std::vector<HorizonFeature>> features =
       ReadHorizonGeoJson(SlurpFile(folder_ / "out" / "horizon.geojson"));
-  for (HorizonFeature& f : *features) f.skyline_drop_m /= 8;
+  for (HorizonFeature& f : *features) f.measures.skyline_drop_m /= 8;
   SpillFile(folder_ / "out" / "horizon.geojson", WriteHorizonGeoJson(*features));
   EXPECT_TRUE(Names(False(), "rises above all others by more than its skyline drop"));
 }
