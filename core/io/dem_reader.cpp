@@ -1,5 +1,5 @@
-// Reads a DEM through GDAL without trusting the file: everything that can be refused from the
-// header is refused before the first pixel is read. Threats and settings: GdalSession.
+// Reads a DEM through GDAL without trusting the file: all that can be refused from the header is
+// refused before the first pixel is read. GdalSession keeps GDAL from opening other files.
 #include "core/io/dem_reader.h"
 
 #include <algorithm>
@@ -23,7 +23,7 @@
 namespace farhorizon {
 namespace {
 
-constexpr int kMaxSide = 32768;
+constexpr int kMaxSide = 32768;            // Dem's bound
 constexpr double kMaxHeight = 1073741824;  // 2^30: Dem's bound at a quantum of 1
 constexpr double kFoot = 0.3048;
 constexpr double kSurveyFoot = 1200.0 / 3937;
@@ -103,7 +103,7 @@ Status CheckSize(GDALDatasetH dataset, const DemReadOptions& options) {
   return Done{};
 }
 
-// A block is decoded whole. One much larger than the raster is a bomb, not a tiling.
+// GDAL decodes a block as a whole. A block much larger than the raster fills memory to no purpose.
 Status CheckBlock(GDALRasterBandH band, const DemReadOptions& options) {
   constexpr std::int64_t kAlwaysFine = std::int64_t{1} << 20;
   int width = 0;
@@ -241,7 +241,7 @@ Result<ValueScale> ReadValueScale(GDALDatasetH dataset, GDALRasterBandH band) {
   return ValueScale{scale * *unit, offset * *unit};
 }
 
-// What a band says of cells without data.
+// The values of a band that mean no data.
 class NoDataRule {
  public:
   NoDataRule(GDALRasterBandH band, const DemReadOptions& options)
@@ -264,9 +264,9 @@ class NoDataRule {
 
   [[nodiscard]] bool given() const { return value_.has_value(); }
 
-  // Values beyond any height (-1e37, -3.40282e+38) are written with few digits, so that text and
-  // bits may differ: they match within 1e-5 of their size. Ordinary ones match as the type stores
-  // them.
+  // Nodata values beyond any height (-1e37, -3.40282e+38) are written with few digits, six at
+  // least, so that text and bits may differ: those match within 1e-5 of their size. Others match as
+  // the band's type stores them.
   [[nodiscard]] bool Matches(double value) const {
     if (std::isnan(value)) return true;
     if (!value_) return false;
@@ -283,7 +283,7 @@ class NoDataRule {
   std::optional<double> value_;
 };
 
-// An internal mask hides cells without giving them a value of their own.
+// Makes NaN of cells that an internal mask hides, whatever their values.
 Status ApplyMask(GDALRasterBandH band, GdalSession& session, std::vector<double>& values) {
   if ((GDALGetMaskFlags(band) & GMF_PER_DATASET) == 0) return Done{};
   const int columns = GDALGetRasterBandXSize(band);
@@ -300,13 +300,13 @@ Status ApplyMask(GDALRasterBandH band, GdalSession& session, std::vector<double>
   return Done{};
 }
 
-std::string PlaceOf(std::size_t post, int columns) {
+std::string CellName(std::size_t post, int columns) {
   const auto width = static_cast<std::size_t>(columns);
   return "the cell at column " + std::to_string(post % width) + ", row " +
          std::to_string(post / width);
 }
 
-// Raw values of the band, rows x columns, NaN where there is no data; all others are heights.
+// The band's raw values, rows x columns, NaN where there is no data. All others pass as heights.
 Result<std::vector<double>> ReadValues(GDALRasterBandH band, const NoDataRule& nodata,
                                        const ValueScale& scale, GdalSession& session) {
   const int columns = GDALGetRasterBandXSize(band);
@@ -328,12 +328,12 @@ Result<std::vector<double>> ReadValues(GDALRasterBandH band, const NoDataRule& n
     any = true;
     if (std::isinf(value)) {
       return BadData(
-          PlaceOf(i, columns) + " is infinite; name the value that means no data with --nodata",
+          CellName(i, columns) + " is infinite; name the value that means no data with --nodata",
           "infinite-height");
     }
     if (std::abs(value) >= kMaxHeight ||
         std::abs(value * scale.scale + scale.offset) >= kMaxHeight) {
-      return BadData(PlaceOf(i, columns) + " is " + std::to_string(value) +
+      return BadData(CellName(i, columns) + " is " + std::to_string(value) +
                          ", which is no height; name the value that means no data with --nodata",
                      "height-out-of-range");
     }

@@ -23,7 +23,8 @@ struct EdgeVisibility {
 /// border as hard edges, because they have no second face to be a silhouette against.
 ///
 /// Vertices of equal post and position count as one (Draco splits a vertex between its fans).
-/// Each edge is flagged once, at its first triangle. Pairs that are no edge of the mesh are ignored.
+/// Each edge is flagged once, at its first triangle. Pairs that are no edge of the mesh are left
+/// out.
 /// Cost: O(n log n).
 EdgeVisibility FlagEdges(const LocalMesh& mesh,
                          const std::vector<std::pair<std::uint32_t, std::uint32_t>>& edges);

@@ -1,3 +1,6 @@
+// Files are read in pieces and written beside their target, synced and renamed, so that neither a
+// crash nor a full disk leaves half a file under the name. Messages name files without their
+// folder.
 #include "core/io/file.h"
 
 #include <cerrno>
@@ -46,7 +49,7 @@ Error FromErrno(const std::string& what, const std::filesystem::path& path, int 
                     "\": " + std::generic_category().message(number)};
 }
 
-// Opens a regular file and shows its bytes to `take` piece by piece.
+// Opens a regular file and calls `take` with its bytes, piece by piece, until one call fails.
 template <typename Take>
 Status ReadPieces(const std::filesystem::path& path, Take take) {
   const Descriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC));

@@ -17,7 +17,7 @@ Result<std::string> Sha256OfFile(const std::filesystem::path& path);
 Result<std::string> ReadFile(const std::filesystem::path& path,
                              std::uintmax_t max_bytes = std::uintmax_t{4} << 30U);
 
-/// Writes beside the target, syncs and renames: a reader sees the old file or the new one.
+/// Writes a file beside the target, syncs and renames it: readers see the old file or the new one.
 /// Errors: kNotFound no such folder; kIo; kResourceExhausted no space.
 Status WriteFile(const std::filesystem::path& path, std::string_view bytes);
 

@@ -1,6 +1,5 @@
 // A DEM becomes a tileset: read, find the horizon, simplify, encode, measure, write. Each step is a
-// function of its own file; this one has their order, the tileset's region and the list of
-// artifacts.
+// function of its own file; this one has their order and decides which artifacts are written.
 #include "core/pipeline/build.h"
 
 #include <algorithm>
@@ -9,13 +8,10 @@
 #include <utility>
 
 #include "core/horizon/find_horizon.h"
-#include "core/io/file.h"
 #include "core/io/horizon_features.h"
 #include "core/io/horizon_vector.h"
-#include "core/io/manifest.h"
-#include "core/io/media_type.h"
-#include "core/io/sha256.h"
 #include "core/io/tileset.h"
+#include "core/pipeline/artifact_writer.h"
 #include "core/pipeline/build_features.h"
 #include "core/pipeline/level_artifact.h"
 #include "core/pipeline/level_plan.h"
@@ -35,59 +31,6 @@ bool Asks(const BuildOptions& options, std::string_view format) {
 std::string_view AsText(const std::vector<std::uint8_t>& bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
-
-// Writes artifacts one by one. Removes them all, and the folder if Open made it, unless Finish has
-// succeeded.
-class ArtifactWriter {
- public:
-  explicit ArtifactWriter(fs::path directory) : directory_(std::move(directory)) {}
-  ArtifactWriter(const ArtifactWriter&) = delete;
-  ArtifactWriter& operator=(const ArtifactWriter&) = delete;
-  ~ArtifactWriter() {
-    if (finished_) return;
-    std::error_code ignored;
-    for (const ManifestEntry& entry : entries_) fs::remove(directory_ / entry.name, ignored);
-    if (made_directory_) fs::remove(directory_, ignored);
-  }
-
-  Status Open() {
-    std::error_code failure;
-    made_directory_ = fs::create_directories(directory_, failure);
-    if (failure || !fs::is_directory(directory_)) {
-      return Error{ErrorCode::kIo, "cannot make the folder " + directory_.filename().string() +
-                                       ": " + failure.message()};
-    }
-    return Done{};
-  }
-
-  Status Add(const std::string& name, std::string_view bytes) {
-    entries_.push_back({name, MediaTypeOf(name), bytes.size(), Sha256Hex(bytes)});
-    return WriteFile(directory_ / name, bytes);
-  }
-
-  // Adds a file that the caller has written to PathOf(name).
-  Status AddWritten(const std::string& name) {
-    Result<std::string> bytes = ReadFile(PathOf(name));
-    if (!bytes) return std::move(bytes.error());
-    entries_.push_back({name, MediaTypeOf(name), bytes->size(), Sha256Hex(*bytes)});
-    return Done{};
-  }
-  [[nodiscard]] fs::path PathOf(const std::string& name) const { return directory_ / name; }
-
-  Status Finish() {
-    std::sort(entries_.begin(), entries_.end(),
-              [](const ManifestEntry& a, const ManifestEntry& b) { return a.name < b.name; });
-    Status written = WriteFile(directory_ / "manifest.json", WriteManifest(entries_));
-    finished_ = written.has_value();
-    return written;
-  }
-
- private:
-  fs::path directory_;
-  std::vector<ManifestEntry> entries_;
-  bool made_directory_ = false;
-  bool finished_ = false;
-};
 
 // For each horizon edge the coarsest level that keeps it, -1 for none.
 std::vector<int> LevelsKept(const Horizon& horizon, const std::vector<Lod>& chain) {
@@ -139,18 +82,14 @@ Status WriteTilesetFor(const TerrainInput& input, const std::vector<LevelReport>
                                                  georeference.frame().EnuToEcef()));
 }
 
-Status WriteFeatures(const TerrainInput& input, const Horizon& horizon,
-                     const std::vector<int>& level_kept, const BuildOptions& options,
-                     const Watch& watch, ArtifactWriter& writer) {
-  Result<std::vector<HorizonFeature>> features =
-      BuildFeatures(input, horizon, level_kept, options.threads, watch);
-  if (!features) return std::move(features.error());
+Status WriteFeatures(const std::vector<HorizonFeature>& features, const BuildOptions& options,
+                     ArtifactWriter& writer) {
   if (Asks(options, "geojson")) {
-    Status added = writer.Add("horizon.geojson", WriteHorizonGeoJson(*features));
+    Status added = writer.Add("horizon.geojson", WriteHorizonGeoJson(features));
     if (!added) return added;
   }
   if (Asks(options, "flatgeobuf")) {
-    Status written = WriteHorizonVector(*features, writer.PathOf("horizon.fgb"));
+    Status written = WriteHorizonVector(features, writer.PathOf("horizon.fgb"));
     if (!written) return written;
     return writer.AddWritten("horizon.fgb");
   }
@@ -226,9 +165,11 @@ Status BuildArtifacts(const fs::path& dem, const fs::path& directory, const Buil
     if (!tileset) return tileset;
   }
   watch.Report("write", 0);
-  Status features =
-      WriteFeatures(**input, *horizon, LevelsKept(*horizon, *chain), options, watch, writer);
-  if (!features) return features;
+  Result<std::vector<HorizonFeature>> features =
+      BuildFeatures(**input, *horizon, LevelsKept(*horizon, *chain), options.threads, watch);
+  if (!features) return std::move(features.error());
+  Status written = WriteFeatures(*features, options, writer);
+  if (!written) return written;
   const Report report{Version(), (*input)->report(),
                       static_cast<std::int64_t>(horizon->edges.size()), horizon->statistics,
                       *levels};

@@ -43,7 +43,7 @@ struct Placed {
 
 UnitNormal Widen(const std::array<float, 3>& n) { return {n[0], n[1], n[2]}; }
 
-// At some.vertices.
+// The normals at some.vertices, in their order.
 std::vector<UnitNormal> NormalsOf(const Placed& some) {
   Result<PostNormals> found = FindPostNormals(some.terrain, some.georeference);
   if (!found) throw std::runtime_error(found.error().message);
@@ -58,7 +58,7 @@ double AngleDeg(const UnitNormal& a, const UnitNormal& b) {
   return 2 * std::asin(chord / 2) * 180 / std::acos(-1.0);
 }
 
-// Of a surface that rises by `east` and `north`, metres a metre.
+// The normal of a surface that rises by `east` and `north`, metres per metre.
 UnitNormal OfSlope(double east, double north) {
   const double length = std::hypot(east, north, 1);
   return {-east / length, -north / length, 1 / length};
@@ -98,7 +98,7 @@ TEST(PostNormals, AreTheMeanOfTheFacesByArea) {
   const Placed some(MakeDem(23, 19, [&](std::int32_t, std::int32_t) {
     return random() % 5 == 0 ? kNoHeight : static_cast<std::int32_t>(random() % 20000);
   }));
-  // The slow twin: every face of the terrain hands its normal to its corners.
+  // The slow twin adds every face's normal to its corners.
   std::vector<UnitNormal> sums(some.dem.heights.size(), {0, 0, 0});
   for (const Triangle& t : some.terrain.Triangles()) {
     const std::vector<Enu> p = *some.georeference.ToEnu(std::vector<VertexId>(t.begin(), t.end()));
@@ -176,7 +176,7 @@ LocalMesh EveryNth(std::int32_t size, std::int32_t step) {
   return mesh;
 }
 
-// The slow twin asks a triangle about every post: what each corner gets of it.
+// The slow twin: tries every post of the terrain and returns the sums of the triangle's corners.
 std::array<UnitNormal, 3> SumsOver(const Placed& some, const PostNormals& posts,
                                    const std::array<Point3i, 3>& p) {
   const auto area = [](Point3i a, Point3i b, Point3i c) {

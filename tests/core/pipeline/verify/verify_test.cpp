@@ -16,7 +16,7 @@
 namespace farhorizon {
 namespace {
 
-// A hilly DEM with a hole, and what is built of it.
+// A hilly DEM with a hole, and its artifacts.
 class Built : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -49,7 +49,7 @@ class Built : public ::testing::Test {
     return lines;
   }
 
-  // Puts `with` for the first `what` of an artifact.
+  // Replaces the first `what` of an artifact by `with`.
   void Change(const std::string& name, const std::string& what, const std::string& with) {
     std::string bytes = SlurpFile(folder_ / "out" / name);
     const std::size_t at = bytes.find(what);
@@ -80,7 +80,7 @@ using Verify = Built;
 TEST_F(Verify, EveryClaimOfABuildHolds) { EXPECT_TRUE(False().empty()) << False().front(); }
 
 TEST_F(Verify, AzimuthsThatAreNotTheEdgesAreFound) {
-  // Every edge's azimuths a quarter turn on.
+  // Turns every edge's azimuths by a quarter turn.
   Result<std::vector<HorizonFeature>> features =
       ReadHorizonGeoJson(SlurpFile(folder_ / "out" / "horizon.geojson"));
   for (HorizonFeature& f : *features) {
@@ -130,7 +130,7 @@ TEST_F(Verify, ANodeThatPlacesTheMeshElsewhereIsFound) {
 }
 
 TEST_F(Verify, ADracoStreamWithAnotherLatticeIsFound) {
-  // Half the step, in the bitstream that both files carry.
+  // Halves the step, in the bitstream that both files have.
   const double half = StepOf("lod1.drc") / 2;
   for (const std::string name : {"lod1.drc", "lod1.glb"}) {
     std::string bytes = SlurpFile(folder_ / "out" / name);
@@ -146,7 +146,7 @@ TEST_F(Verify, ADracoStreamWithAnotherLatticeIsFound) {
 
 TEST_F(Verify, NormalsThatAreNotTheDemsAreFound) {
   DecodedMesh decoded = Decode("lod1.drc");
-  // Turned about by two degrees or so.
+  // Turns normals by some two degrees.
   for (UnitNormal& n : decoded.mesh.normals) {
     n[0] += 0.04;
     const double length = std::hypot(n[0], n[1], n[2]);
@@ -187,7 +187,7 @@ class BuiltApproximately : public Built {
 using VerifyApproximate = BuiltApproximately;
 
 TEST_F(VerifyApproximate, EveryClaimHoldsAndSaysThatTheSetIsASuperset) {
-  // What was asked for stands in the report; the one who verifies does not know it.
+  // Verification takes the budget from the report, not from its caller.
   options_.work_budget.reset();
   options_.approximate = false;
   EXPECT_TRUE(False().empty()) << False().front();
