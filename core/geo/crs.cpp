@@ -4,6 +4,7 @@
 // prints nothing and fetches nothing; its last message goes into the errors.
 #include "core/geo/crs.h"
 
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -328,13 +329,14 @@ Result<GlobeTransform> GlobeTransform::Open(const std::string& crs,
 
 namespace {
 
-// Transforms points in place. x, y, z: the members of T that PROJ reads and writes; z if `with_z`.
+// Transforms points in place. xyz: the members of T that PROJ reads and writes; z only `with_z`.
 template <typename T>
-void Transform(PJ* way, PJ_DIRECTION direction, std::vector<T>& points, double T::*x, double T::*y,
-               double T::*z, bool with_z) {
+void Transform(PJ* way, PJ_DIRECTION direction, std::vector<T>& points,
+               const std::array<double T::*, 3>& xyz, bool with_z) {
   if (points.empty()) return;
   const std::size_t n = points.size();
   T& first = points.front();
+  const auto [x, y, z] = xyz;
   proj_errno_reset(way);
   proj_trans_generic(way, direction, &(first.*x), sizeof(T), n, &(first.*y), sizeof(T), n,
                      with_z ? &(first.*z) : nullptr, with_z ? sizeof(T) : 0, with_z ? n : 0,
@@ -342,9 +344,9 @@ void Transform(PJ* way, PJ_DIRECTION direction, std::vector<T>& points, double T
 }
 
 Error Outside(std::size_t index, double x, double y, const std::string& what) {
-  char place[80];
-  std::snprintf(place, sizeof place, "point %zu (%.9g, %.9g)", index, x, y);
-  return Unusable(place + what, "outside-crs");
+  char point[80];
+  std::snprintf(point, sizeof point, "point %zu (%.9g, %.9g)", index, x, y);
+  return Unusable(point + what, "outside-crs");
 }
 
 }  // namespace
@@ -355,8 +357,8 @@ Result<std::vector<Geodetic>> GlobeTransform::ToGeodetic(
   result.reserve(points.size());
   const double unit = state_->HeightUnit();
   for (const MapPoint& p : points) result.push_back({p.x, p.y, p.z / unit});
-  Transform(state_->to_globe.get(), PJ_FWD, result, &Geodetic::lon_deg, &Geodetic::lat_deg,
-            &Geodetic::height_m, state_->HasHeights());
+  Transform(state_->to_globe.get(), PJ_FWD, result,
+            {&Geodetic::lon_deg, &Geodetic::lat_deg, &Geodetic::height_m}, state_->HasHeights());
   for (std::size_t i = 0; i < result.size(); ++i) {
     Geodetic& g = result[i];
     // Where PROJ has nothing to compute, it lets latitudes beyond a pole pass.
@@ -374,7 +376,7 @@ Result<std::vector<MapPoint>> GlobeTransform::FromGeodetic(
   std::vector<MapPoint> result;
   result.reserve(points.size());
   for (const Geodetic& g : points) result.push_back({g.lon_deg, g.lat_deg, g.height_m});
-  Transform(state_->to_globe.get(), PJ_INV, result, &MapPoint::x, &MapPoint::y, &MapPoint::z,
+  Transform(state_->to_globe.get(), PJ_INV, result, {&MapPoint::x, &MapPoint::y, &MapPoint::z},
             state_->HasHeights());
   const double unit = state_->HeightUnit();
   for (std::size_t i = 0; i < result.size(); ++i) {
@@ -395,7 +397,7 @@ Result<std::vector<Ecef>> GlobeTransform::ToEcef(const std::vector<Geodetic>& po
   std::vector<Ecef> result;
   result.reserve(points.size());
   for (const Geodetic& g : points) result.push_back({g.lon_deg, g.lat_deg, g.height_m});
-  Transform(state_->to_ecef.get(), PJ_FWD, result, &Ecef::x, &Ecef::y, &Ecef::z, true);
+  Transform(state_->to_ecef.get(), PJ_FWD, result, {&Ecef::x, &Ecef::y, &Ecef::z}, true);
   for (std::size_t i = 0; i < result.size(); ++i) {
     if (!std::isfinite(result[i].x + result[i].y + result[i].z)) {
       return Outside(i, points[i].lon_deg, points[i].lat_deg, " is no place on the globe");
@@ -408,8 +410,8 @@ Result<std::vector<Geodetic>> GlobeTransform::FromEcef(const std::vector<Ecef>& 
   std::vector<Geodetic> result;
   result.reserve(points.size());
   for (const Ecef& p : points) result.push_back({p.x, p.y, p.z});
-  Transform(state_->to_ecef.get(), PJ_INV, result, &Geodetic::lon_deg, &Geodetic::lat_deg,
-            &Geodetic::height_m, true);
+  Transform(state_->to_ecef.get(), PJ_INV, result,
+            {&Geodetic::lon_deg, &Geodetic::lat_deg, &Geodetic::height_m}, true);
   for (std::size_t i = 0; i < result.size(); ++i) {
     const Geodetic& g = result[i];
     if (!std::isfinite(g.lon_deg) || !std::isfinite(g.lat_deg) || !std::isfinite(g.height_m)) {

@@ -1,17 +1,13 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
 #include "core/base/result.h"
-#include "core/geo/frames.h"
+#include "core/io/local_mesh.h"
 #include "core/io/quantization_lattice.h"
 
 namespace farhorizon {
-
-/// A direction in the local frame: east, north, up; of length 1.
-using UnitNormal = std::array<double, 3>;
 
 /// The least `up` of a vertex normal: 1.8 degrees above the horizontal. Draco's octahedron of 8
 /// bits turns a normal by less than a degree, so that decoded normals point upwards, too.
@@ -21,18 +17,6 @@ inline constexpr double kLeastNormalUp = 1.0 / 32;
 /// difference between the numbers of neighbours (1.5 s at 2^28), and beyond 2^30 decodes other
 /// numbers without an error.
 inline constexpr std::uint32_t kMaxPost = (1U << 28U) - 1;
-
-/// Triangles by their vertices, counter-clockwise from above.
-///
-/// positions: in the local frame, metres. posts: for each vertex the number of the DEM's post that
-/// the vertex stands for, encoded without loss. normals: for each vertex, of the surface that the
-/// mesh stands for.
-struct LocalMesh {
-  std::vector<Enu> positions;
-  std::vector<std::uint32_t> posts;
-  std::vector<UnitNormal> normals;
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-};
 
 /// Encodes a mesh as a Draco bitstream (2.2, edgebreaker). Attribute 0 POSITION: lattice numbers,
 /// from 0 to 2^bits - 1, as floats; 1 GENERIC: the posts; 2 NORMAL: on Draco's octahedron in 8

@@ -10,6 +10,8 @@
 #include <numeric>
 #include <tuple>
 
+#include "core/base/result.h"
+
 namespace farhorizon {
 namespace {
 
@@ -83,13 +85,8 @@ class FlaggedEdges {
 // The normal of triangle t in signed bytes.
 std::array<std::int8_t, 3> NormalOf(const LocalMesh& mesh, std::uint32_t t) {
   const auto& [a, b, c] = mesh.triangles[t];
-  const auto minus = [](const Enu& p, const Enu& q) {
-    return std::array{p.east - q.east, p.north - q.north, p.up - q.up};
-  };
-  const std::array<double, 3> u = minus(mesh.positions[b], mesh.positions[a]);
-  const std::array<double, 3> v = minus(mesh.positions[c], mesh.positions[a]);
-  const std::array<double, 3> n = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
-                                   u[0] * v[1] - u[1] * v[0]};
+  const std::array<double, 3> n =
+      FaceNormal(mesh.positions[a], mesh.positions[b], mesh.positions[c]);
   const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
   if (length == 0) return {0, 0, 127};
   const auto byte = [&](double x) {

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/io/draco_mesh.h"
+#include "core/io/local_mesh.h"
 
 namespace farhorizon {
 

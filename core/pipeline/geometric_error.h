@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "core/base/result.h"
-#include "core/io/draco_mesh.h"
+#include "core/io/local_mesh.h"
 #include "core/pipeline/georeference.h"
 #include "core/terrain/terrain.h"
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/io/draco_mesh.h"
 #include "core/io/glb.h"
 #include "core/pipeline/geometric_error.h"
 
@@ -46,12 +47,7 @@ Result<LocalMesh> ToLocal(const LevelContext& context, const PostMesh& mesh) {
 std::vector<std::pair<std::uint32_t, std::uint32_t>> KeptInDecoded(const Horizon& horizon,
                                                                    const Lod& lod,
                                                                    const LocalMesh& decoded) {
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> by_post;
-  by_post.reserve(decoded.posts.size());
-  for (std::size_t i = 0; i < decoded.posts.size(); ++i) {
-    by_post.emplace_back(decoded.posts[i], static_cast<std::uint32_t>(i));
-  }
-  std::sort(by_post.begin(), by_post.end());
+  const std::vector<std::pair<std::uint32_t, std::uint32_t>> by_post = VerticesByPost(decoded);
   const auto find = [&by_post](VertexId v) {
     const auto at = std::lower_bound(by_post.begin(), by_post.end(),
                                      std::pair(static_cast<std::uint32_t>(v), std::uint32_t{0}));

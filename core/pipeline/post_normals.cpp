@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/geometry/row_span.h"
+#include "core/io/draco_mesh.h"
 
 namespace farhorizon {
 namespace {
@@ -30,13 +31,6 @@ Result<std::vector<Enu>> PlaceRow(const Terrain& terrain, const Georeference& ge
 }
 
 using Sums = std::vector<std::array<double, 3>>;
-
-// The triangle's normal, twice as long as its area.
-std::array<double, 3> FaceNormal(const Enu& a, const Enu& b, const Enu& c) {
-  const std::array<double, 3> u = {b.east - a.east, b.north - a.north, b.up - a.up};
-  const std::array<double, 3> v = {c.east - a.east, c.north - a.north, c.up - a.up};
-  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-}
 
 // `sum` at length 1, its `up` raised to kLeastNormalUp where it is below.
 UnitNormal Raised(const std::array<double, 3>& sum) {
@@ -145,10 +139,7 @@ Result<PostNormals> FindPostNormals(const Terrain& terrain, const Georeference& 
 std::vector<UnitNormal> MeanNormals(const Terrain& terrain, const PostNormals& normals,
                                     const LocalMesh& mesh) {
   // Vertices of one post share a slot.
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> by_post;
-  by_post.reserve(mesh.posts.size());
-  for (std::uint32_t i = 0; i < mesh.posts.size(); ++i) by_post.emplace_back(mesh.posts[i], i);
-  std::sort(by_post.begin(), by_post.end());
+  const std::vector<std::pair<std::uint32_t, std::uint32_t>> by_post = VerticesByPost(mesh);
   std::vector<std::size_t> slot(mesh.posts.size());
   std::size_t slots = 0;
   for (std::size_t i = 0; i < by_post.size(); ++i) {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "core/io/draco_mesh.h"
+#include "core/io/local_mesh.h"
 
 namespace farhorizon {
 
