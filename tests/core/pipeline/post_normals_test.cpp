@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/io/draco_mesh.h"
+
 namespace farhorizon {
 namespace {
 
