@@ -1,5 +1,10 @@
+// A reference system is read, checked and taken apart with PROJ's C interface: its horizontal part
+// must be geographic or projected, its heights may come from a 3-D, a vertical or a bound part.
+// Then PROJ looks for a way to WGS 84, and the way that is best at the DEM's middle is kept. PROJ
+// prints nothing and fetches nothing; its last message goes into the errors.
 #include "core/geo/crs.h"
 
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -25,7 +30,7 @@ struct Free {
 using ContextPtr = std::unique_ptr<PJ_CONTEXT, Free>;
 using PjPtr = std::unique_ptr<PJ, Free>;
 
-// PROJ's context and what it last complained of (it would print to stderr otherwise).
+// PROJ's context and PROJ's last message, which it would print to stderr otherwise.
 struct Session {
   Session() : context(proj_context_create()) {
     proj_context_set_enable_network(context.get(), 0);
@@ -47,7 +52,7 @@ Error Unusable(const std::string& message, ErrorKind kind) {
   return {ErrorCode::kUnsupportedData, message, kind};
 }
 
-// The part of `crs` that places points in plan; null where it has none.
+// The horizontal part of `crs`; null where it has none.
 PjPtr HorizontalPart(const Session& session, const PJ* crs) {
   switch (proj_get_type(crs)) {
     case PJ_TYPE_COMPOUND_CRS: {
@@ -64,11 +69,11 @@ PjPtr HorizontalPart(const Session& session, const PJ* crs) {
 }
 
 struct Axis {
-  double unit = 1;  // metres, or radians
+  double unit = 1;  // in metres
   bool down = false;
 };
 
-// The axis of heights of `crs`; null where it has none.
+// The axis of heights of `crs`; nullopt where it has none.
 std::optional<Axis> HeightAxis(const Session& session, const PJ* crs) {
   switch (proj_get_type(crs)) {
     case PJ_TYPE_COMPOUND_CRS: {
@@ -163,7 +168,7 @@ Status CheckPlan(const PJ* horizontal, const std::string& name) {
   }
 }
 
-// `crs` with its heights above `datum` instead of whatever it says of them.
+// The horizontal part of `crs` with heights above `datum`, whatever `crs` says of heights.
 Result<PjPtr> WithVerticalDatum(Session& session, PjPtr crs, const std::string& datum) {
   const std::string name = NameOf(session, crs.get());
   PjPtr plan(proj_get_type(crs.get()) == PJ_TYPE_COMPOUND_CRS
@@ -231,7 +236,7 @@ struct GlobeTransform::State {
   double full_turn = 0;
   std::optional<double> about_x;
 
-  // A system without heights says nothing of them: they pass as they are, whatever its datum.
+  // A system without heights says nothing of them, whatever its datum: heights stay as they are.
   [[nodiscard]] bool HasHeights() const { return height_axis.has_value(); }
   [[nodiscard]] double HeightUnit() const { return height_axis ? height_axis->unit : 1; }
 
@@ -239,8 +244,8 @@ struct GlobeTransform::State {
   Status FixWayAt(const MapPoint& about);
 };
 
-// Without ballpark operations where there are heights: PROJ's ballpark leaves them as they are,
-// tens of metres off, where the grid is missing.
+// Finds PROJ's way from `crs` to the globe. Not by a ballpark operation where there are heights:
+// where a grid is missing, that leaves them as they are, tens of metres off.
 Status GlobeTransform::State::FindWay() {
   const PjPtr globe(proj_create(session.get(), HasHeights() ? "EPSG:4979" : "EPSG:4326"));
   if (!globe) {
@@ -268,6 +273,7 @@ Status GlobeTransform::State::FindWay() {
   return Done{};
 }
 
+// Keeps the operation that PROJ uses at `about` for all points.
 Status GlobeTransform::State::FixWayAt(const MapPoint& about) {
   about_x = about.x;
   const PJ_COORD there =
@@ -323,13 +329,14 @@ Result<GlobeTransform> GlobeTransform::Open(const std::string& crs,
 
 namespace {
 
-// Transforms n points in place, x, y (and z, where `with_z`) being members of T.
+// Transforms points in place. xyz: the members of T that PROJ reads and writes; z only `with_z`.
 template <typename T>
-void Transform(PJ* way, PJ_DIRECTION direction, std::vector<T>& points, double T::*x, double T::*y,
-               double T::*z, bool with_z) {
+void Transform(PJ* way, PJ_DIRECTION direction, std::vector<T>& points,
+               const std::array<double T::*, 3>& xyz, bool with_z) {
   if (points.empty()) return;
   const std::size_t n = points.size();
   T& first = points.front();
+  const auto [x, y, z] = xyz;
   proj_errno_reset(way);
   proj_trans_generic(way, direction, &(first.*x), sizeof(T), n, &(first.*y), sizeof(T), n,
                      with_z ? &(first.*z) : nullptr, with_z ? sizeof(T) : 0, with_z ? n : 0,
@@ -337,9 +344,9 @@ void Transform(PJ* way, PJ_DIRECTION direction, std::vector<T>& points, double T
 }
 
 Error Outside(std::size_t index, double x, double y, const std::string& what) {
-  char place[80];
-  std::snprintf(place, sizeof place, "point %zu (%.9g, %.9g)", index, x, y);
-  return Unusable(place + what, "outside-crs");
+  char point[80];
+  std::snprintf(point, sizeof point, "point %zu (%.9g, %.9g)", index, x, y);
+  return Unusable(point + what, "outside-crs");
 }
 
 }  // namespace
@@ -350,11 +357,11 @@ Result<std::vector<Geodetic>> GlobeTransform::ToGeodetic(
   result.reserve(points.size());
   const double unit = state_->HeightUnit();
   for (const MapPoint& p : points) result.push_back({p.x, p.y, p.z / unit});
-  Transform(state_->to_globe.get(), PJ_FWD, result, &Geodetic::lon_deg, &Geodetic::lat_deg,
-            &Geodetic::height_m, state_->HasHeights());
+  Transform(state_->to_globe.get(), PJ_FWD, result,
+            {&Geodetic::lon_deg, &Geodetic::lat_deg, &Geodetic::height_m}, state_->HasHeights());
   for (std::size_t i = 0; i < result.size(); ++i) {
     Geodetic& g = result[i];
-    // PROJ passes latitudes beyond a pole through where it has nothing to compute.
+    // Where PROJ has nothing to compute, it lets latitudes beyond a pole pass.
     if (!std::isfinite(g.lon_deg) || !std::isfinite(g.height_m) || !(std::abs(g.lat_deg) <= 90)) {
       return Outside(i, points[i].x, points[i].y,
                      " has no place on the globe in " + state_->name + "; is --crs right?");
@@ -369,7 +376,7 @@ Result<std::vector<MapPoint>> GlobeTransform::FromGeodetic(
   std::vector<MapPoint> result;
   result.reserve(points.size());
   for (const Geodetic& g : points) result.push_back({g.lon_deg, g.lat_deg, g.height_m});
-  Transform(state_->to_globe.get(), PJ_INV, result, &MapPoint::x, &MapPoint::y, &MapPoint::z,
+  Transform(state_->to_globe.get(), PJ_INV, result, {&MapPoint::x, &MapPoint::y, &MapPoint::z},
             state_->HasHeights());
   const double unit = state_->HeightUnit();
   for (std::size_t i = 0; i < result.size(); ++i) {
@@ -390,7 +397,7 @@ Result<std::vector<Ecef>> GlobeTransform::ToEcef(const std::vector<Geodetic>& po
   std::vector<Ecef> result;
   result.reserve(points.size());
   for (const Geodetic& g : points) result.push_back({g.lon_deg, g.lat_deg, g.height_m});
-  Transform(state_->to_ecef.get(), PJ_FWD, result, &Ecef::x, &Ecef::y, &Ecef::z, true);
+  Transform(state_->to_ecef.get(), PJ_FWD, result, {&Ecef::x, &Ecef::y, &Ecef::z}, true);
   for (std::size_t i = 0; i < result.size(); ++i) {
     if (!std::isfinite(result[i].x + result[i].y + result[i].z)) {
       return Outside(i, points[i].lon_deg, points[i].lat_deg, " is no place on the globe");
@@ -403,8 +410,8 @@ Result<std::vector<Geodetic>> GlobeTransform::FromEcef(const std::vector<Ecef>& 
   std::vector<Geodetic> result;
   result.reserve(points.size());
   for (const Ecef& p : points) result.push_back({p.x, p.y, p.z});
-  Transform(state_->to_ecef.get(), PJ_INV, result, &Geodetic::lon_deg, &Geodetic::lat_deg,
-            &Geodetic::height_m, true);
+  Transform(state_->to_ecef.get(), PJ_INV, result,
+            {&Geodetic::lon_deg, &Geodetic::lat_deg, &Geodetic::height_m}, true);
   for (std::size_t i = 0; i < result.size(); ++i) {
     const Geodetic& g = result[i];
     if (!std::isfinite(g.lon_deg) || !std::isfinite(g.lat_deg) || !std::isfinite(g.height_m)) {

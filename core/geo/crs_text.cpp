@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t kMaxBytes = std::size_t{64} * 1024;
 constexpr std::size_t kMaxShownBytes = 60;
 
-// What makes PROJ open something by name, in lower case.
+// Texts that make PROJ open something by name, in lower case.
 constexpr std::array<std::string_view, 9> kNamesAFile = {
     "proj=pipeline", "+step",  "+init=",        "init=", "geoidgrids=",
     "+grids=",       "+file=", "parameterfile", "@http"};
@@ -23,7 +23,7 @@ std::string Lower(std::string_view text) {
   return lower;
 }
 
-// WKT and PROJJSON carry URLs as plain citations, which PROJ does not follow.
+// WKT and PROJJSON have URLs as citations, which PROJ does not follow.
 bool IsStructured(std::string_view lower) {
   return lower.starts_with('{') || lower.find('[') != std::string_view::npos;
 }
@@ -54,7 +54,7 @@ Status CheckCrsText(const std::string& text) {
       return Refused(text, "names a pipeline or a file, which is not allowed");
     }
   }
-  // Web Mercator is written with +nadgrids=@null, which means no grid; any other names one.
+  // Web Mercator is written with +nadgrids=@null, which means no grid; any other value names one.
   for (std::size_t at = lower.find("nadgrids="); at != std::string::npos;
        at = lower.find("nadgrids=", at + 1)) {
     if (lower.compare(at + 9, 5, "@null") != 0) {

@@ -4,7 +4,7 @@
 
 namespace farhorizon {
 
-/// Height above the WGS 84 ellipsoid.
+/// Longitude and latitude, degrees, and height above the WGS 84 ellipsoid, metres.
 struct Geodetic {
   double lon_deg = 0;
   double lat_deg = 0;
@@ -25,15 +25,16 @@ struct Enu {
   double up = 0;
 };
 
-/// The local frame that touches the ellipsoid's normal at a point: one a job.
+/// The local frame at a point of the ellipsoid: `up` along the ellipsoid's normal. A job has one.
 class TangentFrame {
  public:
+  /// Requires: both are the same point.
   TangentFrame(Geodetic origin, Ecef origin_ecef);
 
   [[nodiscard]] Geodetic origin() const { return origin_; }
   [[nodiscard]] Enu ToEnu(Ecef p) const;
   [[nodiscard]] Ecef ToEcef(Enu p) const;
-  /// Column-major 4 x 4, as a 3D Tiles `transform`.
+  /// The 4 x 4 matrix of ToEcef, column-major, as the `transform` of [3D Tiles].
   [[nodiscard]] std::array<double, 16> EnuToEcef() const;
 
  private:

@@ -1,3 +1,5 @@
+// Counts the numbers of an ASCII grid, word by word, in pieces of the file. A word is judged by its
+// characters alone: which value it has is left to GDAL.
 #include "core/io/ascii_grid.h"
 
 #include <algorithm>
@@ -13,7 +15,7 @@ namespace {
 constexpr std::array<std::string_view, 10> kHeaderWords = {
     "ncols",     "nrows", "xllcorner", "xllcenter",    "yllcorner",
     "yllcenter", "dx",    "dy",        "nodata_value", "cellsize"};
-// Longer than any number or header word: what comes in longer words is none.
+// Longer than any number or header word.
 constexpr std::size_t kMaxWord = 64;
 
 bool IsNumber(std::string_view word) {
@@ -22,7 +24,7 @@ bool IsNumber(std::string_view word) {
   });
 }
 
-// "nan", "inf", "-1.#QNAN" and the like: GDAL knows them, the reader judges the value.
+// "nan", "inf", "-1.#QNAN" and the like, which GDAL reads and dem_reader judges by value.
 bool IsSpecial(std::string_view word) {
   return std::ranges::all_of(word, [](char c) {
     return std::string_view("+-.#1").find(c) != std::string_view::npos ||
@@ -30,9 +32,10 @@ bool IsSpecial(std::string_view word) {
   });
 }
 
+// Counts numbers; header words and the values after them are none.
 class Counter {
  public:
-  // False where the word does not belong into such a grid.
+  // Takes the next word; false where no such grid has it.
   bool Take(std::string word) {
     if (value_of_header_word_) {
       value_of_header_word_ = false;

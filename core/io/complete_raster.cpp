@@ -11,8 +11,8 @@
 namespace farhorizon {
 namespace {
 
-// GDAL fills blocks that a TIFF leaves out with nodata, or with zeros where there is none: in a
-// file that was cut short those zeros would be taken for ground.
+// GDAL fills blocks that a TIFF leaves out with nodata, or with zeros where the band has none. In a
+// file that was cut short such zeros would be taken for ground.
 Status CheckTiffBlocks(GDALRasterBandH band, std::uintmax_t file_bytes, bool has_nodata) {
   int width = 0;
   int height = 0;
@@ -21,9 +21,9 @@ Status CheckTiffBlocks(GDALRasterBandH band, std::uintmax_t file_bytes, bool has
   const int down = (GDALGetRasterBandYSize(band) + height - 1) / height;
   for (int y = 0; y < down; ++y) {
     for (int x = 0; x < across; ++x) {
-      const std::string place = std::to_string(x) + "_" + std::to_string(y);
+      const std::string block = std::to_string(x) + "_" + std::to_string(y);
       const auto number = [&](const std::string& key) -> std::uintmax_t {
-        const char* text = GDALGetMetadataItem(band, (key + place).c_str(), "TIFF");
+        const char* text = GDALGetMetadataItem(band, (key + block).c_str(), "TIFF");
         return text != nullptr ? std::strtoull(text, nullptr, 10) : 0;
       };
       const std::uintmax_t offset = number("BLOCK_OFFSET_");

@@ -1,9 +1,8 @@
-// Reads a DEM through GDAL without trusting the file: everything that can be refused from the
-// header is refused before the first pixel is read. Threats and settings: GdalSession.
+// Reads a DEM through GDAL without trusting the file: all that can be refused from the header is
+// refused before the first pixel is read. GdalSession keeps GDAL from opening other files.
 #include "core/io/dem_reader.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -16,6 +15,7 @@
 #include <gdal.h>
 #include <ogr_srs_api.h>
 
+#include "core/io/band_values.h"
 #include "core/io/complete_raster.h"
 #include "core/io/gdal_session.h"
 #include "core/io/height_quantum.h"
@@ -23,10 +23,7 @@
 namespace farhorizon {
 namespace {
 
-constexpr int kMaxSide = 32768;
-constexpr double kMaxHeight = 1073741824;  // 2^30: Dem's bound at a quantum of 1
-constexpr double kFoot = 0.3048;
-constexpr double kSurveyFoot = 1200.0 / 3937;
+constexpr int kMaxSide = 32768;  // Dem's bound
 
 struct CloseDataset {
   void operator()(void* dataset) const { GDALClose(dataset); }
@@ -103,7 +100,7 @@ Status CheckSize(GDALDatasetH dataset, const DemReadOptions& options) {
   return Done{};
 }
 
-// A block is decoded whole. One much larger than the raster is a bomb, not a tiling.
+// GDAL decodes a block as a whole. A block much larger than the raster fills memory to no purpose.
 Status CheckBlock(GDALRasterBandH band, const DemReadOptions& options) {
   constexpr std::int64_t kAlwaysFine = std::int64_t{1} << 20;
   int width = 0;
@@ -187,103 +184,7 @@ Result<std::string> ReadCrs(GDALDatasetH dataset, const DemReadOptions& options)
   return wkt;
 }
 
-Result<double> UnitInMetres(std::string name) {
-  std::ranges::transform(name, name.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  static constexpr std::pair<std::string_view, double> kUnits[] = {{"", 1},
-                                                                   {"m", 1},
-                                                                   {"metre", 1},
-                                                                   {"metres", 1},
-                                                                   {"meter", 1},
-                                                                   {"meters", 1},
-                                                                   {"ft", kFoot},
-                                                                   {"foot", kFoot},
-                                                                   {"feet", kFoot},
-                                                                   {"international foot", kFoot},
-                                                                   {"us-ft", kSurveyFoot},
-                                                                   {"ftus", kSurveyFoot},
-                                                                   {"us survey foot", kSurveyFoot},
-                                                                   {"foot_us", kSurveyFoot},
-                                                                   {"us_foot", kSurveyFoot},
-                                                                   {"sfoot", kSurveyFoot},
-                                                                   {"km", 1000},
-                                                                   {"dm", 0.1},
-                                                                   {"cm", 0.01},
-                                                                   {"mm", 0.001}};
-  for (const auto& [known, metres] : kUnits) {
-    if (name == known) return metres;
-  }
-  return BadData("the band's values are in \"" + name.substr(0, 40) +
-                     "\", heights must be in metres or feet; set the unit with gdal_edit -units",
-                 "unknown-unit");
-}
-
-// How raw values become metres: metres = raw * scale + offset.
-struct ValueScale {
-  double scale = 1;
-  double offset = 0;
-};
-
-Result<ValueScale> ReadValueScale(GDALDatasetH dataset, GDALRasterBandH band) {
-  Result<double> unit = UnitInMetres(GDALGetRasterUnitType(band));
-  if (!unit) return std::move(unit.error());
-  const OGRSpatialReferenceH crs = GDALGetSpatialRef(dataset);
-  if (*GDALGetRasterUnitType(band) == '\0' && crs != nullptr && OSRIsCompound(crs) != 0) {
-    unit = OSRGetTargetLinearUnits(crs, "VERT_CS", nullptr);
-  }
-  const double scale = GDALGetRasterScale(band, nullptr);
-  const double offset = GDALGetRasterOffset(band, nullptr);
-  if (!std::isfinite(scale) || scale == 0 || !std::isfinite(offset)) {
-    return BadData("the band's scale (" + std::to_string(scale) + ") or offset (" +
-                       std::to_string(offset) + ") is of no use; set them with gdal_edit",
-                   "unsupported-type");
-  }
-  return ValueScale{scale * *unit, offset * *unit};
-}
-
-// What a band says of cells without data.
-class NoDataRule {
- public:
-  NoDataRule(GDALRasterBandH band, const DemReadOptions& options)
-      : is_float_(GDALGetRasterDataType(band) == GDT_Float32) {
-    int given = 0;
-    double value = 0;
-    switch (GDALGetRasterDataType(band)) {
-      case GDT_Int64:
-        value = static_cast<double>(GDALGetRasterNoDataValueAsInt64(band, &given));
-        break;
-      case GDT_UInt64:
-        value = static_cast<double>(GDALGetRasterNoDataValueAsUInt64(band, &given));
-        break;
-      default:
-        value = GDALGetRasterNoDataValue(band, &given);
-    }
-    if (given != 0) value_ = value;
-    if (options.nodata) value_ = options.nodata;
-  }
-
-  [[nodiscard]] bool given() const { return value_.has_value(); }
-
-  // Values beyond any height (-1e37, -3.40282e+38) are written with few digits, so that text and
-  // bits may differ: they match within 1e-5 of their size. Ordinary ones match as the type stores
-  // them.
-  [[nodiscard]] bool Matches(double value) const {
-    if (std::isnan(value)) return true;
-    if (!value_) return false;
-    if (value == *value_) return true;
-    if (std::abs(*value_) >= kMaxHeight && std::isfinite(*value_)) {
-      return std::abs(value - *value_) <= 1e-5 * std::abs(*value_);
-    }
-    return is_float_ && std::isfinite(*value_) &&
-           static_cast<float>(value) == static_cast<float>(*value_);
-  }
-
- private:
-  bool is_float_;
-  std::optional<double> value_;
-};
-
-// An internal mask hides cells without giving them a value of their own.
+// Makes NaN of cells that an internal mask hides, whatever their values.
 Status ApplyMask(GDALRasterBandH band, GdalSession& session, std::vector<double>& values) {
   if ((GDALGetMaskFlags(band) & GMF_PER_DATASET) == 0) return Done{};
   const int columns = GDALGetRasterBandXSize(band);
@@ -300,13 +201,13 @@ Status ApplyMask(GDALRasterBandH band, GdalSession& session, std::vector<double>
   return Done{};
 }
 
-std::string PlaceOf(std::size_t post, int columns) {
+std::string CellName(std::size_t post, int columns) {
   const auto width = static_cast<std::size_t>(columns);
   return "the cell at column " + std::to_string(post % width) + ", row " +
          std::to_string(post / width);
 }
 
-// Raw values of the band, rows x columns, NaN where there is no data; all others are heights.
+// The band's raw values, rows x columns, NaN where there is no data. All others pass as heights.
 Result<std::vector<double>> ReadValues(GDALRasterBandH band, const NoDataRule& nodata,
                                        const ValueScale& scale, GdalSession& session) {
   const int columns = GDALGetRasterBandXSize(band);
@@ -328,12 +229,12 @@ Result<std::vector<double>> ReadValues(GDALRasterBandH band, const NoDataRule& n
     any = true;
     if (std::isinf(value)) {
       return BadData(
-          PlaceOf(i, columns) + " is infinite; name the value that means no data with --nodata",
+          CellName(i, columns) + " is infinite; name the value that means no data with --nodata",
           "infinite-height");
     }
     if (std::abs(value) >= kMaxHeight ||
         std::abs(value * scale.scale + scale.offset) >= kMaxHeight) {
-      return BadData(PlaceOf(i, columns) + " is " + std::to_string(value) +
+      return BadData(CellName(i, columns) + " is " + std::to_string(value) +
                          ", which is no height; name the value that means no data with --nodata",
                      "height-out-of-range");
     }
@@ -348,7 +249,7 @@ Result<Dem> ReadOpened(GDALDatasetH dataset, const std::filesystem::path& path,
   const GDALRasterBandH band = GDALGetRasterBand(dataset, 1);
   if (Status typed = CheckType(band); !typed) return std::move(typed.error());
   if (Status fits = CheckBlock(band, options); !fits) return std::move(fits.error());
-  const NoDataRule nodata(band, options);
+  const NoDataRule nodata(band, options.nodata);
   if (Status whole = CheckComplete(dataset, path, nodata.given()); !whole) {
     return std::move(whole.error());
   }

@@ -1,3 +1,6 @@
+// Meshes to Draco bitstreams and back. Positions go in as lattice numbers, which Draco's
+// quantisation leaves as they are, so that what is decoded is known before: SnapToLattice.
+// Everything that is decoded is checked, because verification reads files of unknown origin.
 #include "core/io/draco_mesh.h"
 
 #include <algorithm>
@@ -13,84 +16,34 @@
 namespace farhorizon {
 namespace {
 
-constexpr int kMaxBits = 16;
-constexpr int kFloatBits = 24;
 constexpr int kPositionId = 0;
-constexpr int kSourceId = 1;
+constexpr int kPostId = 1;
 constexpr int kNormalId = 2;
-// Half a degree is no visible shade; each further bit costs a quarter byte a vertex or more.
+// 8 bits turn a normal by half a degree, which no shading shows; each further bit costs a quarter
+// of a byte a vertex or more. kLeastNormalUp relies on it.
 constexpr int kNormalBits = 8;
-// Draco's scale runs from 0 (slowest, smallest) to 10; its own default is 5.
+// Draco's scale is 0 (slowest, smallest) to 10, its default 5. Any value is sound.
 constexpr int kEncodingSpeed = 3;
 constexpr std::array<const char*, 3> kOriginNames = {"lattice_origin_east", "lattice_origin_north",
                                                      "lattice_origin_up"};
 constexpr char kStepName[] = "lattice_step";
-
-std::array<double, 3> Axes(const Enu& p) { return {p.east, p.north, p.up}; }
-
-struct Box {
-  std::array<double, 3> least;
-  std::array<double, 3> greatest;
-};
-
-Box BoxOf(const std::vector<Enu>& points) {
-  Check(!points.empty(), "a lattice over no points");
-  Box box = {Axes(points[0]), Axes(points[0])};
-  for (const Enu& point : points) {
-    const std::array<double, 3> p = Axes(point);
-    for (std::size_t i = 0; i < 3; ++i) {
-      box.least[i] = std::min(box.least[i], p[i]);
-      box.greatest[i] = std::max(box.greatest[i], p[i]);
-    }
-  }
-  for (std::size_t i = 0; i < 3; ++i) {
-    Check(std::isfinite(box.least[i]) && std::isfinite(box.greatest[i]), "a point is not finite");
-  }
-  return box;
-}
-
-// Index of the lattice position nearest to `value`; exact but for one division by a power of two.
-double IndexOf(double value, double origin, double step) {
-  return std::nearbyint((value - origin) / step);
-}
-
-// The lattice of this step over the box; bits may come out as more than are allowed.
-QuantizationLattice LatticeOver(const Box& box, double step) {
-  QuantizationLattice lattice;
-  lattice.step_m = step;
-  double last = 1;
-  for (std::size_t i = 0; i < 3; ++i) {
-    lattice.origin[i] = std::floor(box.least[i] / step) * step;
-    last = std::max(last, IndexOf(box.greatest[i], lattice.origin[i], step));
-  }
-  std::frexp(last, &lattice.bits);  // last < 2^bits
-  return lattice;
-}
-
-// Every position is a sum that float holds without rounding, as renderers' matrices do.
-bool ExactInFloat(const QuantizationLattice& lattice) {
-  const double limit = std::ldexp(1.0, kFloatBits);
-  return std::ranges::all_of(lattice.origin, [&](double origin) {
-    return std::abs(origin) / lattice.step_m + std::ldexp(1.0, lattice.bits) <= limit;
-  });
-}
 
 Error BadMesh(const std::string& message) {
   return {ErrorCode::kUnsupportedData, message, "bad-mesh"};
 }
 
 Status CheckMesh(const LocalMesh& mesh) {
-  Check(mesh.positions.size() == mesh.sources.size(), "as many sources as positions");
+  Check(mesh.positions.size() == mesh.posts.size(), "as many posts as positions");
   Check(mesh.positions.size() == mesh.normals.size(), "as many normals as positions");
   for (const auto& [east, north, up] : mesh.normals) {
     Check(up >= kLeastNormalUp, "a normal points upwards");
+    // Far above what rounding does to a normal, far below what 8 bits can tell.
     Check(std::abs(std::hypot(east, north, up) - 1) < 1e-6, "a normal has length 1");
   }
-  if (mesh.triangles.empty() || mesh.sources.empty()) return BadMesh("the mesh has no triangle");
-  const std::uint32_t greatest = *std::ranges::max_element(mesh.sources);
-  if (greatest > kMaxSource) {
-    return BadMesh("source " + std::to_string(greatest) + " is beyond " +
-                   std::to_string(kMaxSource));
+  if (mesh.triangles.empty() || mesh.posts.empty()) return BadMesh("the mesh has no triangle");
+  const std::uint32_t greatest = *std::ranges::max_element(mesh.posts);
+  if (greatest > kMaxPost) {
+    return BadMesh("post " + std::to_string(greatest) + " is beyond " + std::to_string(kMaxPost));
   }
   std::vector<bool> used(mesh.positions.size(), false);
   for (const auto& [a, b, c] : mesh.triangles) {
@@ -135,18 +88,18 @@ std::unique_ptr<draco::Mesh> ToDraco(const LocalMesh& mesh, const QuantizationLa
   result->set_num_points(static_cast<std::uint32_t>(count));
   const int position =
       AddAttribute(*result, draco::GeometryAttribute::POSITION, 3, draco::DT_FLOAT32, count);
-  const int source =
+  const int post =
       AddAttribute(*result, draco::GeometryAttribute::GENERIC, 1, draco::DT_UINT32, count);
   const int normal =
       AddAttribute(*result, draco::GeometryAttribute::NORMAL, 3, draco::DT_FLOAT32, count);
-  Check(position == kPositionId && source == kSourceId && normal == kNormalId,
+  Check(position == kPositionId && post == kPostId && normal == kNormalId,
         "Draco numbers attributes as they come");
   for (std::size_t i = 0; i < count; ++i) {
     const draco::AttributeValueIndex index(static_cast<std::uint32_t>(i));
     const std::array<float, 3> xyz = ToFloat(LatticeNumbers(mesh.positions[i], lattice));
     const std::array<float, 3> upwards = ToFloat(mesh.normals[i]);
     result->attribute(position)->SetAttributeValue(index, xyz.data());
-    result->attribute(source)->SetAttributeValue(index, &mesh.sources[i]);
+    result->attribute(post)->SetAttributeValue(index, &mesh.posts[i]);
     result->attribute(normal)->SetAttributeValue(index, upwards.data());
   }
   result->SetNumFaces(mesh.triangles.size());
@@ -165,7 +118,7 @@ Error BadDraco(const std::string& message) {
 
 struct Attributes {
   const draco::PointAttribute* position = nullptr;
-  const draco::PointAttribute* source = nullptr;
+  const draco::PointAttribute* post = nullptr;
   const draco::PointAttribute* normal = nullptr;
 };
 
@@ -180,15 +133,15 @@ Result<Attributes> AttributesOf(const draco::Mesh& mesh) {
   };
   const Attributes result = {
       find(kPositionId, draco::GeometryAttribute::POSITION, 3, draco::DT_FLOAT32),
-      find(kSourceId, draco::GeometryAttribute::GENERIC, 1, draco::DT_UINT32),
+      find(kPostId, draco::GeometryAttribute::GENERIC, 1, draco::DT_UINT32),
       find(kNormalId, draco::GeometryAttribute::NORMAL, 3, draco::DT_FLOAT32)};
   if (result.position == nullptr) return BadDraco("attribute 0 is not POSITION in three floats");
-  if (result.source == nullptr) return BadDraco("attribute 1 is not GENERIC in one 32-bit number");
+  if (result.post == nullptr) return BadDraco("attribute 1 is not GENERIC in one 32-bit number");
   if (result.normal == nullptr) return BadDraco("attribute 2 is not NORMAL in three floats");
   return result;
 }
 
-// The lattice that the metadata names; its bits are left to the positions.
+// The lattice that the metadata names, with 1 bit: ReadVertices finds how many the positions need.
 Result<QuantizationLattice> LatticeOf(const draco::Mesh& mesh) {
   const draco::GeometryMetadata* metadata = mesh.GetMetadata();
   QuantizationLattice lattice;
@@ -209,33 +162,34 @@ Result<QuantizationLattice> LatticeOf(const draco::Mesh& mesh) {
   return lattice;
 }
 
+static_assert(kMaxLatticeBits == 16);
 bool IsLatticeNumber(float x) { return x >= 0 && x < 65536 && std::floor(x) == x; }
 
-// Fills in what vertices have; the lattice's bits grow to hold the positions.
+// Reads positions, posts and normals, and sets the lattice's bits to as many as hold the positions.
 Status ReadVertices(const draco::Mesh& mesh, const Attributes& attributes, DecodedMesh& result) {
   QuantizationLattice& lattice = result.lattice;
   LocalMesh& local = result.mesh;
   local.positions.reserve(mesh.num_points());
-  local.sources.reserve(mesh.num_points());
+  local.posts.reserve(mesh.num_points());
   local.normals.reserve(mesh.num_points());
   float last = 1;
   for (std::uint32_t i = 0; i < mesh.num_points(); ++i) {
     const draco::PointIndex point(i);
     std::array<float, 3> number{};
     std::array<float, 3> normal{};
-    std::uint32_t source = 0;
+    std::uint32_t post = 0;
     attributes.position->GetMappedValue(point, number.data());
-    attributes.source->GetMappedValue(point, &source);
+    attributes.post->GetMappedValue(point, &post);
     attributes.normal->GetMappedValue(point, normal.data());
     if (!std::ranges::all_of(number, IsLatticeNumber)) {
       return BadDraco("a position is no lattice number of 16 bits");
     }
     last = std::max(last, *std::ranges::max_element(number));
-    const auto place = [&](std::size_t axis) {
+    const auto coordinate = [&](std::size_t axis) {
       return lattice.origin[axis] + number[axis] * lattice.step_m;
     };
-    local.positions.push_back({place(0), place(1), place(2)});
-    local.sources.push_back(source);
+    local.positions.push_back({coordinate(0), coordinate(1), coordinate(2)});
+    local.posts.push_back(post);
     local.normals.push_back({normal[0], normal[1], normal[2]});
   }
   std::frexp(last, &lattice.bits);  // last < 2^bits
@@ -244,40 +198,14 @@ Status ReadVertices(const draco::Mesh& mesh, const Attributes& attributes, Decod
 
 }  // namespace
 
-QuantizationLattice ChooseLattice(const std::vector<Enu>& points, double wanted_step_m) {
-  Check(wanted_step_m > 0 && std::isfinite(wanted_step_m), "a lattice without step");
-  const Box box = BoxOf(points);
-  int exponent = 0;
-  std::frexp(wanted_step_m, &exponent);  // 2^(exponent - 1) <= wanted < 2^exponent
-  for (double step = std::ldexp(1.0, exponent - 1);; step *= 2) {
-    const QuantizationLattice lattice = LatticeOver(box, step);
-    if (lattice.bits <= kMaxBits && ExactInFloat(lattice)) return lattice;
-  }
-}
-
-std::array<double, 3> LatticeNumbers(const Enu& point, const QuantizationLattice& lattice) {
-  std::array<double, 3> numbers = Axes(point);
-  for (std::size_t i = 0; i < 3; ++i) {
-    numbers[i] = IndexOf(numbers[i], lattice.origin[i], lattice.step_m);
-    Check(numbers[i] >= 0 && numbers[i] < std::ldexp(1.0, lattice.bits),
-          "a position outside its lattice");
-  }
-  return numbers;
-}
-
-Enu SnapToLattice(const Enu& point, const QuantizationLattice& lattice) {
-  const std::array<double, 3> n = LatticeNumbers(point, lattice);
-  return {lattice.origin[0] + n[0] * lattice.step_m, lattice.origin[1] + n[1] * lattice.step_m,
-          lattice.origin[2] + n[2] * lattice.step_m};
-}
-
 Result<std::vector<std::uint8_t>> EncodeDraco(const LocalMesh& mesh,
                                               const QuantizationLattice& lattice) {
-  Check(lattice.bits >= 1 && lattice.bits <= kMaxBits && ExactInFloat(lattice), "a bad lattice");
+  Check(lattice.bits >= 1 && lattice.bits <= kMaxLatticeBits && ExactInFloat(lattice),
+        "a bad lattice");
   if (Status sound = CheckMesh(mesh); !sound) return std::move(sound.error());
-  const std::unique_ptr<draco::Mesh> source = ToDraco(mesh, lattice);
+  const std::unique_ptr<draco::Mesh> whole = ToDraco(mesh, lattice);
 
-  draco::ExpertEncoder encoder(*source);
+  draco::ExpertEncoder encoder(*whole);
   encoder.SetEncodingMethod(draco::MESH_EDGEBREAKER_ENCODING);
   encoder.SetSpeedOptions(kEncodingSpeed, kEncodingSpeed);
   encoder.SetTrackEncodedProperties(true);

@@ -1,3 +1,6 @@
+// Flags edges of a mesh whose vertices may be split: a vertex is named by the least one of the same
+// post and position, an edge by two such names, and flagged edges are sorted by name to be found
+// from each triangle's sides. O(n log n) for n sides.
 #include "core/io/edge_visibility.h"
 
 #include <algorithm>
@@ -6,6 +9,8 @@
 #include <limits>
 #include <numeric>
 #include <tuple>
+
+#include "core/base/result.h"
 
 namespace farhorizon {
 namespace {
@@ -16,11 +21,11 @@ constexpr std::uint8_t kSilhouette = 1;
 constexpr std::uint8_t kHard = 2;
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
-// Per vertex, the least vertex of the same source and position.
+// For each vertex the least vertex of the same post and position.
 std::vector<std::uint32_t> FirstOfEqual(const LocalMesh& mesh) {
   const auto key = [&](std::uint32_t v) {
     const Enu& p = mesh.positions[v];
-    return std::tuple(mesh.sources[v], p.east, p.north, p.up);
+    return std::tuple(mesh.posts[v], p.east, p.north, p.up);
   };
   std::vector<std::uint32_t> order(mesh.positions.size());
   std::iota(order.begin(), order.end(), 0U);
@@ -33,7 +38,7 @@ std::vector<std::uint32_t> FirstOfEqual(const LocalMesh& mesh) {
   return first;
 }
 
-// A flagged edge and the triangles on either side.
+// A flagged edge and the triangles on both sides; the second is kNone on the border.
 struct Flagged {
   VertexPair edge;
   std::array<std::uint32_t, 2> triangles = {kNone, kNone};
@@ -59,7 +64,7 @@ class FlaggedEdges {
     }
   }
 
-  // The flagged edge at this side of triangle t; null where there is none.
+  // The flagged edge at side `side` of triangle t; null where that side is not flagged.
   Flagged* Find(std::uint32_t t, std::size_t side) {
     const auto& triangle = mesh_.triangles[t];
     const VertexPair edge = Name(triangle[side], triangle[(side + 1) % 3]);
@@ -80,13 +85,8 @@ class FlaggedEdges {
 // The normal of triangle t in signed bytes.
 std::array<std::int8_t, 3> NormalOf(const LocalMesh& mesh, std::uint32_t t) {
   const auto& [a, b, c] = mesh.triangles[t];
-  const auto minus = [](const Enu& p, const Enu& q) {
-    return std::array{p.east - q.east, p.north - q.north, p.up - q.up};
-  };
-  const std::array<double, 3> u = minus(mesh.positions[b], mesh.positions[a]);
-  const std::array<double, 3> v = minus(mesh.positions[c], mesh.positions[a]);
-  const std::array<double, 3> n = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
-                                   u[0] * v[1] - u[1] * v[0]};
+  const std::array<double, 3> n =
+      FaceNormal(mesh.positions[a], mesh.positions[b], mesh.positions[c]);
   const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
   if (length == 0) return {0, 0, 127};
   const auto byte = [&](double x) {

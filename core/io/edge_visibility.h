@@ -4,26 +4,27 @@
 #include <utility>
 #include <vector>
 
-#include "core/io/draco_mesh.h"
+#include "core/io/local_mesh.h"
 
 namespace farhorizon {
 
 /// The data of EXT_mesh_primitive_edge_visibility for a set of edges of a mesh.
 struct EdgeVisibility {
-  /// Two bits an edge v0v1, v1v2, v2v0 of each triangle in turn, lowest bits first: 0 hidden,
+  /// Two bits for each side v0v1, v1v2, v2v0 of each triangle in turn, lowest bits first: 0 hidden,
   /// 1 silhouette (drawn between a front and a back face), 2 hard (always drawn).
   std::vector<std::uint8_t> bits;
-  /// The unit normals of both triangles at each silhouette edge, in the order of `bits`: x, y, z in
-  /// signed bytes, 127 for 1, two triples an edge.
+  /// The unit normals of both triangles at each silhouette edge, in the order of `bits`: two
+  /// triples x, y, z of signed bytes, 127 for 1.
   std::vector<std::int8_t> normals;
   std::int64_t edge_count = 0;
 };
 
 /// Flags `edges` (pairs of vertices): those between two triangles as silhouette edges, those on the
-/// border as hard ones, which have no second face to be a silhouette against.
+/// border as hard edges, because they have no second face to be a silhouette against.
 ///
-/// Vertices of equal source and position count as one (Draco splits a vertex between its fans).
-/// Each edge is flagged once, at its first triangle. Pairs that are no edge of the mesh are left out.
+/// Vertices of equal post and position count as one (Draco splits a vertex between its fans).
+/// Each edge is flagged once, at its first triangle. Pairs that are no edge of the mesh are left
+/// out.
 /// Cost: O(n log n).
 EdgeVisibility FlagEdges(const LocalMesh& mesh,
                          const std::vector<std::pair<std::uint32_t, std::uint32_t>>& edges);

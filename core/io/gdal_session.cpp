@@ -1,3 +1,5 @@
+// Settings are of the thread, the error handler is on GDAL's stack for it: both go with the
+// session. Drivers are registered once in a process.
 #include "core/io/gdal_session.h"
 
 #include <array>
@@ -13,7 +15,7 @@
 namespace farhorizon {
 namespace {
 
-// GTIFF_REPORT_COMPD_CS: a vertical datum in the file is one we must know of.
+// GTIFF_REPORT_COMPD_CS: reports a vertical datum in the file, which decides what heights mean.
 constexpr std::array<std::pair<const char*, const char*>, 7> kSettings = {{
     {"GDAL_PAM_ENABLED", "NO"},
     {"GDAL_DISABLE_READDIR_ON_OPEN", "EMPTY_DIR"},
@@ -24,7 +26,7 @@ constexpr std::array<std::pair<const char*, const char*>, 7> kSettings = {{
     {"OGR_SQLITE_SYNCHRONOUS", "OFF"},
 }};
 
-// Instead of GDALAllRegister, which brings some 200 drivers and loads plug-ins.
+// GDALAllRegister would register some 200 drivers and load plug-ins.
 void RegisterDrivers() {
   static std::once_flag once;
   std::call_once(once, [] {

@@ -5,12 +5,12 @@
 
 namespace farhorizon {
 
-/// What every call of GDAL in this folder stands inside: our few drivers registered (and no other,
-/// no plug-in), settings of this thread that keep GDAL from opening or writing anything but the
-/// file it is shown, and its complaints collected instead of printed.
+/// The scope of every call of GDAL in this folder. While a session lives, only the few drivers of
+/// this program are registered and no plug-in, settings of this thread keep GDAL from opening or
+/// writing any file but the one at `path`, and its errors are collected instead of printed.
 ///
-/// The settings are those whose need was measured with hostile files: overview, mask and side-car
-/// redirections, network names, PAM files.
+/// Each setting was found necessary with a hostile file: overview, mask and side-car redirections,
+/// network names, PAM files.
 /// Threads: one session a thread at a time.
 class GdalSession {
  public:
@@ -24,7 +24,7 @@ class GdalSession {
   [[nodiscard]] bool Failed() const { return !first_failure_.empty(); }
   void Forget() { first_failure_.clear(); }
 
-  /// Called by GDAL's error handler.
+  /// For GDAL's error handler: keeps the first message.
   void Hear(const char* message);
 
  private:

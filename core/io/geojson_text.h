@@ -8,11 +8,11 @@
 
 namespace farhorizon {
 
-/// Decimals of what is written: a tenth of a millimetre on the ground, and in height.
+/// Decimals of coordinates in files: a tenth of a millimetre on the ground, and in height.
 inline constexpr int kDegreeDecimals = 9;
 inline constexpr int kMetreDecimals = 4;
 
-/// The shortest text of `value` rounded to `decimals`; never "-0".
+/// The shortest text of `value` rounded to `decimals`, without exponent; never "-0".
 std::string Rounded(double value, int decimals);
 
 /// The shortest text that reads back to the same number.

@@ -1,3 +1,6 @@
+// Writes and reads GLB: a header, a chunk of JSON and a chunk of bytes. The positions stay lattice
+// numbers in the buffer; the root node's matrix makes metres of them. ReadGlb takes only what
+// WriteGlb makes, and checks each offset, because verification reads files of unknown origin.
 #include "core/io/glb.h"
 
 #include <algorithm>
@@ -50,12 +53,12 @@ void Pad(std::vector<std::uint8_t>& bytes, std::uint8_t with) {
   while (bytes.size() % 4 != 0) bytes.push_back(with);
 }
 
-// The one buffer and its views.
+// The buffer and its views.
 struct Binary {
   std::vector<std::uint8_t> bytes;
   Json views = Json::array();
 
-  // Returns the number of the new view.
+  // Appends `part` as a new view and returns the view's number.
   template <typename Byte>
   std::size_t Add(const std::vector<Byte>& part) {
     Pad(bytes, 0);
@@ -67,23 +70,15 @@ struct Binary {
 
 Json PositionAccessor(const DecodedMesh& decoded) {
   const std::vector<Enu>& positions = decoded.mesh.positions;
-  std::array<double, 3> least = {0, 0, 0};
-  std::array<double, 3> greatest = {0, 0, 0};
-  for (std::size_t i = 0; i < positions.size(); ++i) {
-    const std::array<double, 3> xyz = LatticeNumbers(positions[i], decoded.lattice);
-    for (std::size_t k = 0; k < 3; ++k) {
-      least[k] = i == 0 ? xyz[k] : std::min(least[k], xyz[k]);
-      greatest[k] = i == 0 ? xyz[k] : std::max(greatest[k], xyz[k]);
-    }
-  }
+  const LatticeBox box = LatticeBoxOf(positions, decoded.lattice);
   return {{"componentType", kFloat},
           {"count", positions.size()},
           {"type", "VEC3"},
-          {"min", least},
-          {"max", greatest}};
+          {"min", box.least},
+          {"max", box.greatest}};
 }
 
-// The extension's object, its accessors and views added; see FlagEdges.
+// The object of kEdges; adds its accessors and views. See FlagEdges.
 Json EdgeExtension(const EdgeVisibility& edges, Json& accessors, Binary& binary) {
   Json extension;
   extension["visibility"] = accessors.size();
@@ -181,7 +176,7 @@ std::vector<std::uint8_t> WriteGlb(
   const LocalMesh& mesh = decoded.mesh;
   Binary binary;
   const std::size_t draco_view = binary.Add(draco);
-  // Accessors of what Draco holds have no view of their own, and no offset either.
+  // Accessors of data in the Draco bitstream have neither a view nor an offset.
   Json accessors = Json::array();
   accessors.push_back(PositionAccessor(decoded));
   accessors.push_back({{"componentType",

@@ -10,26 +10,25 @@
 
 namespace farhorizon {
 
-/// From lattice numbers to glTF's frame, column-major: metres in the local frame, whose z up is turned
-/// to glTF's y up. 3D Tiles turns it back, so that the local frame arrives as it is (3D Tiles 1.1,
-/// "glTF transforms"). Exact in float for lattices that ChooseLattice chose.
+/// The matrix from lattice numbers to glTF's frame, column-major: metres in the local frame, turned
+/// from z up to glTF's y up. 3D Tiles turns it back ([3D Tiles], "glTF transforms").
+/// Exact in float where ExactInFloat holds.
 std::array<double, 16> GltfMatrix(const QuantizationLattice& lattice);
 
-/// A glTF 2.0 binary around a Draco bitstream (KHR_draco_mesh_compression) of lattice numbers, which
-/// the root node's matrix places (GltfMatrix).
+/// A glTF 2.0 binary around a Draco bitstream of lattice numbers [KHR_draco_mesh_compression], with
+/// GltfMatrix on the root node.
 ///
-/// decoded: what `draco` decodes to, in its own order; accessors' counts, min and max are its, in
-/// lattice numbers.
-/// horizon_edges: pairs of vertices of `decoded` that are horizon edges, flagged in
-/// EXT_mesh_primitive_edge_visibility: as silhouette edges between two triangles, as hard ones on
-/// the border. The extension is left out where there are none.
-/// The sources stay in the Draco bitstream, but are no attribute of the glTF primitive.
+/// decoded: what `draco` decodes to. Accessors have its counts, and its least and greatest
+///   positions in lattice numbers.
+/// horizon_edges: pairs of vertices of `decoded`, flagged as FlagEdges says
+///   [EXT_mesh_primitive_edge_visibility]. The extension is left out where there are none.
+/// The posts stay in the Draco bitstream, but are no attribute of the glTF primitive.
 std::vector<std::uint8_t> WriteGlb(
     const std::vector<std::uint8_t>& draco, const DecodedMesh& decoded,
     const std::vector<std::pair<std::uint32_t, std::uint32_t>>& horizon_edges);
 
-/// The Draco bitstream inside a GLB that WriteGlb made, with what accessors and the root node claim of
-/// it, for verification.
+/// The Draco bitstream in a GLB of WriteGlb, and what accessors and root node claim of it, for
+/// verification. min, max: lattice numbers.
 struct GlbContents {
   std::vector<std::uint8_t> draco;
   std::int64_t vertex_count = 0;

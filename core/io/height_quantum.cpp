@@ -1,3 +1,5 @@
+// One pass finds the range of the values and the lowest bit that any of them has, which decide the
+// quantum; a second one scales. Powers of two scale doubles exactly.
 #include "core/io/height_quantum.h"
 
 #include <algorithm>
@@ -11,7 +13,7 @@
 namespace farhorizon {
 namespace {
 
-constexpr std::int64_t kLimit = std::int64_t{1} << 30;
+constexpr std::int64_t kLimit = std::int64_t{1} << 30;  // Dem's bound on heights
 constexpr int kMantissaBits = 53;
 
 // The greatest e with value a multiple of 2^e; value is finite and not 0.
@@ -22,7 +24,7 @@ int LowestBit(double value) {
   return exponent - kMantissaBits + std::countr_zero(mantissa);
 }
 
-// What the choice of a quantum needs to know of the values.
+// The properties of the values that decide the quantum.
 struct Extent {
   double least = 0;
   double greatest = 0;
@@ -37,7 +39,7 @@ Extent Measure(const std::vector<double>& values) {
     extent.least = extent.any ? std::min(extent.least, value) : value;
     extent.greatest = extent.any ? std::max(extent.greatest, value) : value;
     extent.any = true;
-    // Whole numbers, the common case, need no look at their bits.
+    // Whole numbers, the common case, are multiples of 1 whatever their bits.
     if (value != std::trunc(value)) {
       extent.lowest_bit = std::min(extent.lowest_bit, LowestBit(value));
     }

@@ -13,11 +13,12 @@ struct ScaledHeights {
   bool quantized = false;
 };
 
-/// The exact integers that stand for `values`, all of them below 2^30 in magnitude; NaN is no data.
+/// Chooses a quantum and scales `values` to integers below 2^30 in magnitude; NaN is no data.
 ///
-/// Quantum 1 where all are whole; else the coarsest power of two that all are multiples of, with an
-/// offset only where the range needs one. Where that is too fine for 30 bits: the finest power of
-/// two that is not, values rounded to it (to even at a tie), `quantized` set.
+/// The quantum is 1 where all values are whole; otherwise the coarsest power of two of which all
+/// are multiples, with an offset where the range needs one. Where that is too fine for 30 bits, the
+/// quantum is the finest power of two that is not, values are rounded to it (to even at a tie) and
+/// `quantized` is set.
 /// Requires: no value is infinite, all are below 2^30 in magnitude.
 /// Cost: O(n), two passes.
 ScaledHeights ScaleHeights(const std::vector<double>& values);

@@ -1,3 +1,5 @@
+// The text is put together by hand: numbers are rounded to decimals and printed without exponents
+// or trailing zeros, which nlohmann's dump does not do ("1e-06", "5.0"), one feature to a line.
 #include "core/io/horizon_features.h"
 
 #include <algorithm>
@@ -10,9 +12,9 @@
 namespace farhorizon {
 namespace {
 
-// Shares of a half turn, and measures of the lines that see an edge.
+// Decimals of angular_share and line_measure_m.
 constexpr int kMeasureDecimals = 9;
-// SkylineDrops are found to half a millimetre.
+// A skyline drop is known to half a millimetre (kSkylineDropStep).
 constexpr int kSkylineDropDecimals = 3;
 
 std::string FeatureText(const HorizonFeature& feature) {
@@ -23,11 +25,12 @@ std::string FeatureText(const HorizonFeature& feature) {
   if (feature.undecided) {
     text += R"(,"undecided":true)";
   } else {
-    text += R"(,"azimuths":)" + IntervalsText(feature.azimuths, kAzimuthDecimals);
-    text += R"(,"spans":)" + IntervalsText(feature.spans, kSpanDecimals);
-    text += R"(,"angular_share":)" + Rounded(feature.angular_share, kMeasureDecimals);
-    text += R"(,"line_measure_m":)" + Rounded(feature.line_measure_m, kMeasureDecimals);
-    text += R"(,"skyline_drop_m":)" + Rounded(feature.skyline_drop_m, kSkylineDropDecimals);
+    text += R"(,"azimuths":)" + IntervalsText(feature.measures.azimuths, kAzimuthDecimals);
+    text += R"(,"spans":)" + IntervalsText(feature.measures.spans, kSpanDecimals);
+    text += R"(,"angular_share":)" + Rounded(feature.measures.angular_share, kMeasureDecimals);
+    text += R"(,"line_measure_m":)" + Rounded(feature.measures.line_measure_m, kMeasureDecimals);
+    text +=
+        R"(,"skyline_drop_m":)" + Rounded(feature.measures.skyline_drop_m, kSkylineDropDecimals);
     text += R"(,"witness":{"t":)" + Exact(feature.witness.t);
     text += R"(,"direction":)" + Pair(feature.witness.dc, feature.witness.dr) + "}";
   }
@@ -51,11 +54,11 @@ HorizonFeature ReadFeature(const Json& feature) {
   result.to = ReadPosition(line.at(1));
   result.undecided = properties.value("undecided", false);
   if (!result.undecided) {
-    result.azimuths = properties.at("azimuths").get<std::vector<std::array<double, 2>>>();
-    result.spans = properties.at("spans").get<std::vector<std::array<double, 2>>>();
-    result.angular_share = properties.at("angular_share").get<double>();
-    result.line_measure_m = properties.at("line_measure_m").get<double>();
-    result.skyline_drop_m = properties.at("skyline_drop_m").get<double>();
+    result.measures.azimuths = properties.at("azimuths").get<std::vector<std::array<double, 2>>>();
+    result.measures.spans = properties.at("spans").get<std::vector<std::array<double, 2>>>();
+    result.measures.angular_share = properties.at("angular_share").get<double>();
+    result.measures.line_measure_m = properties.at("line_measure_m").get<double>();
+    result.measures.skyline_drop_m = properties.at("skyline_drop_m").get<double>();
     const Json& witness = properties.at("witness");
     result.witness.t = witness.at("t").get<double>();
     const auto direction = witness.at("direction").get<std::array<std::int64_t, 2>>();

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <array>
-#include <filesystem>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,47 +12,68 @@
 
 namespace farhorizon {
 
-/// One horizon edge as it is published. a, b: [column, row]. azimuths: degrees; spans: shares of the way
-/// from a to b.
+/// Decimals of azimuths and of spans in files, and the steps that these decimals make.
+inline constexpr int kAzimuthDecimals = 6;
+inline constexpr double kAzimuthStep = 1e-6;
+inline constexpr int kSpanDecimals = 7;
+inline constexpr double kSpanStep = 1e-7;
+/// The greatest amount by which a published skyline drop is too small, metres.
+inline constexpr double kSkylineDropStep = 5e-4;
+
+/// In which directions and where an edge is on the horizon, and how much the edge matters there, as
+/// it is published.
+///
+/// azimuths: [from, to], degrees clockwise from true north at the edge's middle, 0 <= from < 180,
+///   from < to <= from + 180, rising, disjoint. spans: [t0, t1] in [0, 1], t 0 at a and 1 at b,
+///   rising, disjoint. Both are empty for an undecided edge.
+/// Azimuths are rounded outwards to kAzimuthStep, spans to kSpanStep: a gap that is narrower than
+/// that is closed.
+/// angular_share: the sum of the azimuths' widths over 180. line_measure_m: the measure of the
+///   lines on which the edge is the skyline, radians times metres across; the lines that meet a
+///   convex region measure its perimeter [Crofton1868]. True to a millionth of itself.
+/// skyline_drop_m: how much lower the skyline would be without the edge, on the line of sight where
+///   that is most (skyline_drop.h): the truth, or up to kSkylineDropStep less.
+struct EdgeMeasures {
+  std::vector<std::array<double, 2>> azimuths = {};
+  std::vector<std::array<double, 2>> spans = {};
+  double angular_share = 0;
+  double line_measure_m = 0;
+  double skyline_drop_m = 0;
+};
+
+/// One horizon edge as it is published, from post a to post b, both [column, row].
+///
+/// from, to: the positions of a and b. level_kept: the coarsest level that has the edge; unset
+/// where no levels were built, or none keeps it. undecided: the work budget ran out before the edge
+/// was decided; it has neither measures nor a witness.
 struct HorizonFeature {
   std::array<std::int32_t, 2> a;
   std::array<std::int32_t, 2> b;
   Geodetic from;
   Geodetic to;
-  std::vector<std::array<double, 2>> azimuths;
-  std::vector<std::array<double, 2>> spans;
-  double angular_share = 0;
-  double line_measure_m = 0;
-  double skyline_drop_m = 0;
+  EdgeMeasures measures;
   Witness witness;
-  std::optional<int> level_kept;  ///< unset where no levels were built, or none keeps it
-  bool undecided = false;         ///< kept for want of work: there is no witness
+  std::optional<int> level_kept;
+  bool undecided = false;
 };
 
-/// horizon.geojson: an RFC 7946 FeatureCollection, a LineString a feature, one feature a line of
-/// text. Azimuths to 10^-6 degrees, spans to 10^-7, measures to 10^-9.
+/// The text of horizon.geojson: an RFC 7946 FeatureCollection with a LineString for each edge, one
+/// feature to a line of text. Measures of lines are printed to 10^-9, skyline drops to 10^-3.
 ///
-/// Where some are undecided the collection says `approximate` and how many, and they have `undecided` in
-/// the place of a witness.
-/// Witnesses are printed without loss: t as the shortest text of its double, directions as integers.
-/// Those are below 2^53, which every JSON reader keeps, unless cliffs of 2^26 quanta and more differ
-/// by single ones; then a few are up to 2^62, and a reader that takes all numbers for doubles, as
-/// JavaScript's JSON.parse does, rounds them to a line that may not hold.
+/// Where some edges are undecided, the collection has `approximate` and their number as
+/// `undecided`, and each of them has `undecided` instead of measures and witness.
+/// Witnesses are printed without loss: t as the shortest text of its double, directions as
+/// integers. Directions are below 2^53, which every JSON reader keeps, except where cliffs of 2^26
+/// quanta and more differ by single quanta. There a few are up to 2^62; a reader that takes all
+/// numbers for doubles, as JavaScript's JSON.parse does, rounds them to a line that may not be a
+/// witness.
 std::string WriteHorizonGeoJson(const std::vector<HorizonFeature>& features);
 
-/// "[[from,to],...]", as azimuths and spans stand in the file. decimals: of each number, at most.
-std::string IntervalsText(const std::vector<std::array<double, 2>>& intervals, int decimals);
-inline constexpr int kAzimuthDecimals = 6;
-inline constexpr int kSpanDecimals = 7;
-
-/// Reads back what WriteHorizonGeoJson wrote. Errors: kUnsupportedData, with the feature and the
-/// cause.
+/// Reads back the text of WriteHorizonGeoJson. Errors: kUnsupportedData, kind "bad-geojson", with
+/// the feature and the cause.
 Result<std::vector<HorizonFeature>> ReadHorizonGeoJson(const std::string& text);
 
-/// FlatGeobuf or GeoPackage, by the ending of `path` (".fgb", ".gpkg"), through OGR. Azimuths and spans are
-/// text, as in horizon.geojson. Where an edge is undecided they are null, and so are weights and witness.
-/// Errors: kIo where the driver failed.
-Status WriteHorizonVector(const std::vector<HorizonFeature>& features,
-                          const std::filesystem::path& path);
+/// "[[from,to],...]", as azimuths and spans are written. decimals: of each number, at most.
+std::string IntervalsText(const std::vector<std::array<double, 2>>& intervals, int decimals);
 
 }  // namespace farhorizon

@@ -1,4 +1,7 @@
-// The horizon edges for GIS programs, through OGR: FlatGeobuf and GeoPackage.
+// One layer of line strings, a feature for each edge in the order given, in one transaction where
+// the format has them. Fields are set by their place in kFields.
+#include "core/io/horizon_vector.h"
+
 #include <memory>
 #include <utility>
 
@@ -8,7 +11,6 @@
 #include <ogr_srs_api.h>
 
 #include "core/io/gdal_session.h"
-#include "core/io/horizon_features.h"
 
 namespace farhorizon {
 namespace {
@@ -46,13 +48,16 @@ bool AddFeature(OGRLayerH layer, const HorizonFeature& edge) {
   const std::unique_ptr<void, DestroyFeature> feature(OGR_F_Create(OGR_L_GetLayerDefn(layer)));
   const std::int32_t numbers[] = {edge.a[0], edge.a[1], edge.b[0], edge.b[1]};
   for (int i = 0; i < 4; ++i) OGR_F_SetFieldInteger(feature.get(), i, numbers[i]);
-  if (!edge.undecided) {  // else null
+  if (!edge.undecided) {  // otherwise these fields stay null
     OGR_F_SetFieldDouble(feature.get(), 4, edge.witness.t);
     OGR_F_SetFieldInteger64(feature.get(), 5, edge.witness.dc);
     OGR_F_SetFieldInteger64(feature.get(), 6, edge.witness.dr);
-    OGR_F_SetFieldString(feature.get(), 8, IntervalsText(edge.azimuths, kAzimuthDecimals).c_str());
-    OGR_F_SetFieldString(feature.get(), 9, IntervalsText(edge.spans, kSpanDecimals).c_str());
-    const double weights[] = {edge.angular_share, edge.line_measure_m, edge.skyline_drop_m};
+    OGR_F_SetFieldString(feature.get(), 8,
+                         IntervalsText(edge.measures.azimuths, kAzimuthDecimals).c_str());
+    OGR_F_SetFieldString(feature.get(), 9,
+                         IntervalsText(edge.measures.spans, kSpanDecimals).c_str());
+    const double weights[] = {edge.measures.angular_share, edge.measures.line_measure_m,
+                              edge.measures.skyline_drop_m};
     for (int i = 0; i < 3; ++i) OGR_F_SetFieldDouble(feature.get(), 10 + i, weights[i]);
   }
   if (edge.level_kept) OGR_F_SetFieldInteger(feature.get(), 7, *edge.level_kept);
@@ -64,7 +69,7 @@ bool AddFeature(OGRLayerH layer, const HorizonFeature& edge) {
          OGR_L_CreateFeature(layer, feature.get()) == OGRERR_NONE;
 }
 
-// Writes all; false with the cause in the session where the driver failed.
+// Writes all features. Returns false, with the cause in `session`, where the driver failed.
 bool WriteLayer(const char* driver, const std::string& path,
                 const std::vector<HorizonFeature>& features, const GdalSession& session) {
   const std::unique_ptr<void, CloseDataset> dataset(
@@ -100,12 +105,12 @@ Status WriteHorizonVector(const std::vector<HorizonFeature>& features,
   GdalSession session(path);
   std::error_code ignored;
   std::filesystem::remove(path, ignored);
-  // GeoPackage stamps its contents with a date: same input, same bytes.
+  // GeoPackage writes the date into its tables of contents: a fixed one keeps the bytes the same.
   CPLSetThreadLocalConfigOption("OGR_CURRENT_DATE", "1970-01-01T00:00:00.000Z");
   const std::string absolute = std::filesystem::absolute(path).lexically_normal().string();
   const bool written = WriteLayer(driver, absolute, features, session);
   CPLSetThreadLocalConfigOption("OGR_CURRENT_DATE", nullptr);
-  // FlatGeobuf writes its file as it closes: a failure may come only now.
+  // FlatGeobuf writes its file when the dataset is closed, so this failure may be the first.
   if (written && !session.Failed()) return Done{};
   std::filesystem::remove(path, ignored);
   return Error{ErrorCode::kIo, "cannot write " + path.filename().string() + session.Complaint()};

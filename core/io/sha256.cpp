@@ -60,4 +60,10 @@ Digest Sha256::Finish() {
   return Digest(bytes);
 }
 
+std::string Sha256Hex(std::string_view bytes) {
+  Sha256 sum;
+  sum.Add(bytes);
+  return sum.Finish();
+}
+
 }  // namespace farhorizon

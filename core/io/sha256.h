@@ -46,4 +46,7 @@ class Sha256 {
   std::unique_ptr<State> state_;
 };
 
+/// Lower-case hexadecimal SHA-256 of `bytes`.
+std::string Sha256Hex(std::string_view bytes);
+
 }  // namespace farhorizon

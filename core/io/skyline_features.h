@@ -9,11 +9,13 @@
 
 namespace farhorizon {
 
-/// A part of a horizon edge that is the skyline in one direction, as it is published. Pairs: its left end
-/// and its right end, as the viewer has them.
+/// A part of a horizon edge that is the skyline in one direction, as it is published. Each pair has
+/// the value at the part's left end and that at its right end, as the viewer has them.
 ///
-/// a, b: [column, row]. t: 0 at a, 1 at b. offset_m: to the viewer's right of the line of sight through the
-/// DEM's middle; depth_m: beyond that middle along it. Both on the ground as it is at the middle.
+/// a, b: [column, row] of the edge's ends. t: position on the edge, 0 at a, 1 at b.
+/// offset_m: distance to the viewer's right of the line of sight through the DEM's middle.
+/// depth_m: distance beyond that middle along the line of sight. Both are metres on the ground,
+///   with columns and rows as long as they are at the middle.
 struct SkylineFeature {
   std::array<std::int32_t, 2> a;
   std::array<std::int32_t, 2> b;
@@ -26,9 +28,10 @@ struct SkylineFeature {
 
 /// The skyline in one direction, its parts from left to right.
 ///
-/// azimuth: degrees clockwise from true north at the DEM's middle. direction: [columns, rows], along which
-/// every line of sight through a part is a witness. approximate: the horizon that it was found from is a
-/// superset; the skyline is the same.
+/// azimuth: degrees clockwise from true north at the DEM's middle.
+/// direction: [columns, rows]; each line of sight in this direction through a part is a witness.
+/// approximate: the skyline was found from a superset of the horizon edges, which has the same
+///   skyline.
 struct SkylineOfDirection {
   double azimuth = 0;
   std::array<std::int32_t, 2> direction;
@@ -36,12 +39,8 @@ struct SkylineOfDirection {
   std::vector<SkylineFeature> parts;
 };
 
-/// An RFC 7946 FeatureCollection, a LineString a part, one part a line of text. t is printed without loss,
-/// places to 10^-9 degrees, metres to 10^-4.
+/// An RFC 7946 FeatureCollection with a LineString for each part, one part to a line of text. t is
+/// printed without loss, longitude and latitude to 10^-9 degrees, metres to 10^-4.
 std::string WriteSkylineGeoJson(const SkylineOfDirection& skyline);
-
-/// A picture of it, as SVG: what stands against the sky, heights drawn larger than distances as the picture
-/// says, parts the lighter the farther away. title: one line, any text. The same skyline, the same bytes.
-std::string DrawSkyline(const SkylineOfDirection& skyline, const std::string& title);
 
 }  // namespace farhorizon

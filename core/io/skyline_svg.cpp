@@ -1,3 +1,8 @@
+// Draws the skyline of one direction: offsets from left to right, heights upwards, depth as shade.
+// One path for the ground below parts that touch, one path for the parts of each shade, axes with
+// round ticks. Everything is scaled to a plot of fixed size.
+#include "core/io/skyline_svg.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -6,7 +11,6 @@
 #include <vector>
 
 #include "core/io/geojson_text.h"
-#include "core/io/skyline_features.h"
 #include "core/io/svg_text.h"
 
 namespace farhorizon {
@@ -28,11 +32,11 @@ struct Range {
     least = std::min(least, value);
     most = std::max(most, value);
   }
-  // A centimetre at least, so that there is a scale on level ground.
+  // At least a centimetre: horizontal ground has a scale, too.
   [[nodiscard]] double Size() const { return std::max(most - least, 0.01); }
 };
 
-// A round distance of ticks, some eight to a range: 1, 2 or 5 times a power of ten.
+// A round distance between ticks, about eight to a range: 1, 2 or 5 times a power of ten.
 double TickStep(double size) {
   const double rough = size / 8;
   const double power = std::pow(10.0, std::floor(std::log10(rough)));
@@ -45,7 +49,7 @@ double TickStep(double size) {
 std::vector<double> TicksIn(const Range& range) {
   const double step = TickStep(range.Size());
   std::vector<double> ticks;
-  if (range.least > range.most) return ticks;  // of nothing
+  if (range.least > range.most) return ticks;  // nothing was included
   const auto last = static_cast<std::int64_t>(std::floor(range.most / step));
   for (auto i = static_cast<std::int64_t>(std::ceil(range.least / step)); i <= last; ++i) {
     ticks.push_back(static_cast<double>(i) * step);
@@ -66,12 +70,13 @@ class Plot {
     }
   }
 
-  // How much larger heights are drawn than distances.
+  // The factor by which heights are drawn larger than distances.
   [[nodiscard]] double Exaggeration() const {
     return kHeight / heights_.Size() / (kWidth / offsets_.Size());
   }
 
-  // The ground under parts that follow each other without a gap.
+  // The ground below the parts: one closed shape for each run of parts that touch. Ends that differ
+  // by rounding alone touch; any tolerance far below a pixel is sound.
   [[nodiscard]] std::string Ground(const std::vector<SkylineFeature>& parts) const {
     const double touching = offsets_.Size() * 1e-9;
     const std::string floor = SvgNumber(kTop + kHeight);
@@ -88,7 +93,7 @@ class Plot {
     return "<path class=\"ground\" d=\"" + path + "\"/>\n";
   }
 
-  // Each part as a line, by depth.
+  // The parts as lines, one path for each shade of depth, the farthest first.
   [[nodiscard]] std::string Parts(const std::vector<SkylineFeature>& parts) const {
     std::array<std::string, kShades> paths;
     for (const SkylineFeature& part : parts) {
@@ -162,7 +167,7 @@ std::string DrawSkyline(const SkylineOfDirection& skyline, const std::string& ti
   const double bottom = kTop + kHeight + kBottom;
   const std::string told = title + ": " + std::to_string(skyline.parts.size()) +
                            (skyline.parts.size() == 1 ? " part" : " parts") +
-                           " of horizon edges, the lighter the " + "farther; heights drawn " +
+                           " of horizon edges, the lighter the farther; heights drawn " +
                            Rounded(plot.Exaggeration(), 1) + " times as large";
   return "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + SvgNumber(kLeft + kWidth + kRight) +
          "\" height=\"" + SvgNumber(bottom) + "\">\n<title>" + SvgText(title) + "</title>\n" +

@@ -4,10 +4,10 @@
 
 namespace farhorizon {
 
-/// A tenth of a pixel, in the shortest text.
+/// The shortest text of `value` rounded to a tenth, of a pixel; never "-0".
 std::string SvgNumber(double value);
 
-/// Any text, as it may stand between tags.
+/// `text` with the characters escaped that may not stand between tags.
 std::string SvgText(const std::string& text);
 
 }  // namespace farhorizon

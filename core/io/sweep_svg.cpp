@@ -1,3 +1,6 @@
+// Draws a trace of the sweep as layers of SVG paths, each in a group with a class that the style
+// sheet and the legend name. Grid coordinates are scaled so that the longer side has kPicture
+// pixels.
 #include "core/io/sweep_svg.h"
 
 #include <algorithm>

@@ -15,8 +15,8 @@ std::string WriteTileset(const std::vector<TilesetLevel>& levels, const Bounding
   const Json volume = {{"region",
                         {region.west, region.south, region.east, region.north, region.min_height_m,
                          region.max_height_m}}};
-  // From the finest, a leaf, outwards. A coarser tile's error is never stated below a finer one's:
-  // clients refine while the error is too great, and would stop short.
+  // Builds from the finest tile, the leaf, to the root. A coarser tile states at least the error of
+  // the finer ones: clients refine while the error is too great, and would stop at a smaller one.
   Json tile;
   double error = 0;
   for (std::size_t i = 0; i < levels.size(); ++i) {

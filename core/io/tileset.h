@@ -4,12 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "core/base/result.h"
-#include "core/geo/frames.h"
-
 namespace farhorizon {
 
-/// Radians, and metres above the ellipsoid: a 3D Tiles region.
+/// A region of 3D Tiles: radians of longitude and latitude, metres above the ellipsoid.
 struct BoundingRegion {
   double west = 0;
   double south = 0;
@@ -19,25 +16,19 @@ struct BoundingRegion {
   double max_height_m = 0;
 };
 
-/// One level of a tileset.
+/// One level of a tileset. uri: of its content, relative to the tileset.
 struct TilesetLevel {
   std::string uri;
   double geometric_error_m = 0;
 };
 
-/// tileset.json (3D Tiles 1.1): explicit tiling, REPLACE, a tile for each level, coarsest at the
-/// root. levels: level 0 (finest) first. root_error_m: the error of drawing nothing, about the
-/// tile's size. transform: local frame to ECEF, column-major.
+/// The text of tileset.json [3D Tiles]: explicit tiling, refinement REPLACE, a tile for each level,
+/// the coarsest at the root.
+///
+/// levels: level 0 (finest) first. root_error_m: the error of drawing nothing, about the tile's
+/// size. transform: from the local frame to ECEF, column-major.
+/// Requires: at least one level.
 std::string WriteTileset(const std::vector<TilesetLevel>& levels, const BoundingRegion& region,
                          double root_error_m, const std::array<double, 16>& transform);
-
-/// What a tileset.json that WriteTileset made says, for verification. levels: level 0 first.
-struct TilesetContents {
-  std::vector<TilesetLevel> levels;
-  double root_error_m = 0;
-  std::array<double, 16> transform = {};
-};
-/// Errors: kUnsupportedData where it is no chain of tiles.
-Result<TilesetContents> ReadTileset(const std::string& text);
 
 }  // namespace farhorizon

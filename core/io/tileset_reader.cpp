@@ -1,8 +1,8 @@
+#include "core/io/tileset_reader.h"
+
 #include <algorithm>
 
 #include <nlohmann/json.hpp>
-
-#include "core/io/tileset.h"
 
 namespace farhorizon {
 
@@ -13,7 +13,7 @@ Result<TilesetContents> ReadTileset(const std::string& text) {
     json.at("geometricError").get_to(contents.root_error_m);
     const nlohmann::json* tile = &json.at("root");
     tile->at("transform").get_to(contents.transform);
-    // One tile inside another, the coarsest outermost.
+    // Each tile holds the next finer one.
     while (tile != nullptr) {
       contents.levels.push_back({tile->at("content").at("uri").get<std::string>(),
                                  tile->at("geometricError").get<double>()});

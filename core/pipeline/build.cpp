@@ -1,4 +1,5 @@
-// A DEM becomes a tileset: read, sweep, simplify, encode, measure, write.
+// A DEM becomes a tileset: read, find the horizon, simplify, encode, measure, write. Each step is a
+// function of its own file; this one has their order and decides which artifacts are written.
 #include "core/pipeline/build.h"
 
 #include <algorithm>
@@ -7,9 +8,11 @@
 #include <utility>
 
 #include "core/horizon/find_horizon.h"
-#include "core/io/files.h"
 #include "core/io/horizon_features.h"
+#include "core/io/horizon_vector.h"
 #include "core/io/tileset.h"
+#include "core/pipeline/artifact_writer.h"
+#include "core/pipeline/build_features.h"
 #include "core/pipeline/level_artifact.h"
 #include "core/pipeline/level_plan.h"
 #include "core/pipeline/report.h"
@@ -29,59 +32,7 @@ std::string_view AsText(const std::vector<std::uint8_t>& bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-// Writes artifacts one by one and takes them all back, the folder included if it made it, unless the
-// work is finished.
-class ArtifactWriter {
- public:
-  explicit ArtifactWriter(fs::path directory) : directory_(std::move(directory)) {}
-  ArtifactWriter(const ArtifactWriter&) = delete;
-  ArtifactWriter& operator=(const ArtifactWriter&) = delete;
-  ~ArtifactWriter() {
-    if (finished_) return;
-    std::error_code ignored;
-    for (const ManifestEntry& entry : entries_) fs::remove(directory_ / entry.name, ignored);
-    if (made_directory_) fs::remove(directory_, ignored);
-  }
-
-  Status Open() {
-    std::error_code failure;
-    made_directory_ = fs::create_directories(directory_, failure);
-    if (failure || !fs::is_directory(directory_)) {
-      return Error{ErrorCode::kIo, "cannot make the folder " + directory_.filename().string() +
-                                       ": " + failure.message()};
-    }
-    return Done{};
-  }
-
-  Status Add(const std::string& name, std::string_view bytes) {
-    entries_.push_back({name, MediaTypeOf(name), bytes.size(), Sha256Hex(bytes)});
-    return WriteFile(directory_ / name, bytes);
-  }
-
-  /// A file that something else has written to PathOf(name).
-  Status AddWritten(const std::string& name) {
-    Result<std::string> bytes = ReadFile(PathOf(name));
-    if (!bytes) return std::move(bytes.error());
-    entries_.push_back({name, MediaTypeOf(name), bytes->size(), Sha256Hex(*bytes)});
-    return Done{};
-  }
-  [[nodiscard]] fs::path PathOf(const std::string& name) const { return directory_ / name; }
-
-  Status Finish() {
-    std::sort(entries_.begin(), entries_.end(),
-              [](const ManifestEntry& a, const ManifestEntry& b) { return a.name < b.name; });
-    Status written = WriteFile(directory_ / "manifest.json", WriteManifest(entries_));
-    finished_ = written.has_value();
-    return written;
-  }
-
- private:
-  fs::path directory_;
-  std::vector<ManifestEntry> entries_;
-  bool made_directory_ = false;
-  bool finished_ = false;
-};
-
+// For each horizon edge the coarsest level that keeps it, -1 for none.
 std::vector<int> LevelsKept(const Horizon& horizon, const std::vector<Lod>& chain) {
   std::vector<int> level_kept(horizon.edges.size(), -1);
   for (std::size_t level = 0; level < chain.size(); ++level) {
@@ -92,48 +43,53 @@ std::vector<int> LevelsKept(const Horizon& horizon, const std::vector<Lod>& chai
   return level_kept;
 }
 
-Status WriteTilesetFor(const TerrainInput& source, const std::vector<LevelReport>& levels,
-                       ArtifactWriter& writer) {
-  Result<BoundingRegion> region = source.Region();
-  if (!region) return std::move(region.error());
-  // Flat triangles sink below the curved earth, and vertices are rounded: no lower than this.
-  const double margin = levels.back().geometric_error_m + levels.back().quantization_step_m;
+// The terrain's region, with room for what the coarsest level may add to it.
+Result<BoundingRegion> RegionWithMargin(const TerrainInput& input, const LevelReport& coarsest) {
+  Result<BoundingRegion> region = input.Region();
+  if (!region) return region;
+  // Flat triangles sink below the curved earth, and vertices are rounded: by no more than this.
+  const double margin = coarsest.geometric_error_m + coarsest.quantization_step_m;
   region->min_height_m -= margin;
   region->max_height_m += margin;
+  // Vertices are rounded by less than a step in plan. No radian of latitude is shorter than this:
+  // a (1 - e^2) of WGS 84, at the equator, is 6335439 m. A radian of longitude is shorter by the
+  // cosine of the latitude; the floor keeps the margin finite at the poles.
   constexpr double kLeastMetresPerRadian = 6335000;
-  region->south -= levels.back().quantization_step_m / kLeastMetresPerRadian;
-  region->north += levels.back().quantization_step_m / kLeastMetresPerRadian;
+  region->south -= coarsest.quantization_step_m / kLeastMetresPerRadian;
+  region->north += coarsest.quantization_step_m / kLeastMetresPerRadian;
   const double across =
-      levels.back().quantization_step_m /
+      coarsest.quantization_step_m /
       (kLeastMetresPerRadian *
        std::max(0.01, std::cos(std::max(std::abs(region->south), std::abs(region->north)))));
   region->west -= across;
   region->east += across;
+  return region;
+}
+
+Status WriteTilesetFor(const TerrainInput& input, const std::vector<LevelReport>& levels,
+                       ArtifactWriter& writer) {
+  Result<BoundingRegion> region = RegionWithMargin(input, levels.back());
+  if (!region) return std::move(region.error());
   std::vector<TilesetLevel> tiles;
   tiles.reserve(levels.size());
   for (const LevelReport& level : levels) {
     tiles.push_back({"lod" + std::to_string(level.level) + ".glb", level.geometric_error_m});
   }
-  const double size_m =
-      std::hypot(source.georeference().column_step_m() * (source.dem().columns - 1),
-                 source.georeference().row_step_m() * (source.dem().rows - 1));
+  const Georeference& georeference = input.georeference();
+  const double size_m = std::hypot(georeference.column_step_m() * (input.dem().columns - 1),
+                                   georeference.row_step_m() * (input.dem().rows - 1));
   return writer.Add("tileset.json", WriteTileset(tiles, *region, RoundUp(size_m),
-                                                 source.georeference().frame().EnuToEcef()));
+                                                 georeference.frame().EnuToEcef()));
 }
 
-Status WriteFeatures(const TerrainInput& source, const Horizon& horizon,
-                     const std::vector<int>& level_kept, const BuildOptions& options,
-                     const Watch& watch, ArtifactWriter& writer) {
-  Result<std::vector<HorizonFeature>> features =
-      source.Features(horizon, level_kept, options.threads, watch);
-  if (!features) return std::move(features.error());
-  watch.Report(Stage::kWrite, 0);
+Status WriteFeatures(const std::vector<HorizonFeature>& features, const BuildOptions& options,
+                     ArtifactWriter& writer) {
   if (Asks(options, "geojson")) {
-    Status added = writer.Add("horizon.geojson", WriteHorizonGeoJson(*features));
+    Status added = writer.Add("horizon.geojson", WriteHorizonGeoJson(features));
     if (!added) return added;
   }
   if (Asks(options, "flatgeobuf")) {
-    Status written = WriteHorizonVector(*features, writer.PathOf("horizon.fgb"));
+    Status written = WriteHorizonVector(features, writer.PathOf("horizon.fgb"));
     if (!written) return written;
     return writer.AddWritten("horizon.fgb");
   }
@@ -165,7 +121,7 @@ Result<std::vector<LevelReport>> WriteLevels(const LevelContext& context,
     } else {
       level->report.drc_bytes = 0;
     }
-    // A client refines towards smaller errors, so a level may not claim less than a finer one.
+    // Clients refine towards smaller errors: no level may claim a smaller error than a finer one.
     if (i > 0) {
       level->report.geometric_error_m =
           std::max(level->report.geometric_error_m, reports.back().geometric_error_m);
@@ -182,42 +138,41 @@ Status BuildArtifacts(const fs::path& dem, const fs::path& directory, const Buil
   Status checked = CheckOptions(options);
   if (!checked) return checked;
   watch.Report(Stage::kRead, 0);
-  Result<std::unique_ptr<TerrainInput>> source = TerrainInput::Open(dem, options);
-  if (!source) return std::move(source.error());
-  Result<std::vector<LevelPlan>> plans = PlanLevels(**source, options);
+  Result<std::unique_ptr<TerrainInput>> input = TerrainInput::Open(dem, options);
+  if (!input) return std::move(input.error());
+  Result<std::vector<LevelPlan>> plans = PlanLevels(**input, options);
   if (!plans) return std::move(plans.error());
   watch.Report(Stage::kRead, 1);
 
-  Result<Horizon> horizon = FindHorizon((*source)->terrain(),
-                                        {.threads = options.threads,
-                                         .work_budget = options.work_budget,
-                                         .approximate = options.approximate},
-                                        watch);
+  Result<Horizon> horizon = FindHorizon((*input)->terrain(), HorizonOptionsOf(options), watch);
   if (!horizon) return std::move(horizon.error());
 
   std::vector<LevelBudget> budgets;
   for (const LevelPlan& plan : *plans) budgets.push_back(plan.budget);
-  Result<std::vector<Lod>> chain = BuildLodChain((*source)->terrain(), *horizon, budgets, watch);
+  Result<std::vector<Lod>> chain = BuildLodChain((*input)->terrain(), *horizon, budgets, watch);
   if (!chain) return std::move(chain.error());
 
   watch.Report(Stage::kEncode, 0);
-  Result<PostNormals> normals = FindPostNormals((*source)->terrain(), (*source)->georeference());
+  Result<PostNormals> normals = FindPostNormals((*input)->terrain(), (*input)->georeference());
   if (!normals) return std::move(normals.error());
   ArtifactWriter writer(directory);
   Status opened = writer.Open();
   if (!opened) return opened;
-  const LevelContext context{(*source)->terrain(), *horizon, (*source)->georeference(), *normals,
+  const LevelContext context{(*input)->terrain(), *horizon, (*input)->georeference(), *normals,
                              watch};
   Result<std::vector<LevelReport>> levels = WriteLevels(context, *plans, *chain, options, writer);
   if (!levels) return std::move(levels.error());
   if (Asks(options, "3dtiles")) {
-    Status tileset = WriteTilesetFor(**source, *levels, writer);
+    Status tileset = WriteTilesetFor(**input, *levels, writer);
     if (!tileset) return tileset;
   }
-  Status features =
-      WriteFeatures(**source, *horizon, LevelsKept(*horizon, *chain), options, watch, writer);
-  if (!features) return features;
-  const Report report{Version(), (*source)->report(),
+  Result<std::vector<HorizonFeature>> features =
+      BuildFeatures(**input, *horizon, LevelsKept(*horizon, *chain), options.threads, watch);
+  if (!features) return std::move(features.error());
+  watch.Report(Stage::kWrite, 0);
+  Status written = WriteFeatures(*features, options, writer);
+  if (!written) return written;
+  const Report report{Version(), (*input)->report(),
                       static_cast<std::int64_t>(horizon->edges.size()), horizon->statistics,
                       *levels};
   Status reported = writer.Add("report.json", WriteReport(report));

@@ -1,4 +1,5 @@
-// The options of a build: as text from a job's parameters, and checked.
+// Reads the options of a build from text and checks them. One list of names serves jobs and the
+// command line, whose flags are turned into parameters; the messages name parameters.
 #include "core/pipeline/build_options.h"
 
 #include <algorithm>
@@ -120,6 +121,12 @@ Result<BuildOptions> ParseOptions(const std::map<std::string, std::string>& para
   Status checked = CheckOptions(options);
   if (!checked) return std::move(checked.error());
   return options;
+}
+
+HorizonOptions HorizonOptionsOf(const BuildOptions& options) {
+  return {.threads = options.threads,
+          .work_budget = options.work_budget,
+          .approximate = options.approximate};
 }
 
 }  // namespace farhorizon

@@ -1,6 +1,7 @@
-// From exact lines of sight to what is published. Directions are taken on the ground as angles from the
-// edge's own: the half turn from it is where sights are given (lines_of_sight.h), and curves that bound them turn
-// one way only, so that the ends of a patch hold its least and its greatest.
+// From exact lines of sight to published measures. Directions are taken as angles on the ground
+// from the edge's own direction: lines of sight are given in the half turn from it
+// (lines_of_sight.h), and each curve that bounds a cell turns one way only, so that the cell's
+// least and greatest angles are at its ends. Angles become azimuths last, rounded outwards.
 #include "core/pipeline/edge_measures.h"
 
 #include <algorithm>
@@ -16,19 +17,19 @@ namespace {
 
 constexpr double kDegrees = 180 / std::numbers::pi;
 
-// Directions on the ground, as they are seen from one edge.
+// Angles on the ground, counted from the direction of one edge.
 class EdgeCompass {
  public:
   EdgeCompass(std::array<double, 2> along, const GroundStep& step)
-      : step_(step), along_(along), ground_(OnGround(along[0], along[1])) {}
+      : step_(step), along_(along), ground_(step.ToGround(along[0], along[1])) {}
 
   [[nodiscard]] double length_m() const { return std::hypot(ground_[0], ground_[1]); }
 
-  // Whether azimuths rise as directions turn from columns to rows.
-  [[nodiscard]] bool KeepsSense() const { return Determinant() < 0; }
-  [[nodiscard]] double azimuth() const { return std::atan2(ground_[0], ground_[1]) * kDegrees; }
+  // True where azimuths rise as directions turn from columns to rows.
+  [[nodiscard]] bool KeepsSense() const { return step_.SignedCellArea() < 0; }
+  [[nodiscard]] double azimuth() const { return step_.ToAzimuth(along_[0], along_[1]); }
 
-  // The angle on the ground from the edge's direction, in degrees, 0 to 180.
+  // The angle from the edge's direction to that of `motion` at t, degrees, 0 to 180.
   [[nodiscard]] double Angle(const PlanMotion& motion, double t) const {
     const auto [dot, cross] = DotAndCross(motion, t);
     return HalfTurnAngle(dot, cross) * kDegrees;
@@ -40,18 +41,11 @@ class EdgeCompass {
   }
 
  private:
-  [[nodiscard]] std::array<double, 2> OnGround(double x, double y) const {
-    return {step_.column_east_m * x + step_.row_east_m * y,
-            step_.column_north_m * x + step_.row_north_m * y};
-  }
-  [[nodiscard]] double Determinant() const {
-    return step_.column_east_m * step_.row_north_m - step_.row_east_m * step_.column_north_m;
-  }
   [[nodiscard]] std::array<double, 2> DotAndCross(const PlanMotion& motion, double t) const {
     const auto [x, y] = motion.At(t);
-    const std::array<double, 2> ground = OnGround(x, y);
+    const std::array<double, 2> ground = step_.ToGround(x, y);
     return {ground[0] * ground_[0] + ground[1] * ground_[1],
-            std::abs(Determinant()) * (along_[0] * y - along_[1] * x)};
+            std::abs(step_.SignedCellArea()) * (along_[0] * y - along_[1] * x)};
   }
 
   GroundStep step_;
@@ -59,7 +53,8 @@ class EdgeCompass {
   std::array<double, 2> ground_;
 };
 
-// To whole steps, outwards, but for what rounding does.
+// To whole steps, outwards. Ends within a thousandth of a step of a whole one count as whole: the
+// error of an angle, some 1e-14 degrees, is far less, and the step itself need not be spent on it.
 Interval Outwards(const Interval& interval, double step) {
   constexpr double kSlack = 1e-3;
   const double from = std::floor(interval[0] / step + kSlack);
@@ -67,7 +62,8 @@ Interval Outwards(const Interval& interval, double step) {
   return {from * step, to * step};
 }
 
-// Angles from the edge's direction to azimuths.
+// Azimuths from angles, which are rising and disjoint. An interval that ends at 180 degrees and one
+// that begins at 0 are one, because each line of sight stands for its opposite, too.
 std::vector<Interval> AzimuthsOf(const std::vector<Interval>& angles, const EdgeCompass& compass) {
   std::vector<Interval> turned = angles;
   const bool across_start = turned.size() > 1 && turned.front()[0] <= 0 && turned.back()[1] >= 180;
@@ -89,7 +85,7 @@ std::vector<Interval> AzimuthsOf(const std::vector<Interval>& angles, const Edge
     azimuths.push_back({from, from + width});
   }
   azimuths = UnionOf(std::move(azimuths));
-  // The last may reach the first again, half a turn on.
+  // The last may reach the first, half a turn on.
   if (azimuths.size() > 1 && azimuths.back()[1] >= azimuths.front()[0] + 180) {
     azimuths.back()[1] = std::max(azimuths.back()[1], azimuths.front()[1] + 180);
     azimuths.erase(azimuths.begin());
@@ -98,21 +94,22 @@ std::vector<Interval> AzimuthsOf(const std::vector<Interval>& angles, const Edge
   return azimuths;
 }
 
-// The integral over t of the difference of the cosines: that of the sine over the patch. By Gauss's rule of
-// eight points on each quarter of the range.
-double MeasureOf(const LineOfSightCell& patch, const EdgeCompass& compass) {
-  constexpr std::array<double, 4> kPoints = {0.1834346424956498, 0.5255324099163290,
-                                             0.7966664774136267, 0.9602898564975363};
+// The integral of the sine of the angle over the cell: over t, of the difference of the cosines at
+// both curves. By Gauss and Legendre's rule of eight nodes on each quarter of the range: exact for
+// polynomials up to degree 15, and true to a millionth here (edge_measures_test.cpp).
+double MeasureOf(const LineOfSightCell& cell, const EdgeCompass& compass) {
+  constexpr std::array<double, 4> kNodes = {0.1834346424956498, 0.5255324099163290,
+                                            0.7966664774136267, 0.9602898564975363};
   constexpr std::array<double, 4> kWeights = {0.3626837833783620, 0.3137066458778873,
                                               0.2223810344533745, 0.1012285362903763};
-  constexpr int kParts = 4;
-  const double half = (patch.to - patch.from) / (2 * kParts);
+  constexpr int kPieces = 4;
+  const double half = (cell.to - cell.from) / (2 * kPieces);
   double sum = 0;
-  for (int part = 0; part < kParts; ++part) {
-    const double middle = patch.from + (2 * part + 1) * half;
-    for (std::size_t i = 0; i < kPoints.size(); ++i) {
-      for (const double t : {middle - half * kPoints[i], middle + half * kPoints[i]}) {
-        sum += kWeights[i] * (compass.Cosine(patch.first, t) - compass.Cosine(patch.last, t));
+  for (int piece = 0; piece < kPieces; ++piece) {
+    const double middle = cell.from + (2 * piece + 1) * half;
+    for (std::size_t i = 0; i < kNodes.size(); ++i) {
+      for (const double t : {middle - half * kNodes[i], middle + half * kNodes[i]}) {
+        sum += kWeights[i] * (compass.Cosine(cell.first, t) - compass.Cosine(cell.last, t));
       }
     }
   }
@@ -124,20 +121,20 @@ double MeasureOf(const LineOfSightCell& patch, const EdgeCompass& compass) {
 EdgeMeasures MeasuresOf(const LinesOfSight& sights, std::array<double, 2> along,
                         const GroundStep& step) {
   const EdgeCompass compass(along, step);
-  EdgeMeasures view;
+  EdgeMeasures measures;
   std::vector<Interval> angles;
-  for (const LineOfSightCell& patch : sights) {
+  for (const LineOfSightCell& cell : sights) {
     angles.push_back(
-        {std::min(compass.Angle(patch.first, patch.from), compass.Angle(patch.first, patch.to)),
-         std::max(compass.Angle(patch.last, patch.from), compass.Angle(patch.last, patch.to))});
-    view.spans.push_back(Outwards({patch.from, patch.to}, kSpanStep));
-    view.line_measure_m += MeasureOf(patch, compass) * compass.length_m();
+        {std::min(compass.Angle(cell.first, cell.from), compass.Angle(cell.first, cell.to)),
+         std::max(compass.Angle(cell.last, cell.from), compass.Angle(cell.last, cell.to))});
+    measures.spans.push_back(Outwards({cell.from, cell.to}, kSpanStep));
+    measures.line_measure_m += MeasureOf(cell, compass) * compass.length_m();
   }
-  view.spans = UnionOf(std::move(view.spans));
+  measures.spans = UnionOf(std::move(measures.spans));
   angles = UnionOf(std::move(angles));
-  for (const Interval& angle : angles) view.angular_share += (angle[1] - angle[0]) / 180;
-  view.azimuths = AzimuthsOf(angles, compass);
-  return view;
+  for (const Interval& angle : angles) measures.angular_share += (angle[1] - angle[0]) / 180;
+  measures.azimuths = AzimuthsOf(angles, compass);
+  return measures;
 }
 
 Result<std::vector<EdgeMeasures>> MeasureEdges(const Terrain& terrain, const Horizon& horizon,
@@ -155,22 +152,22 @@ Result<std::vector<EdgeMeasures>> MeasureEdges(const Terrain& terrain, const Hor
   Result<std::vector<GroundStep>> steps = georeference.StepsAt(middles);
   if (!steps) return std::move(steps.error());
   const SkylineDrops skyline_drops(terrain, horizon, kSkylineDropStep / terrain.dem().quantum_m);
-  std::vector<EdgeMeasures> views(horizon.edges.size());
-  const auto look = [&](std::size_t begin, std::size_t end, std::size_t /*thread*/) {
+  std::vector<EdgeMeasures> measures(horizon.edges.size());
+  const auto measure = [&](std::size_t begin, std::size_t end, std::size_t /*thread*/) {
     for (std::size_t i = begin; i < end; ++i) {
       const Edge edge = horizon.edges[i].edge;
       const Point3i a = terrain.Point(edge.a);
       const Point3i b = terrain.Point(edge.b);
       const std::array<double, 2> along = {static_cast<double>(b.x) - a.x,
                                            static_cast<double>(b.y) - a.y};
-      views[i] = MeasuresOf((*sights)[i], along, (*steps)[i]);
-      views[i].skyline_drop_m = skyline_drops.Of(i) * terrain.dem().quantum_m;
+      measures[i] = MeasuresOf((*sights)[i], along, (*steps)[i]);
+      measures[i].skyline_drop_m = skyline_drops.Of(i) * terrain.dem().quantum_m;
     }
   };
-  if (!ParallelForBatches(views.size(), kBatch, threads, Stage::kEdgeMeasures, watch, look)) {
+  if (!ParallelForBatches(measures.size(), kBatch, threads, Stage::kEdgeMeasures, watch, measure)) {
     return Error{ErrorCode::kCancelled, "stopped while weighing horizon edges"};
   }
-  return views;
+  return measures;
 }
 
 }  // namespace farhorizon

@@ -1,3 +1,6 @@
+// Sweeps over the rows of posts. Each row is placed on the globe once and compared with the
+// triangles that reach it: a post's point of the mesh has the post's barycentric coordinates in the
+// plan, which are taken over to the local frame.
 #include "core/pipeline/geometric_error.h"
 
 #include <algorithm>
@@ -14,6 +17,7 @@ struct Placed {
   std::array<Point3i, 3> plan;
   std::array<Enu, 3> local;
 
+  // The triangle's point over post (column, row).
   [[nodiscard]] Enu At(std::int64_t column, std::int64_t row) const {
     const auto twice_area = [&](double ax, double ay, double bx, double by) {
       return ax * by - ay * bx;
@@ -34,7 +38,7 @@ struct Placed {
   }
 };
 
-// Triangles by the rows that they reach, so that the sweep over rows holds only those it needs.
+// Triangles by their first row, so that the sweep holds those alone that reach the present one.
 class RowSweep {
  public:
   RowSweep(const Terrain& terrain, const LocalMesh& mesh) : terrain_(terrain), mesh_(mesh) {
@@ -68,13 +72,13 @@ class RowSweep {
     Placed placed;
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t vertex = mesh_.triangles[t][k];
-      placed.plan[k] = terrain_.Point(static_cast<VertexId>(mesh_.sources[vertex]));
+      placed.plan[k] = terrain_.Point(static_cast<VertexId>(mesh_.posts[vertex]));
       placed.local[k] = mesh_.positions[vertex];
     }
     return placed;
   }
 
-  // The row's greatest distance; posts between two triangles are measured against both.
+  // The row's greatest distance. Posts that triangles share are measured against each of them.
   Result<double> InRow(const Georeference& georeference, const std::vector<std::size_t>& active,
                        std::int32_t row) const {
     const std::int32_t columns = terrain_.dem().columns;

@@ -3,18 +3,19 @@
 #include <vector>
 
 #include "core/base/result.h"
-#include "core/io/draco_mesh.h"
+#include "core/io/local_mesh.h"
 #include "core/pipeline/georeference.h"
 #include "core/terrain/terrain.h"
 
 namespace farhorizon {
 
-/// How far the decoded mesh is from the DEM in space, metres: for each post, the distance to the point of
-/// the mesh that stands for the same place of the plan; the greatest of them. It has in it what the
-/// vertical error does not: that a flat triangle cuts through the curved earth.
+/// The greatest distance in space, metres, between a post of the DEM and the point of the mesh over
+/// the same point of the plan. Unlike the vertical error it includes what flat triangles cut off
+/// the curved earth.
 ///
-/// mesh: as decoded, sources naming its vertices' posts.
-/// Errors: those of placing posts. Cost: O(posts); a row of posts at a time in memory.
+/// mesh: as decoded. Requires: mesh.posts are posts of the terrain; triangles cover all of them.
+/// Errors: those of Georeference::ToGeodetic and ToEnu. Cost: O(posts); a row of posts at a time in
+///   memory.
 Result<double> MeasureGeometricError(const Terrain& terrain, const Georeference& georeference,
                                      const LocalMesh& mesh);
 

@@ -1,3 +1,6 @@
+// Grid points go to map coordinates by the geotransform, from there to degrees on the ellipsoid and
+// to ECEF by PROJ (core/geo/crs.h), and into the local frame by a rotation (core/geo/frames.h);
+// back the same way. PROJ is called for whole vectors of points.
 #include "core/pipeline/georeference.h"
 
 #include <cmath>
@@ -22,7 +25,8 @@ Georeference::Georeference(const Dem& dem, GlobeTransform transform, TangentFram
 
 Result<Georeference> Georeference::Of(const Terrain& terrain, const std::string& vertical_datum) {
   const Dem& dem = terrain.dem();
-  // The frame stands in the middle of the grid, on the ellipsoid; its neighbours give the cell's size.
+  // The frame's origin is the middle of the grid, on the ellipsoid; half a cell to each side gives
+  // the cell's size.
   const double column = (dem.columns - 1) / 2.0;
   const double row = (dem.rows - 1) / 2.0;
   Result<GlobeTransform> transform =
@@ -100,7 +104,7 @@ Result<std::vector<GridPoint>> Georeference::ToGrid(const std::vector<Enu>& poin
 
 Result<std::vector<GroundStep>> Georeference::StepsAt(
     const std::vector<std::array<double, 2>>& points) const {
-  // The point itself, and half a step to each side of it.
+  // The point itself, and half a step to each of its four sides.
   constexpr std::size_t kEach = 5;
   std::vector<MapPoint> around;
   around.reserve(points.size() * kEach);

@@ -6,44 +6,41 @@
 #include "core/base/result.h"
 #include "core/geo/crs.h"
 #include "core/geo/frames.h"
-#include "core/io/tileset.h"
+#include "core/pipeline/ground_step.h"
 #include "core/terrain/mesh.h"
 #include "core/terrain/terrain.h"
 
 namespace farhorizon {
 
-/// What a step of one column and of one row is on the ground, in the directions of true east and north at
-/// one place; metres, along the ellipsoid.
-struct GroundStep {
-  double column_east_m = 0;
-  double column_north_m = 0;
-  double row_east_m = 0;
-  double row_north_m = 0;
-};
-
-/// Where a DEM stands on the globe: the way of its posts to the local frame, each through PROJ, and the
-/// way of a decoded mesh back to the grid.
+/// A DEM's georeference: the way from its posts to the globe and to the local frame, each point
+/// through PROJ, and the way of a decoded mesh back to the grid.
+///
+/// The local frame is about the grid's middle on the ellipsoid: east, north, up, metres.
+/// Errors of all methods with points: kUnsupportedData, kind "outside-crs", where one has no image.
 class Georeference {
  public:
+  /// vertical_datum: as GlobeTransform::Open has it. Requires: the terrain's DEM outlives the
+  ///   result.
   /// Errors: those of GlobeTransform::Open and ToGeodetic.
   static Result<Georeference> Of(const Terrain& terrain, const std::string& vertical_datum);
 
   [[nodiscard]] const TangentFrame& frame() const { return frame_; }
   [[nodiscard]] std::string CrsName() const { return transform_.Name(); }
-  /// Distance of neighbouring posts in the middle of the grid along a row and along a column, metres.
+  /// Distance of neighbouring posts along a row and along a column in the middle of the grid,
+  /// metres.
   [[nodiscard]] double column_step_m() const { return column_step_m_; }
   [[nodiscard]] double row_step_m() const { return row_step_m_; }
-  /// Whether triangles that run counter-clockwise in (column, -row) do so seen from above.
+  /// True where triangles that run counter-clockwise in (column, -row) do so seen from above.
   [[nodiscard]] bool KeepsOrientation() const;
 
   [[nodiscard]] Result<std::vector<Geodetic>> ToGeodetic(const std::vector<VertexId>& posts) const;
-  /// Of points that may lie between posts.
+  /// For points that may lie between posts.
   [[nodiscard]] Result<std::vector<Geodetic>> ToGeodetic(
       const std::vector<GridPoint>& points) const;
   [[nodiscard]] Result<std::vector<Enu>> ToEnu(const std::vector<Geodetic>& points) const;
   [[nodiscard]] Result<std::vector<Enu>> ToEnu(const std::vector<VertexId>& posts) const;
   [[nodiscard]] Result<std::vector<GridPoint>> ToGrid(const std::vector<Enu>& points) const;
-  /// At points given as [column, row], which may lie between posts.
+  /// The ground step at each of `points`, given as [column, row]; they may lie between posts.
   [[nodiscard]] Result<std::vector<GroundStep>> StepsAt(
       const std::vector<std::array<double, 2>>& points) const;
 

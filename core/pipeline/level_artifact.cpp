@@ -1,8 +1,12 @@
+// One level from posts to bytes and back: positions in the local frame, Draco, GLB; then the bytes
+// are decoded again and measured against the DEM, so that the report holds for what is stored,
+// rounding included.
 #include "core/pipeline/level_artifact.h"
 
 #include <algorithm>
 #include <utility>
 
+#include "core/io/draco_mesh.h"
 #include "core/io/glb.h"
 #include "core/pipeline/geometric_error.h"
 
@@ -24,7 +28,7 @@ Result<LocalMesh> ToLocal(const LevelContext& context, const PostMesh& mesh) {
   if (!positions) return std::move(positions.error());
   LocalMesh local;
   local.positions = *std::move(positions);
-  local.sources.assign(posts.begin(), posts.end());
+  local.posts.assign(posts.begin(), posts.end());
   const auto index = [&posts](VertexId v) {
     return static_cast<std::uint32_t>(std::lower_bound(posts.begin(), posts.end(), v) -
                                       posts.begin());
@@ -38,20 +42,16 @@ Result<LocalMesh> ToLocal(const LevelContext& context, const PostMesh& mesh) {
   return local;
 }
 
-// Kept horizon edges as pairs of vertices of the decoded mesh.
+// The level's kept horizon edges as pairs of vertices of the decoded mesh; of a post with several
+// vertices the first.
 std::vector<std::pair<std::uint32_t, std::uint32_t>> KeptInDecoded(const Horizon& horizon,
                                                                    const Lod& lod,
                                                                    const LocalMesh& decoded) {
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> by_source;
-  by_source.reserve(decoded.sources.size());
-  for (std::size_t i = 0; i < decoded.sources.size(); ++i) {
-    by_source.emplace_back(decoded.sources[i], static_cast<std::uint32_t>(i));
-  }
-  std::sort(by_source.begin(), by_source.end());
-  const auto find = [&by_source](VertexId v) {
-    const auto at = std::lower_bound(by_source.begin(), by_source.end(),
+  const std::vector<std::pair<std::uint32_t, std::uint32_t>> by_post = VerticesByPost(decoded);
+  const auto find = [&by_post](VertexId v) {
+    const auto at = std::lower_bound(by_post.begin(), by_post.end(),
                                      std::pair(static_cast<std::uint32_t>(v), std::uint32_t{0}));
-    Check(at != by_source.end() && at->first == static_cast<std::uint32_t>(v),
+    Check(at != by_post.end() && at->first == static_cast<std::uint32_t>(v),
           "the posts of a kept edge are in the mesh");
     return at->second;
   };
@@ -67,8 +67,8 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> KeptInDecoded(const Horizon
 
 Result<QuantizationLattice> LatticeFor(const Terrain& terrain, const Georeference& georeference,
                                        double wanted_step_m) {
-  // The outline and the extremes of each row reach as far as any post, whatever the level keeps; all
-  // posts are asked because a projected grid bulges.
+  // All posts count, not those at the border alone: a projected grid bulges, and heights are
+  // inside. `reach` is the two corners of the box around the posts so far.
   std::vector<Enu> reach;
   std::vector<VertexId> row;
   for (VertexId v = 0; v < terrain.post_count(); ++v) {
@@ -77,7 +77,6 @@ Result<QuantizationLattice> LatticeFor(const Terrain& terrain, const Georeferenc
     Result<std::vector<Enu>> points = georeference.ToEnu(row);
     if (!points) return std::move(points.error());
     reach.insert(reach.end(), points->begin(), points->end());
-    // Only the corners of the box so far matter.
     Enu least = reach.front();
     Enu most = reach.front();
     for (const Enu& p : reach) {
@@ -99,15 +98,14 @@ Result<LevelReport> MeasureLevel(const LevelContext& context, const LocalMesh& d
   const VertexId post_count = context.terrain.post_count();
   GridMesh grid;
   std::vector<VertexId> posts;
-  for (const std::uint32_t source : decoded.sources) {
-    if (source >= static_cast<std::uint32_t>(post_count) ||
-        !context.terrain.dem().HasData(static_cast<VertexId>(source))) {
-      return Error{
-          ErrorCode::kUnsupportedData,
-          "a vertex names post " + std::to_string(source) + ", which the DEM does not have",
-          "bad-mesh"};
+  for (const std::uint32_t post : decoded.posts) {
+    if (post >= static_cast<std::uint32_t>(post_count) ||
+        !context.terrain.dem().HasData(static_cast<VertexId>(post))) {
+      return Error{ErrorCode::kUnsupportedData,
+                   "a vertex names post " + std::to_string(post) + ", which the DEM does not have",
+                   "bad-mesh"};
     }
-    posts.push_back(static_cast<VertexId>(source));
+    posts.push_back(static_cast<VertexId>(post));
   }
   Result<std::vector<GridPoint>> points = context.georeference.ToGrid(decoded.positions);
   if (!points) return std::move(points.error());

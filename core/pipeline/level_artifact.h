@@ -6,7 +6,8 @@
 #include "core/base/progress.h"
 #include "core/base/result.h"
 #include "core/horizon/horizon.h"
-#include "core/io/draco_mesh.h"
+#include "core/io/local_mesh.h"
+#include "core/io/quantization_lattice.h"
 #include "core/pipeline/georeference.h"
 #include "core/pipeline/post_normals.h"
 #include "core/pipeline/report.h"
@@ -15,7 +16,7 @@
 
 namespace farhorizon {
 
-/// What every step on a level needs to know of its DEM.
+/// The parts of a build that every step on a level uses. Requires: all outlive it.
 struct LevelContext {
   const Terrain& terrain;
   const Horizon& horizon;
@@ -37,25 +38,28 @@ inline Watch LevelWatch(const Watch& watch, std::size_t i, std::size_t count) {
   return watch.Between(share(i), share(i + 1));
 }
 
-/// A level as it is stored, and what was measured on what it decodes to.
+/// A level as it is stored, and the measures of the mesh that it decodes to.
 struct LevelArtifact {
   std::vector<std::uint8_t> drc;
   std::vector<std::uint8_t> glb;
-  LevelReport report;  ///< horizon_edges and the bytes are set too
+  LevelReport report;  ///< all but asked_vertical_m and asked_silhouette_m
 };
 
-/// The lattice for the positions of all of the terrain's posts with a step of at most `wanted_step_m`,
-/// where 16 bits allow it.
+/// ChooseLattice for the positions of all of the terrain's posts.
+/// Errors: those of Georeference::ToEnu. Cost: O(posts); a row of posts at a time in memory.
 Result<QuantizationLattice> LatticeFor(const Terrain& terrain, const Georeference& georeference,
                                        double wanted_step_m);
 
-/// Encodes one level and measures it on the decoded mesh. `asked_m`: its silhouette budget.
-/// Errors: those of placing and encoding; kCancelled.
+/// Encodes one level and measures it on the decoded mesh.
+/// asked_m: its silhouette error, as MeasureMeshError has it.
+/// Errors: those of Georeference::ToEnu, EncodeDraco and MeasureLevel.
 Result<LevelArtifact> EncodeLevel(const LevelContext& context, const Lod& lod, int level,
                                   const QuantizationLattice& lattice, double asked_m);
 
-/// Both errors and the counts of a decoded mesh; bytes and horizon_edges are left to the caller.
-/// Errors: kUnsupportedData where the mesh is no image of posts, has a hole or a flipped triangle.
+/// The three errors and the counts of a decoded mesh; horizon_edges, bytes and what was asked are
+/// left to the caller.
+/// Errors: kUnsupportedData where a vertex names no post, or the mesh has a hole or a flipped
+///   triangle; kCancelled; those of Georeference::ToGrid.
 Result<LevelReport> MeasureLevel(const LevelContext& context, const LocalMesh& decoded, int level,
                                  double step_m, double asked_m);
 

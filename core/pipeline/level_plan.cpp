@@ -1,3 +1,6 @@
+// Divides each level's errors between the lattice and the simplifier: the simplifier gets the error
+// less what rounding can do to heights, and at least half of it. The encoded level is within the
+// error asked for wherever rounding takes no more than the other half.
 #include "core/pipeline/level_plan.h"
 
 #include <algorithm>
@@ -10,25 +13,26 @@
 namespace farhorizon {
 namespace {
 
-constexpr double kEarthRadiusM = 6371000;
+constexpr double kEarthRadiusM = 6371000;  // mean; any value within a percent serves
 
-// The terrain's steepest slopes along columns and along rows together, metres up a metre along.
-double SteepestSlopes(const TerrainInput& source) {
-  const double quantum_m = source.dem().quantum_m;
+// The sum of the terrain's steepest slopes along rows and along columns, metres up per metre.
+double SteepestSlopes(const TerrainInput& input) {
+  const double quantum_m = input.dem().quantum_m;
   double by_column = 0;
   double by_row = 0;
-  for (const Edge& edge : source.terrain().Edges()) {
-    const Point3i a = source.terrain().Point(edge.a);
-    const Point3i b = source.terrain().Point(edge.b);
+  for (const Edge& edge : input.terrain().Edges()) {
+    const Point3i a = input.terrain().Point(edge.a);
+    const Point3i b = input.terrain().Point(edge.b);
     const double rise_m = std::abs(static_cast<double>(b.z) - a.z) * quantum_m;
-    // Every triangle has a side along each axis.
-    if (a.y == b.y) by_column = std::max(by_column, rise_m / source.georeference().column_step_m());
-    if (a.x == b.x) by_row = std::max(by_row, rise_m / source.georeference().row_step_m());
+    // Every triangle has a side along each axis: these are the gradient's components.
+    if (a.y == b.y) by_column = std::max(by_column, rise_m / input.georeference().column_step_m());
+    if (a.x == b.x) by_row = std::max(by_row, rise_m / input.georeference().row_step_m());
   }
   return by_column + by_row;
 }
 
-// What rounding a vertex by half a step on each axis does to the height over a fixed place.
+// The most that rounding a vertex changes the height over a fixed point of the plan: half a step up
+// or down, and half a step aside on each axis times the slope along it.
 double HeightLost(double step_m, double slopes) { return 0.5 * step_m * (1 + slopes); }
 
 std::string Metres(double value) {
@@ -40,10 +44,10 @@ std::string Metres(double value) {
 
 }  // namespace
 
-Result<std::vector<LevelPlan>> PlanLevels(const TerrainInput& source, const BuildOptions& options) {
+Result<std::vector<LevelPlan>> PlanLevels(const TerrainInput& input, const BuildOptions& options) {
   const double cell_m =
-      std::sqrt(source.georeference().column_step_m() * source.georeference().row_step_m());
-  const double slopes = SteepestSlopes(source);
+      std::sqrt(input.georeference().column_step_m() * input.georeference().row_step_m());
+  const double slopes = SteepestSlopes(input);
   std::vector<LevelPlan> plans;
   double max_error_m = options.max_error_m.value_or(cell_m / 8);
   for (int level = 0; level < options.levels; ++level, max_error_m *= 2) {
@@ -51,8 +55,9 @@ Result<std::vector<LevelPlan>> PlanLevels(const TerrainInput& source, const Buil
     plan.max_error_m = max_error_m;
     plan.silhouette_error_m = level == 0 ? options.silhouette_error_m
                                          : std::max(options.silhouette_error_m, max_error_m / 8);
+    // A 16th of max_error_m / 8, the silhouette error of levels above 0.
     Result<QuantizationLattice> lattice =
-        LatticeFor(source.terrain(), source.georeference(), max_error_m / 128);
+        LatticeFor(input.terrain(), input.georeference(), max_error_m / 128);
     if (!lattice) return std::move(lattice.error());
     plan.lattice = *lattice;
     const double step_m = plan.lattice.step_m;
@@ -68,13 +73,16 @@ Result<std::vector<LevelPlan>> PlanLevels(const TerrainInput& source, const Buil
     plan.budget.silhouette_error_m =
         level == 0 ? plan.silhouette_error_m
                    : std::max(plan.silhouette_error_m - lost, plan.silhouette_error_m / 2);
-    // A flat triangle of this length sinks a quarter of the error below the curved earth.
+    // An edge of length l sinks l^2 / (8 R) below the curved earth: a quarter of the error at this
+    // length, in the longer of both steps.
     plan.budget.longest_edge =
         std::sqrt(8 * kEarthRadiusM * max_error_m / 4) /
-        std::max(source.georeference().column_step_m(), source.georeference().row_step_m());
+        std::max(input.georeference().column_step_m(), input.georeference().row_step_m());
+    // Rounding moves each end of a side by at most sqrt(2) / 2 steps in plan. Twice the altitude at
+    // which two such moves could flip a triangle, in the shorter of both steps.
     plan.budget.least_altitude =
         2 * std::sqrt(2.0) * step_m /
-        std::min(source.georeference().column_step_m(), source.georeference().row_step_m());
+        std::min(input.georeference().column_step_m(), input.georeference().row_step_m());
     plans.push_back(plan);
   }
   return plans;

@@ -1,3 +1,6 @@
+// Normals of posts from a band of two rows of them, each placed once; normals of vertices from the
+// posts that their triangles cover. Sums run in the order of posts and of triangles, so that the
+// bytes are the same every time.
 #include "core/pipeline/post_normals.h"
 
 #include <algorithm>
@@ -5,11 +8,12 @@
 #include <utility>
 
 #include "core/geometry/row_span.h"
+#include "core/io/draco_mesh.h"
 
 namespace farhorizon {
 namespace {
 
-// A row of posts, placed; those without data stand anywhere.
+// A row of posts in the local frame; those without data are at the origin.
 Result<std::vector<Enu>> PlaceRow(const Terrain& terrain, const Georeference& georeference,
                                   std::int32_t row) {
   const std::int32_t columns = terrain.dem().columns;
@@ -28,30 +32,24 @@ Result<std::vector<Enu>> PlaceRow(const Terrain& terrain, const Georeference& ge
 
 using Sums = std::vector<std::array<double, 3>>;
 
-// The triangle's normal, as long as twice its area.
-std::array<double, 3> FaceNormal(const Enu& a, const Enu& b, const Enu& c) {
-  const std::array<double, 3> u = {b.east - a.east, b.north - a.north, b.up - a.up};
-  const std::array<double, 3> v = {c.east - a.east, c.north - a.north, c.up - a.up};
-  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-}
-
+// `sum` at length 1, its `up` raised to kLeastNormalUp where it is below.
 UnitNormal Raised(const std::array<double, 3>& sum) {
   const double length = std::sqrt(sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]);
   const UnitNormal normal = {sum[0] / length, sum[1] / length, sum[2] / length};
   if (normal[2] >= kLeastNormalUp) return normal;
-  const double level = std::sqrt(sum[0] * sum[0] + sum[1] * sum[1]);
-  if (!(level > 0)) return {0, 0, 1};
+  const double horizontal = std::sqrt(sum[0] * sum[0] + sum[1] * sum[1]);
+  if (!(horizontal > 0)) return {0, 0, 1};
   const double reach = std::sqrt(1 - kLeastNormalUp * kLeastNormalUp);
-  return {reach * sum[0] / level, reach * sum[1] / level, kLeastNormalUp};
+  return {reach * sum[0] / horizontal, reach * sum[1] / horizontal, kLeastNormalUp};
 }
 
-// Two neighbouring rows with what their posts have got of the faces so far.
+// Two neighbouring rows of posts and the sums of their faces' normals so far.
 struct Band {
   std::array<std::vector<Enu>, 2> points;
   std::array<Sums, 2> sums;
 };
 
-// Hands the normals of the faces between rows `row` and `row + 1` to their corners.
+// Adds the normals of the faces between rows `row` and `row + 1` to their corners' sums.
 void AddFaces(const Terrain& terrain, bool keeps, std::int32_t row, Band& band) {
   const Dem& dem = terrain.dem();
   const auto of = [&](auto& rows, VertexId v) -> auto& {
@@ -81,7 +79,7 @@ void AppendRow(const Sums& sums, PostNormals& normals) {
   }
 }
 
-// The share of the triangle's corners in post (column, row), which is inside.
+// The barycentric coordinates of post (column, row), which is inside the triangle.
 std::array<double, 3> SharesOf(const std::array<Point3i, 3>& plan, std::int64_t column,
                                std::int64_t row) {
   std::array<std::int64_t, 3> areas{};
@@ -95,12 +93,14 @@ std::array<double, 3> SharesOf(const std::array<Point3i, 3>& plan, std::int64_t 
           static_cast<double>(areas[2]) / whole};
 }
 
-// What part of a post is the triangle's: half on a side, a sixth at a corner, as on a plain grid.
+// The part of a post that counts for the triangle: half on a side, a sixth at a corner, as where
+// six triangles of a plain grid meet.
 double PartOf(const std::array<double, 3>& shares) {
   const auto zeros = std::count(shares.begin(), shares.end(), 0.0);
   return zeros == 0 ? 1 : zeros == 1 ? 0.5 : 1.0 / 6;
 }
 
+// Adds one post's normal to the sums of a triangle's corners.
 void AddPost(const std::array<float, 3>& normal, const std::array<double, 3>& shares,
              std::array<std::array<double, 3>, 3>& sums) {
   const double part = PartOf(shares);
@@ -138,23 +138,19 @@ Result<PostNormals> FindPostNormals(const Terrain& terrain, const Georeference& 
 
 std::vector<UnitNormal> MeanNormals(const Terrain& terrain, const PostNormals& normals,
                                     const LocalMesh& mesh) {
-  // Vertices of one source meet at the first of them.
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> by_source;
-  by_source.reserve(mesh.sources.size());
-  for (std::uint32_t i = 0; i < mesh.sources.size(); ++i)
-    by_source.emplace_back(mesh.sources[i], i);
-  std::sort(by_source.begin(), by_source.end());
-  std::vector<std::size_t> slot(mesh.sources.size());
+  // Vertices of one post share a slot.
+  const std::vector<std::pair<std::uint32_t, std::uint32_t>> by_post = VerticesByPost(mesh);
+  std::vector<std::size_t> slot(mesh.posts.size());
   std::size_t slots = 0;
-  for (std::size_t i = 0; i < by_source.size(); ++i) {
-    if (i > 0 && by_source[i].first != by_source[i - 1].first) ++slots;
-    slot[by_source[i].second] = slots;
+  for (std::size_t i = 0; i < by_post.size(); ++i) {
+    if (i > 0 && by_post[i].first != by_post[i - 1].first) ++slots;
+    slot[by_post[i].second] = slots;
   }
   Sums sums(slots + 1, {0, 0, 0});
   for (const auto& t : mesh.triangles) {
     std::array<Point3i, 3> plan{};
     for (std::size_t k = 0; k < 3; ++k) {
-      plan[k] = terrain.Point(static_cast<VertexId>(mesh.sources[t[k]]));
+      plan[k] = terrain.Point(static_cast<VertexId>(mesh.posts[t[k]]));
     }
     std::array<std::array<double, 3>, 3> here{};
     const auto [top, bottom] = std::minmax({plan[0].y, plan[1].y, plan[2].y});
@@ -170,7 +166,7 @@ std::vector<UnitNormal> MeanNormals(const Terrain& terrain, const PostNormals& n
     }
   }
   std::vector<UnitNormal> result;
-  result.reserve(mesh.sources.size());
+  result.reserve(mesh.posts.size());
   for (const std::size_t s : slot) result.push_back(Raised(sums[s]));
   return result;
 }

@@ -4,28 +4,28 @@
 #include <vector>
 
 #include "core/base/result.h"
-#include "core/io/draco_mesh.h"
+#include "core/io/local_mesh.h"
 #include "core/pipeline/georeference.h"
 #include "core/terrain/terrain.h"
 
 namespace farhorizon {
 
-/// The terrain's own smooth normal at each post, in the local frame: east, north, up, of length 1; zeros at
-/// posts that are no vertices. Floats, because there may be 64 million.
+/// The terrain's smooth normal at each post, in the local frame: east, north, up, of length 1;
+/// zeros at posts that are no vertices. Floats, because there may be 64 million posts.
 using PostNormals = std::vector<std::array<float, 3>>;
 
-/// The mean of the faces around each post, each by its area. A normal that leans lower than
-/// kLeastNormalUp is raised to there.
-/// Errors: those of placing posts. Cost: O(posts).
+/// The mean of the normals of the faces around each post, weighted by area. A normal whose `up` is
+/// below kLeastNormalUp is raised to it.
+/// Errors: those of Georeference::ToEnu. Cost: O(posts).
 Result<PostNormals> FindPostNormals(const Terrain& terrain, const Georeference& georeference);
 
-/// What to light each vertex of a mesh with: the mean of the terrain's normals over the vertex's
-/// triangles, each post by the square of the vertex's share in it (its barycentric coordinate). With
-/// the terrain's normal at the vertex alone, a coarse mesh would smear what one post happens to be
-/// over triangles of hundreds.
+/// The normals that light a mesh: at each vertex the mean of the terrain's normals over the posts
+/// of the vertex's triangles, each post weighted by the square of the vertex's barycentric
+/// coordinate there. The terrain's normal at the vertex alone would spread what one post happens to
+/// be over triangles of hundreds of posts.
 ///
-/// mesh: sources are posts; vertices of one source get one normal. Its own normals are not read.
-/// Returns normals as EncodeDraco wants them. Cost: O(posts + vertices).
+/// Vertices of one post get one normal; mesh.normals is not read. The result fits EncodeDraco.
+/// Cost: O(posts + vertices).
 std::vector<UnitNormal> MeanNormals(const Terrain& terrain, const PostNormals& normals,
                                     const LocalMesh& mesh);
 

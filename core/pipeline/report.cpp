@@ -1,3 +1,5 @@
+// report.json, written and read member by member in the order of the structs; nlohmann's
+// ordered_json keeps that order, so that the same report has the same bytes.
 #include "core/pipeline/report.h"
 
 #include <cmath>
@@ -69,7 +71,7 @@ void ReadHorizon(const Json& json, Report& report) {
   HorizonStatistics& s = report.statistics;
   json.at("horizon_edges").get_to(report.horizon_edges);
   json.at("terrain_edges").get_to(s.terrain_edges);
-  // Reports from before there was a budget have neither.
+  // Reports of versions without a budget have neither.
   s.undecided = json.value("undecided", std::int64_t{0});
   s.work_budget = json.value("work_budget", std::int64_t{0});
   json.at("candidates").get_to(s.candidates);

@@ -11,7 +11,7 @@
 
 namespace farhorizon {
 
-/// What was read: the `dem` member of report.json.
+/// The DEM that was read: the `dem` member of report.json. heights_m: the least and the greatest.
 struct DemReport {
   std::int32_t columns = 0;
   std::int32_t rows = 0;
@@ -20,18 +20,22 @@ struct DemReport {
   std::array<double, 2> heights_m = {0, 0};
   std::int64_t nodata_posts = 0;
   double height_quantum_m = 1;
-  bool heights_rounded = false;  ///< to that quantum; else they are as stored
+  bool heights_rounded = false;  ///< true: to that quantum; false: heights are as stored
   std::string sha256;
 };
 
-/// What one level was asked for, and measured as, on the decoded mesh: a member of `levels`.
+/// One level, measured on its decoded mesh: a member of `levels` of report.json.
+///
+/// asked_vertical_m, asked_silhouette_m: the errors that the level was allowed. The search for the
+/// certified silhouette error began at the latter. glb_bytes, drc_bytes: 0 where there is no such
+/// file.
 struct LevelReport {
   int level = 0;
   std::int64_t triangles = 0;
   std::int64_t vertices = 0;
   std::int64_t horizon_edges = 0;
-  double asked_vertical_m = 0;    ///< what the level was allowed
-  double asked_silhouette_m = 0;  ///< and where the search for the certified bound began
+  double asked_vertical_m = 0;
+  double asked_silhouette_m = 0;
   ErrorMeasure vertical;
   ErrorMeasure silhouette;
   double geometric_error_m = 0;
@@ -40,7 +44,7 @@ struct LevelReport {
   std::int64_t drc_bytes = 0;
 };
 
-/// report.json.
+/// The contents of report.json.
 struct Report {
   std::string version;
   DemReport dem;
@@ -49,11 +53,13 @@ struct Report {
   std::vector<LevelReport> levels;
 };
 
+/// The text of report.json.
 std::string WriteReport(const Report& report);
-/// Errors: kUnsupportedData, naming the member that is missing or wrong.
+/// Reads back the text of WriteReport. Errors: kUnsupportedData, kind "bad-report", with the member
+/// that is missing or wrong.
 Result<Report> ReadReport(const std::string& text);
 
-/// `value` with its last places rounded up, so that a bound stays one: to a millionth of a metre.
+/// `value`, metres, rounded up to a millionth: a bound stays a bound.
 double RoundUp(double value);
 
 }  // namespace farhorizon

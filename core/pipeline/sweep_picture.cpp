@@ -2,10 +2,11 @@
 
 #include <cmath>
 #include <sstream>
+#include <string>
 #include <utility>
 
 #include "core/horizon/trace/sweep_trace.h"
-#include "core/io/files.h"
+#include "core/io/file.h"
 #include "core/io/sweep_svg.h"
 #include "core/pipeline/terrain_input.h"
 
@@ -22,7 +23,7 @@ std::string Metres(double value) {
 }  // namespace
 
 Status WriteSweepPicture(const std::filesystem::path& dem, const std::filesystem::path& out,
-                         double level_m, const BuildOptions& options, const Watch& watch) {
+                         double height_m, const BuildOptions& options, const Watch& watch) {
   if (out.extension() != ".svg") {
     return Error{
         ErrorCode::kInvalidArgument,
@@ -30,20 +31,20 @@ Status WriteSweepPicture(const std::filesystem::path& dem, const std::filesystem
         "unknown-format"};
   }
   watch.Report(Stage::kRead, 0);
-  Result<std::unique_ptr<TerrainInput>> source = TerrainInput::Open(dem, options);
-  if (!source) return std::move(source.error());
+  Result<std::unique_ptr<TerrainInput>> input = TerrainInput::Open(dem, options);
+  if (!input) return std::move(input.error());
   watch.Report(Stage::kRead, 1);
-  const Dem& grid = (*source)->dem();
-  const double quanta = std::round((level_m - grid.height_offset_m) / grid.quantum_m);
-  constexpr double kLimit = 1 << 30;
+  const Dem& grid = (*input)->dem();
+  const double quanta = std::round((height_m - grid.height_offset_m) / grid.quantum_m);
+  constexpr double kLimit = 1 << 30;  // no height of a Dem has more quanta
   Result<SweepTrace> trace = Error{ErrorCode::kInvalidArgument, "", "no-such-level"};
   if (std::abs(quanta) < kLimit) {
-    trace = TraceSweep((*source)->terrain(), static_cast<std::int32_t>(quanta), watch);
+    trace = TraceSweep((*input)->terrain(), static_cast<std::int32_t>(quanta), watch);
   }
   if (!trace && trace.error().kind == "no-such-level") {
-    const auto [least, most] = (*source)->report().heights_m;
+    const auto [least, most] = (*input)->report().heights_m;
     return Error{ErrorCode::kInvalidArgument,
-                 "no ground is cut at " + Metres(level_m) + "; heights are " + Metres(least) +
+                 "no ground is cut at " + Metres(height_m) + "; heights are " + Metres(least) +
                      " to " + Metres(most),
                  "no-such-level"};
   }

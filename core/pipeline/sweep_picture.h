@@ -4,15 +4,17 @@
 
 #include "core/base/progress.h"
 #include "core/base/result.h"
-#include "core/pipeline/build.h"
+#include "core/pipeline/build_options.h"
 
 namespace farhorizon {
 
-/// A picture of the sweep over `dem` at the height `level_m` (in the DEM's vertical datum, taken to the
-/// nearest quantum of its heights), as SVG: io/sweep_svg.h.
-/// Errors: kInvalidArgument for another ending than ".svg", or a level that cuts no ground, with the
-/// heights that do; those of reading and of the kinetic engine.
+/// Writes a picture of the sweep over `dem`, its plane at a height, as SVG (io/sweep_svg.h).
+///
+/// height_m: of the plane, in the DEM's vertical datum; rounded to a quantum of its heights.
+/// Errors: kInvalidArgument for another ending than ".svg", kind "unknown-format", and where the
+///   plane cuts no ground, kind "no-such-level", with the heights at which it does; those of
+///   TerrainInput::Open and TraceSweep.
 Status WriteSweepPicture(const std::filesystem::path& dem, const std::filesystem::path& out,
-                         double level_m, const BuildOptions& options, const Watch& watch);
+                         double height_m, const BuildOptions& options, const Watch& watch);
 
 }  // namespace farhorizon

@@ -1,12 +1,15 @@
+// Reads, triangulates and georeferences a DEM, and describes it for the report. The terrain and its
+// georeference refer to the DEM inside the object, which therefore lives on the heap.
 #include "core/pipeline/terrain_input.h"
 
 #include <algorithm>
 #include <numbers>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "core/io/dem_reader.h"
-#include "core/io/files.h"
-#include "core/pipeline/edge_measures.h"
+#include "core/io/file.h"
 
 namespace farhorizon {
 namespace {
@@ -26,23 +29,23 @@ void Include(BoundingRegion& region, const Geodetic& p) {
 
 Result<std::unique_ptr<TerrainInput>> TerrainInput::Open(const std::filesystem::path& path,
                                                          const BuildOptions& options) {
-  std::unique_ptr<TerrainInput> source(new TerrainInput());
+  std::unique_ptr<TerrainInput> input(new TerrainInput());
   Result<Dem> dem =
       ReadDem(path, {.max_posts = options.max_posts, .crs = options.crs, .nodata = options.nodata});
   if (!dem) return std::move(dem.error()).Within("read DEM");
-  source->dem_ = *std::move(dem);
-  Result<Terrain> terrain = Terrain::Build(source->dem_);
+  input->dem_ = *std::move(dem);
+  Result<Terrain> terrain = Terrain::Build(input->dem_);
   if (!terrain) return std::move(terrain.error()).Within("triangulate DEM");
-  source->terrain_ = *terrain;
+  input->terrain_ = *terrain;
   Result<Georeference> georeference =
-      Georeference::Of(*source->terrain_, options.vertical_datum.value_or(""));
+      Georeference::Of(*input->terrain_, options.vertical_datum.value_or(""));
   if (!georeference) return std::move(georeference.error()).Within("place DEM on the globe");
-  source->georeference_.emplace(*std::move(georeference));
+  input->georeference_.emplace(*std::move(georeference));
   Result<std::string> sha256 = Sha256OfFile(path);
   if (!sha256) return std::move(sha256.error()).Within("read DEM");
-  source->report_.sha256 = *std::move(sha256);
-  source->Describe();
-  return source;
+  input->report_.sha256 = *std::move(sha256);
+  input->Describe();
+  return input;
 }
 
 void TerrainInput::Describe() {
@@ -86,41 +89,6 @@ Result<BoundingRegion> TerrainInput::Region() const {
     }
   }
   return region;
-}
-
-Result<std::vector<HorizonFeature>> TerrainInput::Features(const Horizon& horizon,
-                                                           const std::vector<int>& level_kept,
-                                                           int threads, const Watch& watch) const {
-  std::vector<VertexId> ends;
-  for (const HorizonEdge& e : horizon.edges) {
-    ends.push_back(e.edge.a);
-    ends.push_back(e.edge.b);
-  }
-  Result<std::vector<Geodetic>> points = georeference_->ToGeodetic(ends);
-  if (!points) return std::move(points.error());
-  Result<std::vector<EdgeMeasures>> views =
-      MeasureEdges(*terrain_, horizon, *georeference_, threads, watch);
-  if (!views) return std::move(views.error());
-  std::vector<HorizonFeature> features;
-  for (std::size_t i = 0; i < horizon.edges.size(); ++i) {
-    const HorizonEdge& e = horizon.edges[i];
-    HorizonFeature feature;
-    feature.a = {dem_.Column(e.edge.a), dem_.Row(e.edge.a)};
-    feature.b = {dem_.Column(e.edge.b), dem_.Row(e.edge.b)};
-    feature.from = (*points)[2 * i];
-    feature.to = (*points)[2 * i + 1];
-    EdgeMeasures& view = (*views)[i];
-    feature.azimuths = std::move(view.azimuths);
-    feature.spans = std::move(view.spans);
-    feature.angular_share = view.angular_share;
-    feature.line_measure_m = view.line_measure_m;
-    feature.skyline_drop_m = view.skyline_drop_m;
-    feature.witness = e.witness;
-    feature.undecided = e.undecided;
-    if (i < level_kept.size() && level_kept[i] >= 0) feature.level_kept = level_kept[i];
-    features.push_back(std::move(feature));
-  }
-  return features;
 }
 
 }  // namespace farhorizon

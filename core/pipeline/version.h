@@ -2,7 +2,7 @@
 
 namespace farhorizon {
 
-/// The version that artifacts and the program name: the project's, from the top CMakeLists.txt.
+/// The project's version, from the top CMakeLists.txt, as artifacts and the program state it.
 const char* Version();
 
 }  // namespace farhorizon

@@ -1,10 +1,12 @@
 #include "core/pipeline/write_horizon.h"
 
+#include <string>
 #include <utility>
 
-#include "core/horizon/find_horizon.h"
-#include "core/io/files.h"
+#include "core/io/file.h"
 #include "core/io/horizon_features.h"
+#include "core/io/horizon_vector.h"
+#include "core/pipeline/build_features.h"
 #include "core/pipeline/terrain_input.h"
 
 namespace farhorizon {
@@ -18,18 +20,15 @@ Status WriteHorizonEdges(const std::filesystem::path& dem, const std::filesystem
                  "unknown-format"};
   }
   watch.Report(Stage::kRead, 0);
-  Result<std::unique_ptr<TerrainInput>> source = TerrainInput::Open(dem, options);
-  if (!source) return std::move(source.error());
+  Result<std::unique_ptr<TerrainInput>> input = TerrainInput::Open(dem, options);
+  if (!input) return std::move(input.error());
   watch.Report(Stage::kRead, 1);
-  Result<Horizon> horizon = FindHorizon((*source)->terrain(),
-                                        {.threads = options.threads,
-                                         .engine = engine,
-                                         .work_budget = options.work_budget,
-                                         .approximate = options.approximate},
-                                        watch);
+  HorizonOptions horizon_options = HorizonOptionsOf(options);
+  horizon_options.engine = engine;
+  Result<Horizon> horizon = FindHorizon((*input)->terrain(), horizon_options, watch);
   if (!horizon) return std::move(horizon.error());
   Result<std::vector<HorizonFeature>> features =
-      (*source)->Features(*horizon, {}, options.threads, watch);
+      BuildFeatures(**input, *horizon, {}, options.threads, watch);
   if (!features) return std::move(features.error());
   watch.Report(Stage::kWrite, 0);
   Status written = ending == ".geojson" ? WriteFile(out, WriteHorizonGeoJson(*features))

@@ -5,14 +5,17 @@
 #include "core/base/progress.h"
 #include "core/base/result.h"
 #include "core/horizon/find_horizon.h"
-#include "core/pipeline/build.h"
+#include "core/pipeline/build_options.h"
 
 namespace farhorizon {
 
-/// Only the horizon edges of `dem`, in the format that the ending of `out` names: ".geojson", ".fgb" or
-/// ".gpkg".
-/// engine: which algorithm finds them; the file is the same but for witnesses, each good by itself.
-/// Errors: kInvalidArgument for another ending; those of reading, placing and sweeping the DEM.
+/// Writes the horizon edges of `dem`, and no levels, in the format that the ending of `out` names:
+/// ".geojson", ".fgb" or ".gpkg".
+///
+/// engine: the algorithm that finds the edges; the files differ in witnesses alone, all of which
+///   are true.
+/// Errors: kInvalidArgument for another ending; those of TerrainInput::Open, FindHorizon,
+///   BuildFeatures and of writing the file.
 Status WriteHorizonEdges(const std::filesystem::path& dem, const std::filesystem::path& out,
                          const BuildOptions& options, const Watch& watch,
                          Engine engine = Engine::kAdaptive);

@@ -1,8 +1,13 @@
+// The skyline of one direction: the horizon edges' lines of sight in that direction, their parts
+// put in the viewer's order and measured on the ground. Parts come in the order across the grid,
+// which is from left to right or the other way round, as the grid lies on the ground.
 #include "core/pipeline/write_skyline.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <numbers>
+#include <cstdint>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -10,25 +15,25 @@
 #include "core/horizon/lines_of_sight/directional_skyline.h"
 #include "core/io/geojson_text.h"
 #include "core/io/skyline_features.h"
+#include "core/io/skyline_svg.h"
+#include "core/pipeline/georeference.h"
 #include "core/pipeline/terrain_input.h"
 
 namespace farhorizon {
 namespace {
 
-// Places on the ground as the viewer has them, from those in the grid.
+// From points of the grid to the viewer's frame on the ground, whose origin is the DEM's middle.
 class ViewFrame {
  public:
   ViewFrame(const ViewDirection& view, const GroundStep& step, std::array<double, 2> middle)
       : step_(step), middle_(middle) {
-    const auto [east, north] = OnGround(view.dc, view.dr);
+    const auto [east, north] = step.ToGround(view.dc, view.dr);
     const double length = std::hypot(east, north);
     ahead_ = {east / length, north / length};
   }
 
-  // Whether what lies further across the view (Offset) lies to the right.
-  [[nodiscard]] bool RisesToTheRight() const {
-    return step_.column_east_m * step_.row_north_m < step_.row_east_m * step_.column_north_m;
-  }
+  // True where points that are further across the view (Offset) are further to the right.
+  [[nodiscard]] bool RisesToTheRight() const { return step_.SignedCellArea() < 0; }
   [[nodiscard]] double Offset(const GridPoint& p) const {
     const auto [east, north] = FromMiddle(p);
     return east * ahead_[1] - north * ahead_[0];
@@ -39,12 +44,8 @@ class ViewFrame {
   }
 
  private:
-  [[nodiscard]] std::array<double, 2> OnGround(double columns, double rows) const {
-    return {step_.column_east_m * columns + step_.row_east_m * rows,
-            step_.column_north_m * columns + step_.row_north_m * rows};
-  }
   [[nodiscard]] std::array<double, 2> FromMiddle(const GridPoint& p) const {
-    return OnGround(p.column - middle_[0], p.row - middle_[1]);
+    return step_.ToGround(p.column - middle_[0], p.row - middle_[1]);
   }
 
   GroundStep step_;
@@ -58,7 +59,7 @@ GridPoint Between(const Dem& dem, Edge edge, double t) {
           mix(dem.HeightM(edge.a), dem.HeightM(edge.b))};
 }
 
-// The parts with their left ends at t_from and the leftmost first.
+// The pieces with their left ends at t_from, the leftmost first.
 std::vector<SkylinePiece> LeftToRight(std::vector<SkylinePiece> parts, bool rises_to_the_right) {
   if (rises_to_the_right) return parts;
   std::reverse(parts.begin(), parts.end());
@@ -66,17 +67,17 @@ std::vector<SkylinePiece> LeftToRight(std::vector<SkylinePiece> parts, bool rise
   return parts;
 }
 
-Result<SkylineOfDirection> Published(const TerrainInput& source, const Horizon& horizon,
+Result<SkylineOfDirection> Published(const TerrainInput& input, const Horizon& horizon,
                                      const std::vector<SkylinePiece>& parts,
                                      const ViewFrame& frame) {
-  const Dem& dem = source.dem();
+  const Dem& dem = input.dem();
   std::vector<GridPoint> ends;
   for (const SkylinePiece& part : parts) {
     ends.push_back(Between(dem, horizon.edges[part.edge].edge, part.t_from));
     ends.push_back(Between(dem, horizon.edges[part.edge].edge, part.t_to));
   }
-  Result<std::vector<Geodetic>> places = source.georeference().ToGeodetic(ends);
-  if (!places) return std::move(places.error());
+  Result<std::vector<Geodetic>> points = input.georeference().ToGeodetic(ends);
+  if (!points) return std::move(points.error());
   SkylineOfDirection skyline{};
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const Edge edge = horizon.edges[parts[i].edge].edge;
@@ -84,8 +85,8 @@ Result<SkylineOfDirection> Published(const TerrainInput& source, const Horizon& 
     const GridPoint& right = ends[2 * i + 1];
     skyline.parts.push_back({{dem.Column(edge.a), dem.Row(edge.a)},
                              {dem.Column(edge.b), dem.Row(edge.b)},
-                             (*places)[2 * i],
-                             (*places)[2 * i + 1],
+                             (*points)[2 * i],
+                             (*points)[2 * i + 1],
                              {parts[i].t_from, parts[i].t_to},
                              {frame.Offset(left), frame.Offset(right)},
                              {frame.Depth(left), frame.Depth(right)}});
@@ -93,27 +94,23 @@ Result<SkylineOfDirection> Published(const TerrainInput& source, const Horizon& 
   return skyline;
 }
 
-Result<SkylineOfDirection> Find(const TerrainInput& source, double azimuth,
+Result<SkylineOfDirection> Find(const TerrainInput& input, double azimuth,
                                 const BuildOptions& options, const Watch& watch) {
-  const Dem& dem = source.dem();
+  const Dem& dem = input.dem();
   const std::array<double, 2> middle = {(dem.columns - 1) / 2.0, (dem.rows - 1) / 2.0};
-  Result<std::vector<GroundStep>> step = source.georeference().StepsAt({middle});
+  Result<std::vector<GroundStep>> step = input.georeference().StepsAt({middle});
   if (!step) return std::move(step.error());
-  Result<Horizon> horizon = FindHorizon(source.terrain(),
-                                        {.threads = options.threads,
-                                         .work_budget = options.work_budget,
-                                         .approximate = options.approximate},
-                                        watch);
+  Result<Horizon> horizon = FindHorizon(input.terrain(), HorizonOptionsOf(options), watch);
   if (!horizon) return std::move(horizon.error());
   Result<std::vector<LinesOfSight>> sights =
-      FindLinesOfSight(source.terrain(), *horizon, options.threads, watch);
+      FindLinesOfSight(input.terrain(), *horizon, options.threads, watch);
   if (!sights) return std::move(sights.error());
   watch.Report(Stage::kWrite, 0);
   const ViewDirection view = DirectionOf(azimuth, step->front());
   const ViewFrame frame(view, step->front(), middle);
-  const DirectionalSkylines skylines(source.terrain(), *horizon, *sights);
-  Result<SkylineOfDirection> skyline = Published(
-      source, *horizon, LeftToRight(skylines.Along(view), frame.RisesToTheRight()), frame);
+  const DirectionalSkylines skylines(input.terrain(), *horizon, *sights);
+  Result<SkylineOfDirection> skyline =
+      Published(input, *horizon, LeftToRight(skylines.Along(view), frame.RisesToTheRight()), frame);
   if (!skyline) return skyline;
   skyline->azimuth = azimuth;
   skyline->direction = {view.dc, view.dr};
@@ -132,15 +129,8 @@ Result<SkylineFormat> SkylineFormatOf(const std::filesystem::path& file) {
                "unknown-format"};
 }
 
-ViewDirection DirectionOf(double azimuth, const GroundStep& step) {
-  const double angle = azimuth / 180 * std::numbers::pi;
-  const double east = std::sin(angle);
-  const double north = std::cos(angle);
-  // The inverse of the step, but for the size, and with the sign of its determinant.
-  const double sign = std::copysign(
-      1.0, step.column_east_m * step.row_north_m - step.row_east_m * step.column_north_m);
-  const double columns = sign * (step.row_north_m * east - step.row_east_m * north);
-  const double rows = sign * (step.column_east_m * north - step.column_north_m * east);
+ViewDirection DirectionOf(double azimuth_deg, const GroundStep& step) {
+  const auto [columns, rows] = step.ToGrid(azimuth_deg);
   const double most = std::max(std::abs(columns), std::abs(rows));
   const auto scaled = [most](double value) {
     return static_cast<std::int32_t>(std::lround(value / most * kMaxViewStep));
@@ -148,7 +138,7 @@ ViewDirection DirectionOf(double azimuth, const GroundStep& step) {
   return {scaled(columns), scaled(rows)};
 }
 
-Result<std::string> SkylineOfDem(const std::filesystem::path& dem, double azimuth,
+Result<std::string> WriteSkyline(const std::filesystem::path& dem, double azimuth,
                                  SkylineFormat format, const BuildOptions& options,
                                  const Watch& watch) {
   if (!(std::abs(azimuth) <= 360)) {
@@ -156,10 +146,10 @@ Result<std::string> SkylineOfDem(const std::filesystem::path& dem, double azimut
                  "an azimuth is in degrees clockwise from north, from -360 to 360", "bad-azimuth"};
   }
   watch.Report(Stage::kRead, 0);
-  Result<std::unique_ptr<TerrainInput>> source = TerrainInput::Open(dem, options);
-  if (!source) return std::move(source.error());
+  Result<std::unique_ptr<TerrainInput>> input = TerrainInput::Open(dem, options);
+  if (!input) return std::move(input.error());
   watch.Report(Stage::kRead, 1);
-  Result<SkylineOfDirection> skyline = Find(**source, azimuth, options, watch);
+  Result<SkylineOfDirection> skyline = Find(**input, azimuth, options, watch);
   if (!skyline) return std::move(skyline.error());
   std::string text = format == SkylineFormat::kGeoJson
                          ? WriteSkylineGeoJson(*skyline)

@@ -2,7 +2,7 @@
 #include <memory>
 #include <string>
 
-#include "core/io/files.h"
+#include "core/io/file.h"
 #include "core/pipeline/write_skyline.h"
 #include "service/cli/command.h"
 #include "service/cli/dem_command.h"
@@ -31,7 +31,7 @@ int Run(const SkylineArguments& arguments) {
         Result<SkylineFormat> format =
             file.empty() ? SkylineFormat::kGeoJson : SkylineFormatOf(file);
         if (!format) return std::move(format.error());
-        return SkylineOfDem(arguments.dem.path, arguments.azimuth_deg, *format, run.options,
+        return WriteSkyline(arguments.dem.path, arguments.azimuth_deg, *format, run.options,
                             run.watch);
       });
   if (!skyline) return ReportError(skyline.error());

@@ -8,7 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/hex.h"
-#include "core/io/files.h"
+#include "core/io/file.h"
+#include "core/io/manifest.h"
 #include "service/cli/command.h"
 #include "service/cli/dem_command.h"
 #include "service/cli/job_client.h"

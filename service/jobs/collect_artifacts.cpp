@@ -3,7 +3,8 @@
 #include <set>
 #include <string>
 
-#include "core/io/files.h"
+#include "core/io/file.h"
+#include "core/io/manifest.h"
 
 namespace farhorizon {
 

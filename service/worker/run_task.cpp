@@ -9,6 +9,7 @@
 #include <string>
 
 #include "core/io/dem_reader.h"
+#include "core/io/file.h"
 #include "core/io/posix_file.h"
 #include "core/pipeline/build.h"
 #include "service/stage_timer.h"

@@ -4,12 +4,13 @@
 #include <cmath>
 #include <cstdint>
 
-#include "core/io/draco_mesh.h"
+#include "core/io/local_mesh.h"
 
 namespace farhorizon {
 
 /// A hilly grid of columns x rows vertices, `cell_m` apart, centred on the origin; source = row *
-/// columns + column; normals are the hills'. `hole(column, row)`: vertices that are left out, with the triangles at them.
+/// columns + column; normals are the hills'. `hole(column, row)`: vertices that are left out, with
+/// the triangles at them.
 template <typename Hole>
 LocalMesh HillyGrid(std::uint32_t columns, std::uint32_t rows, double cell_m, Hole hole) {
   LocalMesh mesh;
@@ -41,7 +42,7 @@ LocalMesh HillyGrid(std::uint32_t columns, std::uint32_t rows, double cell_m, Ho
         mesh.positions.push_back(
             {(c - columns / 2.0) * cell_m, (rows / 2.0 - r) * cell_m,
              400 + 90.3 * std::sin(c / 3.1) + 70.7 * std::cos(r / 4.3 + c / 9)});
-        mesh.sources.push_back(static_cast<std::uint32_t>(t[k]));
+        mesh.posts.push_back(static_cast<std::uint32_t>(t[k]));
         const double east = -90.3 / 3.1 * std::cos(c / 3.1) + 70.7 / 9 * std::sin(r / 4.3 + c / 9);
         const double north = -70.7 / 4.3 * std::sin(r / 4.3 + c / 9);
         const double up =

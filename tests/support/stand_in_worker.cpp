@@ -9,8 +9,10 @@
 #include <unistd.h>
 #include <vector>
 
-#include "core/io/files.h"
+#include "core/io/file.h"
+#include "core/io/manifest.h"
 #include "core/io/posix_file.h"
+#include "core/io/sha256.h"
 #include "service/worker/worker_protocol.h"
 
 namespace {

@@ -9,12 +9,16 @@
 
 namespace farhorizon {
 
-/// The list of checks that verification makes, in order.
+/// A list of claims and whether they hold, in the order in which they were checked.
 class Claims {
  public:
   void Add(bool holds, std::string claim) { checks_.push_back({holds, std::move(claim)}); }
 
-  /// That what was claimed is what was found.
+  void Append(std::vector<ClaimCheck> checks) {
+    for (ClaimCheck& check : checks) checks_.push_back(std::move(check));
+  }
+
+  /// Checks that `found` is `claimed`. what: the value's name in the claim's text.
   template <typename T>
   void Same(const std::string& what, const T& claimed, const T& found) {
     std::ostringstream line;
@@ -24,7 +28,7 @@ class Claims {
     Add(claimed == found, line.str());
   }
 
-  /// That a measured error is no greater than claimed.
+  /// Checks that an error, in metres, is no greater than claimed.
   void AtMost(const std::string& what, double claimed, double found) {
     std::ostringstream line;
     line.precision(10);

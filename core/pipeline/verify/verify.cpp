@@ -1,30 +1,31 @@
-// Every claim of a folder of artifacts, measured again from the DEM and the files.
+// Every claim of a folder of artifacts, measured again from the DEM and the files: the manifest,
+// the DEM, the set of horizon edges (verify_features, verify_edges), each level (verify_level), the
+// tileset. The horizon is found again, with the budget that the report names, so that an
+// approximate one comes out the same.
 #include "core/pipeline/verify/verify.h"
 
 #include <algorithm>
-#include <map>
+#include <cmath>
 #include <optional>
-#include <random>
 #include <utility>
 
 #include "core/horizon/find_horizon.h"
-#include "core/horizon/lines/highest_over_line.h"
-#include "core/io/files.h"
+#include "core/io/file.h"
 #include "core/io/horizon_features.h"
-#include "core/io/tileset.h"
+#include "core/io/manifest.h"
+#include "core/io/tileset_reader.h"
 #include "core/pipeline/level_artifact.h"
 #include "core/pipeline/report.h"
 #include "core/pipeline/terrain_input.h"
 #include "core/pipeline/verify/claims.h"
 #include "core/pipeline/verify/verify_edges.h"
+#include "core/pipeline/verify/verify_features.h"
 #include "core/pipeline/verify/verify_level.h"
 
 namespace farhorizon {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr int kRandomLines = 1000;
 
 Status VerifyManifest(const fs::path& directory, Claims& claims) {
   Result<std::string> text = ReadFile(directory / "manifest.json");
@@ -55,101 +56,9 @@ void VerifyDem(const DemReport& claimed, const DemReport& found, Claims& claims)
   claims.Same("dem height quantum", claimed.height_quantum_m, found.height_quantum_m);
 }
 
-// Lines through the terrain, drawn at random but the same each time.
-PlanLine RandomLine(const Dem& dem, std::mt19937_64& random) {
-  const auto draw = [&random](std::int32_t below) {
-    return static_cast<std::int32_t>(random() % static_cast<std::uint64_t>(below));
-  };
-  PlanLine line{draw(2 * dem.columns), draw(2 * dem.rows), draw(2001) - 1000, draw(2001) - 1000};
-  if (line.dc == 0 && line.dr == 0) line.dc = 1;
-  return line;
-}
-
-// The set makes the terrain's skyline: on no line is the terrain higher than the set.
-int LinesThatSeeMore(const Terrain& terrain, const std::vector<Segment>& set) {
-  std::mt19937_64 random(20051);
-  int more = 0;
-  for (int i = 0; i < kRandomLines; ++i) {
-    const PlanLine line = RandomLine(terrain.dem(), random);
-    const std::optional<ExactHeight> ground = HighestOver(terrain, line);
-    const std::optional<ExactHeight> found = HighestOver(set, line);
-    more += (ground && (!found || Compare(*ground, *found) != 0)) ? 1 : 0;
-  }
-  return more;
-}
-
-struct PublishedEdges {
-  std::vector<Edge> edges;
-  std::vector<int> level_kept;
-  std::int64_t undecided = 0;
-};
-
-// Features by the terrain's own names; counts those that name no edge or stand elsewhere.
-PublishedEdges VerifyFeatures(const TerrainInput& source,
-                              const std::vector<HorizonFeature>& features, Claims& claims) {
-  const Dem& dem = source.dem();
-  PublishedEdges published;
-  std::vector<VertexId> ends;
-  std::int64_t astray = 0;
-  std::int64_t blind = 0;
-  std::vector<Segment> set;
-  for (const HorizonFeature& f : features) {
-    const auto inside = [&dem](const std::array<std::int32_t, 2>& p) {
-      return p[0] >= 0 && p[0] < dem.columns && p[1] >= 0 && p[1] < dem.rows;
-    };
-    if (!inside(f.a) || !inside(f.b)) {
-      ++astray;
-      continue;
-    }
-    const Edge edge{f.a[1] * dem.columns + f.a[0], f.b[1] * dem.columns + f.b[0]};
-    const bool holds =
-        edge.a < edge.b && (f.undecided || WitnessHolds(source.terrain(), edge, f.witness));
-    blind += holds ? 0 : 1;
-    published.undecided += f.undecided ? 1 : 0;
-    published.edges.push_back(edge);
-    published.level_kept.push_back(f.level_kept.value_or(-1));
-    ends.push_back(edge.a);
-    ends.push_back(edge.b);
-    set.push_back({source.terrain().Point(edge.a), source.terrain().Point(edge.b)});
-  }
-  Result<std::vector<Geodetic>> places = source.georeference().ToGeodetic(ends);
-  for (std::size_t i = 0; places && i < published.edges.size() && astray == 0; ++i) {
-    const auto near = [](const Geodetic& a, const Geodetic& b) {
-      return std::abs(a.lon_deg - b.lon_deg) < 1e-8 && std::abs(a.lat_deg - b.lat_deg) < 1e-8 &&
-             std::abs(a.height_m - b.height_m) < 1e-3;
-    };
-    const bool there =
-        near((*places)[2 * i], features[i].from) && near((*places)[2 * i + 1], features[i].to);
-    astray += there ? 0 : 1;
-  }
-  claims.Same("horizon.geojson edges that are not where their posts are", std::int64_t{0}, astray);
-  claims.Same("horizon.geojson witnesses that meet higher ground", std::int64_t{0}, blind);
-  claims.Same(
-      std::to_string(kRandomLines) + " random lines of sight with ground above every horizon edge",
-      0, LinesThatSeeMore(source.terrain(), set));
-  return published;
-}
-
-void VerifySet(const std::vector<Edge>& claimed, const Horizon& horizon, Claims& claims) {
-  std::vector<Edge> found;
-  found.reserve(horizon.edges.size());
-  for (const HorizonEdge& e : horizon.edges) found.push_back(e.edge);
-  std::vector<Edge> sorted = claimed;
-  std::sort(sorted.begin(), sorted.end());
-  std::vector<Edge> missing;
-  std::set_difference(found.begin(), found.end(), sorted.begin(), sorted.end(),
-                      std::back_inserter(missing));
-  std::vector<Edge> extra;
-  std::set_difference(sorted.begin(), sorted.end(), found.begin(), found.end(),
-                      std::back_inserter(extra));
-  claims.Same("horizon edges missing from horizon.geojson", std::size_t{0}, missing.size());
-  claims.Same("edges in horizon.geojson that are not on the horizon", std::size_t{0}, extra.size());
-}
-
-void VerifyLevels(const TerrainInput& source, const Horizon& horizon, const fs::path& directory,
-                  const Report& report, const std::optional<PublishedEdges>& published,
-                  const PostNormals& normals, const Watch& watch, Claims& claims) {
-  const LevelContext context{source.terrain(), horizon, source.georeference(), normals, watch};
+void VerifyLevels(const LevelContext& context, const fs::path& directory, const Report& report,
+                  const std::optional<PublishedEdges>& published, Claims& claims) {
+  const Watch& watch = context.watch;
   std::vector<int> kept;
   if (published) kept.assign(published->edges.size(), -1);
   double finer_error_m = 0;
@@ -183,7 +92,7 @@ void VerifyLevels(const TerrainInput& source, const Horizon& horizon, const fs::
   }
 }
 
-void VerifyTileset(const TerrainInput& source, const fs::path& directory, const Report& report,
+void VerifyTileset(const TerrainInput& input, const fs::path& directory, const Report& report,
                    Claims& claims) {
   Result<std::string> text = ReadFile(directory / "tileset.json");
   if (!text) {
@@ -200,23 +109,24 @@ void VerifyTileset(const TerrainInput& source, const fs::path& directory, const 
            tileset->levels[i].geometric_error_m == report.levels[i].geometric_error_m;
   }
   claims.Add(same, "tileset.json has the measured geometric errors");
-  const std::array<double, 16> transform = source.georeference().frame().EnuToEcef();
+  const std::array<double, 16> transform = input.georeference().frame().EnuToEcef();
   double off = 0;
   for (std::size_t i = 0; i < 16; ++i) {
     off = std::max(off, std::abs(tileset->transform[i] - transform[i]));
   }
+  // Far above what writing a double rounds, far below any rounding of vertices.
   claims.Add(off < 1e-6, "tileset.json places the local frame where the DEM is");
 }
 
-// What is approximate was made so by the budget alone, and comes out the same again.
-Result<Horizon> FindAsClaimed(const TerrainInput& source, const Report& report, int threads,
+// With the report's budget, which alone decides what is left undecided.
+Result<Horizon> FindAsClaimed(const TerrainInput& input, const Report& report, int threads,
                               const Watch& watch) {
   HorizonOptions options{.threads = threads, .approximate = report.statistics.undecided > 0};
   if (report.statistics.work_budget > 0) options.work_budget = report.statistics.work_budget;
-  return FindHorizon(source.terrain(), options, watch);
+  return FindHorizon(input.terrain(), options, watch);
 }
 
-// What the report was made with, as far as the files tell.
+// True where the report says that some level has bytes of this kind: the format was asked for.
 bool Has(const std::vector<LevelReport>& levels, std::int64_t LevelReport::*bytes) {
   return std::any_of(levels.begin(), levels.end(),
                      [bytes](const LevelReport& level) { return level.*bytes > 0; });
@@ -234,18 +144,17 @@ Result<std::vector<ClaimCheck>> VerifyArtifacts(const fs::path& dem, const fs::p
   if (!text) return std::move(text.error());
   Result<Report> report = ReadReport(*text);
   if (!report) return std::move(report.error());
-  Result<std::unique_ptr<TerrainInput>> source = TerrainInput::Open(dem, options);
-  if (!source) return std::move(source.error());
+  Result<std::unique_ptr<TerrainInput>> input = TerrainInput::Open(dem, options);
+  if (!input) return std::move(input.error());
   watch.Report(Stage::kRead, 1);
-  VerifyDem(report->dem, (*source)->report(), claims);
-  if (report->dem.columns != (*source)->dem().columns ||
-      report->dem.rows != (*source)->dem().rows) {
+  VerifyDem(report->dem, (*input)->report(), claims);
+  if (report->dem.columns != (*input)->dem().columns || report->dem.rows != (*input)->dem().rows) {
     return std::move(claims).Take();
   }
-  Result<Horizon> horizon = FindAsClaimed(**source, *report, options.threads, watch);
+  Result<Horizon> horizon = FindAsClaimed(**input, *report, options.threads, watch);
   if (!horizon) return std::move(horizon.error());
   claims.Same("undecided edges", report->statistics.undecided, horizon->statistics.undecided);
-  claims.Same("terrain edges", report->statistics.terrain_edges, (*source)->terrain().CountEdges());
+  claims.Same("terrain edges", report->statistics.terrain_edges, (*input)->terrain().CountEdges());
   claims.Same("horizon edges", report->horizon_edges,
               static_cast<std::int64_t>(horizon->edges.size()));
 
@@ -258,22 +167,26 @@ Result<std::vector<ClaimCheck>> VerifyArtifacts(const fs::path& dem, const fs::p
     if (!features) return std::move(features.error());
     claims.Same("horizon.geojson features", report->horizon_edges,
                 static_cast<std::int64_t>(features->size()));
-    published = VerifyFeatures(**source, *features, claims);
+    published = VerifyFeatures(**input, *features, claims);
     VerifySet(published->edges, *horizon, claims);
     claims.Same("horizon.geojson edges that are undecided", report->statistics.undecided,
                 published->undecided);
-    Status sights = VerifyEdges(**source, *horizon, *features, options.threads, watch, claims);
-    if (!sights) return std::move(sights.error());
+    Result<std::vector<ClaimCheck>> edges =
+        VerifyEdges(**input, *horizon, *features, options.threads, watch);
+    if (!edges) return std::move(edges.error());
+    claims.Append(*std::move(edges));
   } else {  // no edge's lines of sight are there to be compared
     watch.Report(Stage::kLinesOfSight, 1);
     watch.Report(Stage::kEdgeMeasures, 1);
   }
   watch.Report(Stage::kVerify, kVerifiedWithSights);
-  Result<PostNormals> normals = FindPostNormals((*source)->terrain(), (*source)->georeference());
+  Result<PostNormals> normals = FindPostNormals((*input)->terrain(), (*input)->georeference());
   if (!normals) return std::move(normals.error());
-  VerifyLevels(**source, *horizon, directory, *report, published, *normals, watch, claims);
+  const LevelContext context{(*input)->terrain(), *horizon, (*input)->georeference(), *normals,
+                             watch};
+  VerifyLevels(context, directory, *report, published, claims);
   if (Has(report->levels, &LevelReport::glb_bytes)) {
-    VerifyTileset(**source, directory, *report, claims);
+    VerifyTileset(**input, directory, *report, claims);
   }
   watch.Report(Stage::kVerify, 1);
   return std::move(claims).Take();

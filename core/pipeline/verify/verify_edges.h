@@ -2,25 +2,28 @@
 
 #include <vector>
 
+#include "core/base/progress.h"
+#include "core/base/result.h"
 #include "core/horizon/horizon.h"
 #include "core/io/horizon_features.h"
 #include "core/pipeline/terrain_input.h"
-#include "core/pipeline/verify/claims.h"
+#include "core/pipeline/verify/verify.h"
 
 namespace farhorizon {
 
-/// What is done of Stage::kVerify before VerifySights, and with it; the rest is the levels'.
+/// The share of Stage::kVerify that is done before VerifyEdges, and with it; the rest is the levels'.
 inline constexpr double kVerifiedBeforeSights = 0.9;
 inline constexpr double kVerifiedWithSights = 0.95;
 
-/// Checks the azimuths, spans and weights of published horizon edges: against those found again, and
-/// by lines of sight. Random lines find their skyline nowhere outside them; from within an edge's
-/// widest azimuth it is seen, from within the widest gap between them it is not.
+/// Checks the measures of published horizon edges: against those found again, and by lines of
+/// sight. Random lines have their skyline on no edge outside its azimuths and spans; along
+/// directions within an edge's widest azimuth the edge is visible, along those within the widest
+/// gap between its azimuths it is not.
 ///
-/// features: one for each edge of `horizon`, in its order; another number or order is a false claim.
-/// Cost: that of FindLinesOfSight, and 2000 times the number of edges.
-Status VerifyEdges(const TerrainInput& source, const Horizon& horizon,
-                   const std::vector<HorizonFeature>& features, int threads, const Watch& watch,
-                   Claims& claims);
+/// features: one for each edge of `horizon`, in its order; any other list is a false claim.
+/// Errors: those of MeasureEdges. Cost: that of MeasureEdges, and 2000 times the number of edges.
+Result<std::vector<ClaimCheck>> VerifyEdges(const TerrainInput& input, const Horizon& horizon,
+                                            const std::vector<HorizonFeature>& features,
+                                            int threads, const Watch& watch);
 
 }  // namespace farhorizon

@@ -1,13 +1,13 @@
+// A level from its files: the Draco stream out of the GLB or the .drc, decoded, measured by the
+// code that the build measures with, and compared with the report and with the GLB's own numbers.
 #include "core/pipeline/verify/verify_level.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
 
-#include "core/io/files.h"
+#include "core/io/file.h"
 #include "core/io/glb.h"
 
 namespace farhorizon {
@@ -62,17 +62,8 @@ void VerifyAccessors(const std::string& name, const GlbContents& glb, const Deco
               static_cast<std::int64_t>(mesh.normals.size()));
   claims.Same(name + ".glb indices count", glb.index_count,
               static_cast<std::int64_t>(3 * mesh.triangles.size()));
-  constexpr double kFar = std::numeric_limits<double>::infinity();
-  std::array<double, 3> least = {kFar, kFar, kFar};
-  std::array<double, 3> most = {-kFar, -kFar, -kFar};
-  for (const Enu& p : mesh.positions) {
-    const std::array<double, 3> v = LatticeNumbers(p, decoded.lattice);
-    for (std::size_t k = 0; k < 3; ++k) {
-      least[k] = std::min(least[k], v[k]);
-      most[k] = std::max(most[k], v[k]);
-    }
-  }
-  claims.Add(glb.min == least && glb.max == most,
+  const LatticeBox box = LatticeBoxOf(mesh.positions, decoded.lattice);
+  claims.Add(glb.min == box.least && glb.max == box.greatest,
              name + ".glb POSITION min and max are those of the decoded mesh");
   claims.Add(glb.matrix == GltfMatrix(decoded.lattice),
              name + ".glb has the lattice of its Draco stream in the node's matrix");
@@ -87,27 +78,28 @@ bool AllTurnLeft(const LocalMesh& mesh) {
   });
 }
 
-// Every decoded normal is the mean of the DEM's, as nearly as its bits tell.
+// Every decoded normal is the mean of the DEM's, as nearly as Draco's bits tell.
 void VerifyNormals(const LevelContext& context, const std::string& name, const LocalMesh& mesh,
                    Claims& claims) {
-  constexpr double kLeastCosine = 0.99985;  // of a degree; rounding is less
+  constexpr double kLeastCosine =
+      0.99985;  // the cosine of a degree; rounding turns by half of that
   const std::vector<UnitNormal> normals = MeanNormals(context.terrain, context.normals, mesh);
-  std::int64_t astray = 0;
+  std::int64_t turned = 0;
   for (std::size_t i = 0; i < normals.size(); ++i) {
     const UnitNormal& n = normals[i];
     const UnitNormal& m = mesh.normals[i];
     const bool near = m[2] > 0 && n[0] * m[0] + n[1] * m[1] + n[2] * m[2] > kLeastCosine;
-    astray += near ? 0 : 1;
+    turned += near ? 0 : 1;
   }
-  claims.Same(name + " normals a degree or more off the DEM's", std::int64_t{0}, astray);
+  claims.Same(name + " normals a degree or more off the DEM's", std::int64_t{0}, turned);
 }
 
 std::vector<Edge> EdgesByPost(const LocalMesh& mesh) {
   std::vector<Edge> edges;
   for (const auto& t : mesh.triangles) {
     for (std::size_t k = 0; k < 3; ++k) {
-      edges.push_back(MakeEdge(static_cast<VertexId>(mesh.sources[t[k]]),
-                               static_cast<VertexId>(mesh.sources[t[(k + 1) % 3]])));
+      edges.push_back(MakeEdge(static_cast<VertexId>(mesh.posts[t[k]]),
+                               static_cast<VertexId>(mesh.posts[t[(k + 1) % 3]])));
     }
   }
   std::sort(edges.begin(), edges.end());

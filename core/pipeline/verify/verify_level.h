@@ -9,8 +9,8 @@
 
 namespace farhorizon {
 
-/// Checks what the report says of one level against its files, decoded again, and the frame that the
-/// tileset places them in. Returns the level's edges by post, rising; empty where neither file decodes.
+/// Checks what the report says of one level against the level's files, decoded again. Returns the
+/// level's edges by post, rising; empty where no file decodes.
 std::vector<Edge> VerifyLevel(const LevelContext& context, const std::filesystem::path& directory,
                               const LevelReport& claimed, Claims& claims);
 

@@ -64,7 +64,7 @@ void ExpectNear(const Triple& found, const Triple& expected, const Case& c) {
   EXPECT_NEAR(found.z, expected.z, c.height_tolerance) << c.where;
 }
 
-// There and back: the way back must give the accepted point itself.
+// There and back: the inverse must give the accepted point itself.
 void RunMap(const Case& c) {
   const std::string datum = c.operation.size() > 1 ? c.operation[1] : "";
   const MapPoint point = {c.accept.x, c.accept.y, c.accept.z};

@@ -80,8 +80,8 @@ TEST_F(DemReader, PostsAreCellCentres) {
   EXPECT_EQ(dem.transform.step_y, -30);
 }
 
-// GDAL hands out corners for PixelIsPoint files too: the written transform comes back, and the post
-// is again half a cell inside it.
+// GDAL returns corners for PixelIsPoint files, too: the written transform, with the post half a
+// cell inside.
 TEST_F(DemReader, PixelIsPointFilesHaveTheirPostsInThePlaceOfThePixels) {
   const Dem dem = MustRead({.metadata = {{"AREA_OR_POINT", "Point"}}});
   EXPECT_EQ(dem.transform.origin_x, 500015);

@@ -28,14 +28,13 @@ LocalMesh RoundTrip(const LocalMesh& mesh, const QuantizationLattice& lattice) {
   return Decode(mesh, lattice).mesh;
 }
 
-// The greatest angle between a decoded normal and the one that its source had, degrees.
+// The greatest angle between a decoded normal and the one encoded for its post, degrees.
 double WorstNormalDeg(const LocalMesh& decoded, const LocalMesh& mesh) {
-  std::map<std::uint32_t, UnitNormal> by_source;
-  for (std::size_t i = 0; i < mesh.sources.size(); ++i)
-    by_source[mesh.sources[i]] = mesh.normals[i];
+  std::map<std::uint32_t, UnitNormal> by_post;
+  for (std::size_t i = 0; i < mesh.posts.size(); ++i) by_post[mesh.posts[i]] = mesh.normals[i];
   double worst = 0;
-  for (std::size_t i = 0; i < decoded.sources.size(); ++i) {
-    const UnitNormal& n = by_source.at(decoded.sources[i]);
+  for (std::size_t i = 0; i < decoded.posts.size(); ++i) {
+    const UnitNormal& n = by_post.at(decoded.posts[i]);
     const UnitNormal& m = decoded.normals[i];
     const double chord = std::hypot(n[0] - m[0], n[1] - m[1], n[2] - m[2]);
     worst = std::max(worst, 2 * std::asin(chord / 2) * 180 / std::acos(-1.0));
@@ -43,11 +42,11 @@ double WorstNormalDeg(const LocalMesh& decoded, const LocalMesh& mesh) {
   return worst;
 }
 
-// The triangles by their vertices' sources, each turned so that its least source comes first.
-std::multiset<std::array<std::uint32_t, 3>> BySource(const LocalMesh& mesh) {
+// The triangles by their vertices' posts, each turned so that its least post comes first.
+std::multiset<std::array<std::uint32_t, 3>> ByPost(const LocalMesh& mesh) {
   std::multiset<std::array<std::uint32_t, 3>> triangles;
   for (const auto& t : mesh.triangles) {
-    std::array<std::uint32_t, 3> s = {mesh.sources[t[0]], mesh.sources[t[1]], mesh.sources[t[2]]};
+    std::array<std::uint32_t, 3> s = {mesh.posts[t[0]], mesh.posts[t[1]], mesh.posts[t[2]]};
     std::ranges::rotate(s, std::ranges::min_element(s));
     triangles.insert(s);
   }
@@ -56,66 +55,26 @@ std::multiset<std::array<std::uint32_t, 3>> BySource(const LocalMesh& mesh) {
 
 void ExpectSamePositions(const LocalMesh& decoded, const LocalMesh& mesh,
                          const QuantizationLattice& lattice) {
-  std::map<std::uint32_t, Enu> by_source;
-  for (std::size_t i = 0; i < mesh.sources.size(); ++i) {
-    by_source[mesh.sources[i]] = SnapToLattice(mesh.positions[i], lattice);
+  std::map<std::uint32_t, Enu> by_post;
+  for (std::size_t i = 0; i < mesh.posts.size(); ++i) {
+    by_post[mesh.posts[i]] = SnapToLattice(mesh.positions[i], lattice);
   }
-  for (std::size_t i = 0; i < decoded.sources.size(); ++i) {
-    const auto found = by_source.find(decoded.sources[i]);
-    ASSERT_NE(found, by_source.end());
+  for (std::size_t i = 0; i < decoded.posts.size(); ++i) {
+    const auto found = by_post.find(decoded.posts[i]);
+    ASSERT_NE(found, by_post.end());
     EXPECT_EQ(decoded.positions[i].east, found->second.east);
     EXPECT_EQ(decoded.positions[i].north, found->second.north);
     EXPECT_EQ(decoded.positions[i].up, found->second.up);
   }
 }
 
-TEST(ChooseLattice, StepIsThePowerOfTwoAtOrBelowTheWish) {
-  const std::vector<Enu> points = {{-100, -50, 0}, {100, 50, 30}};
-  EXPECT_EQ(ChooseLattice(points, 0.7).step_m, 0.5);
-  EXPECT_EQ(ChooseLattice(points, 0.5).step_m, 0.5);
-  EXPECT_EQ(ChooseLattice(points, 8.1).step_m, 8);
-}
-
-TEST(ChooseLattice, CoversItsPointsWithOriginsThatAreMultiplesOfTheStep) {
-  std::mt19937 random(5);
-  std::uniform_real_distribution<double> draw(-20000, 20000);
-  for (int i = 0; i < 200; ++i) {
-    std::vector<Enu> points;
-    for (int k = 0; k < 5; ++k) points.push_back({draw(random), draw(random), draw(random) / 10});
-    const QuantizationLattice lattice = ChooseLattice(points, std::abs(draw(random)) / 1000);
-    EXPECT_LE(lattice.bits, 16);
-    for (const double origin : lattice.origin) {
-      EXPECT_EQ(std::remainder(origin, lattice.step_m), 0);
-    }
-    for (const Enu& p : points) {
-      const Enu snapped = SnapToLattice(p, lattice);
-      EXPECT_LE(std::abs(snapped.east - p.east), lattice.step_m / 2);
-      EXPECT_LE(std::abs(snapped.north - p.north), lattice.step_m / 2);
-      EXPECT_LE(std::abs(snapped.up - p.up), lattice.step_m / 2);
-    }
-  }
-}
-
-TEST(ChooseLattice, TakesNoMoreBitsThanCesiumReadsAndNoMoreThanItNeeds) {
-  const std::vector<Enu> wide = {{0, 0, 0}, {30000, 0, 0}};
-  EXPECT_EQ(ChooseLattice(wide, 0.001).bits, 16);
-  EXPECT_EQ(ChooseLattice(wide, 0.001).step_m, 0.5);  // 60000 steps; a quarter would take 120000
-  EXPECT_EQ(ChooseLattice({{0, 0, 0}, {7, 0, 0}}, 1).bits, 3);
-  EXPECT_EQ(ChooseLattice({{5, 5, 5}}, 1).bits, 1);
-}
-
-TEST(ChooseLattice, FarFromTheOriginTheStepGrowsUntilFloatIsExact) {
-  const QuantizationLattice lattice = ChooseLattice({{6e6, 0, 0}, {6e6 + 100, 0, 0}}, 1e-3);
-  EXPECT_EQ(lattice.step_m, 0.5);  // 12e6 halves lie below 2^24, 24e6 quarters do not
-}
-
-TEST(Draco, DecodesToTheLatticeExactlyWithSourcesAndWindings) {
+TEST(Draco, DecodesToTheLatticeExactlyWithPostsAndWindings) {
   const LocalMesh mesh = HillyGrid(61, 43, 27.3);
   for (const double wanted : {0.03, 0.5, 10.0}) {
     const QuantizationLattice lattice = ChooseLattice(mesh.positions, wanted);
     const LocalMesh decoded = RoundTrip(mesh, lattice);
     EXPECT_EQ(decoded.positions.size(), mesh.positions.size());
-    EXPECT_EQ(BySource(decoded), BySource(mesh));
+    EXPECT_EQ(ByPost(decoded), ByPost(mesh));
     ExpectSamePositions(decoded, mesh, lattice);
   }
 }
@@ -153,7 +112,7 @@ TEST(Draco, EveryNumberOfTheGreatestLatticeDecodesExactly) {
   LocalMesh mesh;
   for (std::uint32_t i = 0; i < 65536; ++i) {
     mesh.positions.push_back({i / 8.0 - 4000, i % 2 * 100.0, 65535 - i + 0.0});
-    mesh.sources.push_back(i);
+    mesh.posts.push_back(i);
     mesh.normals.push_back({0, 0, 1});
     if (i >= 2) mesh.triangles.push_back({i - 2, i - 1, i});
   }
@@ -203,11 +162,11 @@ TEST(Draco, ANormalThatDoesNotPointUpwardsIsOurBug) {
 TEST(Draco, AnyNumberBelowTheLimitIsCarriedAsSource) {
   LocalMesh mesh = HillyGrid(9, 9, 10);
   std::mt19937 random(17);
-  for (std::uint32_t& source : mesh.sources) source = static_cast<std::uint32_t>(random()) >> 4U;
-  mesh.sources[3] = 0;
-  mesh.sources[4] = kMaxSource;
+  for (std::uint32_t& post : mesh.posts) post = static_cast<std::uint32_t>(random()) >> 4U;
+  mesh.posts[3] = 0;
+  mesh.posts[4] = kMaxPost;
   const LocalMesh decoded = RoundTrip(mesh, ChooseLattice(mesh.positions, 0.1));
-  EXPECT_EQ(BySource(decoded), BySource(mesh));
+  EXPECT_EQ(ByPost(decoded), ByPost(mesh));
 }
 
 TEST(Draco, VerticesOfOnePlaceStayApart) {
@@ -216,7 +175,7 @@ TEST(Draco, VerticesOfOnePlaceStayApart) {
   const QuantizationLattice lattice = ChooseLattice(mesh.positions, 8);
   const LocalMesh decoded = RoundTrip(mesh, lattice);
   EXPECT_EQ(decoded.positions.size(), mesh.positions.size());
-  EXPECT_EQ(BySource(decoded), BySource(mesh));
+  EXPECT_EQ(ByPost(decoded), ByPost(mesh));
   ExpectSamePositions(decoded, mesh, lattice);
 }
 
@@ -228,19 +187,19 @@ TEST(Draco, HolesAndVerticesBetweenFansSurvive) {
   const QuantizationLattice lattice = ChooseLattice(mesh.positions, 0.1);
   const LocalMesh decoded = RoundTrip(mesh, lattice);
   EXPECT_GT(decoded.positions.size(), mesh.positions.size());
-  EXPECT_EQ(BySource(decoded), BySource(mesh));
+  EXPECT_EQ(ByPost(decoded), ByPost(mesh));
   ExpectSamePositions(decoded, mesh, lattice);
   EXPECT_LT(WorstNormalDeg(decoded, mesh), 1);
 }
 
 TEST(Draco, SeveralPiecesAndASingleTriangleSurvive) {
   LocalMesh mesh = HillyGrid(20, 6, 10, [](std::uint32_t c, std::uint32_t) { return c % 4 == 3; });
-  EXPECT_EQ(BySource(RoundTrip(mesh, ChooseLattice(mesh.positions, 0.1))), BySource(mesh));
+  EXPECT_EQ(ByPost(RoundTrip(mesh, ChooseLattice(mesh.positions, 0.1))), ByPost(mesh));
   mesh = {.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
-          .sources = {7, 8, 9},
+          .posts = {7, 8, 9},
           .normals = {{0, 0, 1}, {0.6, 0, 0.8}, {0, -0.6, 0.8}},
           .triangles = {{0, 1, 2}}};
-  EXPECT_EQ(BySource(RoundTrip(mesh, ChooseLattice(mesh.positions, 0.1))), BySource(mesh));
+  EXPECT_EQ(ByPost(RoundTrip(mesh, ChooseLattice(mesh.positions, 0.1))), ByPost(mesh));
 }
 
 TEST(Draco, SameMeshSameBytes) {
@@ -267,11 +226,11 @@ TEST(Draco, RefusesMeshesThatItWouldChange) {
   bad.triangles[0][0] = 99;
   EXPECT_EQ(kind_of(bad), "bad-mesh");
   bad = good;
-  bad.sources[2] = kMaxSource + 1;
+  bad.posts[2] = kMaxPost + 1;
   EXPECT_EQ(kind_of(bad), "bad-mesh");
   bad = good;
   bad.positions.push_back({0, 0, 400});
-  bad.sources.push_back(5);
+  bad.posts.push_back(5);
   bad.normals.push_back({0, 0, 1});
   EXPECT_EQ(kind_of(bad), "bad-mesh");
 }

@@ -19,7 +19,7 @@ using ::testing::ElementsAre;
 //   1      2
 LocalMesh Square() {
   return {.positions = {{0, 1, 0}, {0, 0, 0}, {1, 0, 0}, {1, 1, 0}},
-          .sources = {0, 1, 2, 3},
+          .posts = {0, 1, 2, 3},
           .normals = {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}, {0, 0, 1}},
           .triangles = {{0, 1, 2}, {0, 2, 3}}};
 }
@@ -54,7 +54,7 @@ TEST(FlagEdges, PairsThatAreNoEdgeAreLeftOut) {
 TEST(FlagEdges, VerticesThatDracoSplitCountAsOne) {
   LocalMesh mesh = Square();
   mesh.positions.push_back(mesh.positions[2]);
-  mesh.sources.push_back(2);
+  mesh.posts.push_back(2);
   mesh.triangles[1] = {0, 4, 3};
   const EdgeVisibility edges = FlagEdges(mesh, {{0, 2}, {0, 4}});
   EXPECT_THAT(Values(edges, 2), ElementsAre(0, 0, 1, 0, 0, 0));
@@ -64,7 +64,7 @@ TEST(FlagEdges, VerticesThatDracoSplitCountAsOne) {
 TEST(FlagEdges, VerticesOfOneSourceButOtherHeightStayApart) {
   LocalMesh mesh = Square();  // as at a skirt, whose lower vertices stand for the same posts
   mesh.positions.push_back({0, 1, -9});
-  mesh.sources.push_back(0);
+  mesh.posts.push_back(0);
   mesh.triangles.push_back({0, 4, 1});
   EXPECT_EQ(FlagEdges(mesh, {{4, 1}}).edge_count, 1);
   EXPECT_THAT(Values(FlagEdges(mesh, {{4, 1}}), 3), ElementsAre(0, 0, 0, 0, 0, 0, 0, 2, 0));

@@ -2,13 +2,11 @@
 
 #include <cmath>
 
-#include <gdal.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <ogr_api.h>
 
-#include "tests/support/temp_dir.h"
+#include "tests/support/published.h"
 
 namespace farhorizon {
 namespace {
@@ -16,27 +14,10 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-HorizonFeature Feature() {
-  HorizonFeature feature{};
-  feature.a = {3, 4};
-  feature.b = {4, 5};
-  feature.from = {-84.25, 36.5000000004, 1076};
-  feature.to = {-84.1234567891, 36.49, 1075.12349};
-  feature.azimuths = {{12.5, 13}, {170.25, 190.125}};
-  feature.spans = {{0, 0.25}, {0.5, 1}};
-  feature.angular_share = 0.125;
-  feature.line_measure_m = 3.5;
-  feature.skyline_drop_m = 1.25;
-  feature.witness.t = 0.1 + 0.2;
-  feature.witness.dc = -7;
-  feature.witness.dr = 2;
-  return feature;
-}
-
 TEST(HorizonGeoJson, MarksWhatIsUndecidedAndSaysHowMuch) {
-  HorizonFeature undecided = Feature();
+  HorizonFeature undecided = SomeFeature();
   undecided.undecided = true;
-  const std::string text = WriteHorizonGeoJson({Feature(), undecided});
+  const std::string text = WriteHorizonGeoJson({SomeFeature(), undecided});
   EXPECT_THAT(text, HasSubstr(R"("approximate":true,"undecided":1,"features":[)"));
   const nlohmann::json json = nlohmann::json::parse(text);
   EXPECT_FALSE(json["features"][0]["properties"].contains("undecided"));
@@ -46,11 +27,11 @@ TEST(HorizonGeoJson, MarksWhatIsUndecidedAndSaysHowMuch) {
   EXPECT_FALSE(read[0].undecided);
   EXPECT_TRUE(read[1].undecided);
   EXPECT_EQ(WriteHorizonGeoJson(read), text);
-  EXPECT_THAT(WriteHorizonGeoJson({Feature()}), Not(HasSubstr("approximate")));
+  EXPECT_THAT(WriteHorizonGeoJson({SomeFeature()}), Not(HasSubstr("approximate")));
 }
 
 TEST(HorizonGeoJson, IsTheTextThatTheContractShows) {
-  HorizonFeature feature = Feature();
+  HorizonFeature feature = SomeFeature();
   feature.level_kept = 2;
   feature.witness.t = 0.5;
   EXPECT_EQ(WriteHorizonGeoJson({feature}),
@@ -63,7 +44,7 @@ TEST(HorizonGeoJson, IsTheTextThatTheContractShows) {
 }
 
 TEST(HorizonGeoJson, ReadsBackWhatItWrote) {
-  std::vector<HorizonFeature> features = {Feature(), Feature()};
+  std::vector<HorizonFeature> features = {SomeFeature(), SomeFeature()};
   features[1].level_kept = 0;
   features[1].witness.t = std::ldexp(1.0, -40);
   Result<std::vector<HorizonFeature>> back = ReadHorizonGeoJson(WriteHorizonGeoJson(features));
@@ -76,11 +57,11 @@ TEST(HorizonGeoJson, ReadsBackWhatItWrote) {
     EXPECT_NEAR(f.from.lat_deg, features[i].from.lat_deg, 0.5e-9);
     EXPECT_NEAR(f.to.lon_deg, features[i].to.lon_deg, 0.5e-9);
     EXPECT_NEAR(f.to.height_m, features[i].to.height_m, 0.5e-4);
-    EXPECT_EQ(f.azimuths, features[i].azimuths);
-    EXPECT_EQ(f.spans, features[i].spans);
-    EXPECT_EQ(f.angular_share, features[i].angular_share);
-    EXPECT_EQ(f.line_measure_m, features[i].line_measure_m);
-    EXPECT_EQ(f.skyline_drop_m, features[i].skyline_drop_m);
+    EXPECT_EQ(f.measures.azimuths, features[i].measures.azimuths);
+    EXPECT_EQ(f.measures.spans, features[i].measures.spans);
+    EXPECT_EQ(f.measures.angular_share, features[i].measures.angular_share);
+    EXPECT_EQ(f.measures.line_measure_m, features[i].measures.line_measure_m);
+    EXPECT_EQ(f.measures.skyline_drop_m, features[i].measures.skyline_drop_m);
     EXPECT_EQ(f.witness.t, features[i].witness.t);
     EXPECT_EQ(f.witness.dc, features[i].witness.dc);
     EXPECT_EQ(f.witness.dr, features[i].witness.dr);
@@ -89,7 +70,7 @@ TEST(HorizonGeoJson, ReadsBackWhatItWrote) {
 }
 
 TEST(HorizonGeoJson, ZeroHasNoSign) {
-  HorizonFeature feature = Feature();
+  HorizonFeature feature = SomeFeature();
   feature.from = {-1e-12, 0, -0.00001};
   EXPECT_THAT(WriteHorizonGeoJson({feature}), HasSubstr("[[0,0,0],"));
 }
@@ -105,82 +86,6 @@ TEST(HorizonGeoJson, RefusesWhatIsNone) {
        {"", "[]", "{\"type\":\"Feature\"}", "{\"type\":\"FeatureCollection\",\"features\":[{}]}"}) {
     EXPECT_FALSE(ReadHorizonGeoJson(text)) << text;
   }
-}
-
-TEST(HorizonVector, ReadsBackThroughOgrWithAllItsFields) {
-  const TempDir dir;
-  HorizonFeature feature = Feature();
-  feature.level_kept = 1;
-  for (const char* name : {"horizon.fgb", "horizon.gpkg"}) {
-    Status written = WriteHorizonVector({Feature(), feature, Feature()}, dir / name);
-    ASSERT_TRUE(written) << written.error().message;
-    const GDALDatasetH dataset =
-        GDALOpenEx((dir / name).c_str(), GDAL_OF_VECTOR, nullptr, nullptr, nullptr);
-    ASSERT_NE(dataset, nullptr) << name;
-    const OGRLayerH layer = GDALDatasetGetLayer(dataset, 0);
-    EXPECT_EQ(OGR_L_GetFeatureCount(layer, 1), 3);
-    int with_level = 0;
-    while (const OGRFeatureH f = OGR_L_GetNextFeature(layer)) {
-      EXPECT_EQ(OGR_F_GetFieldAsInteger(f, OGR_F_GetFieldIndex(f, "a_row")), 4);
-      EXPECT_EQ(OGR_F_GetFieldAsInteger(f, OGR_F_GetFieldIndex(f, "direction_columns")), -7);
-      EXPECT_EQ(OGR_F_GetFieldAsDouble(f, OGR_F_GetFieldIndex(f, "witness_t")), 0.1 + 0.2);
-      EXPECT_STREQ(OGR_F_GetFieldAsString(f, OGR_F_GetFieldIndex(f, "azimuths")),
-                   "[[12.5,13],[170.25,190.125]]");
-      EXPECT_STREQ(OGR_F_GetFieldAsString(f, OGR_F_GetFieldIndex(f, "spans")),
-                   "[[0,0.25],[0.5,1]]");
-      EXPECT_EQ(OGR_F_GetFieldAsDouble(f, OGR_F_GetFieldIndex(f, "line_measure_m")), 3.5);
-      with_level += OGR_F_IsFieldSetAndNotNull(f, OGR_F_GetFieldIndex(f, "level_kept"));
-      const OGRGeometryH line = OGR_F_GetGeometryRef(f);
-      EXPECT_EQ(OGR_G_GetX(line, 0), -84.25);
-      EXPECT_EQ(OGR_G_GetZ(line, 0), 1076);
-      OGR_F_Destroy(f);
-    }
-    EXPECT_EQ(with_level, 1);
-    GDALClose(dataset);
-  }
-}
-
-TEST(HorizonVector, LeavesTheWitnessOfAnUndecidedEdgeNull) {
-  const TempDir dir;
-  HorizonFeature undecided = Feature();
-  undecided.undecided = true;
-  for (const char* name : {"horizon.fgb", "horizon.gpkg"}) {
-    ASSERT_TRUE(WriteHorizonVector({Feature(), undecided}, dir / name));
-    const GDALDatasetH dataset =
-        GDALOpenEx((dir / name).c_str(), GDAL_OF_VECTOR, nullptr, nullptr, nullptr);
-    ASSERT_NE(dataset, nullptr) << name;
-    const OGRLayerH layer = GDALDatasetGetLayer(dataset, 0);
-    int with_witness = 0;
-    while (const OGRFeatureH f = OGR_L_GetNextFeature(layer)) {
-      with_witness += OGR_F_IsFieldSetAndNotNull(f, OGR_F_GetFieldIndex(f, "witness_t"));
-      OGR_F_Destroy(f);
-    }
-    EXPECT_EQ(with_witness, 1) << name;
-    GDALClose(dataset);
-  }
-}
-
-TEST(HorizonVector, SameFeaturesSameBytes) {
-  const TempDir dir;
-  for (const char* ending : {".fgb", ".gpkg"}) {
-    const std::filesystem::path one = dir / (std::string("horizon") + ending);
-    ASSERT_TRUE(WriteHorizonVector({Feature()}, one));
-    const std::string first = SlurpFile(one);
-    ASSERT_TRUE(WriteHorizonVector({Feature()}, one));
-    EXPECT_EQ(SlurpFile(one), first) << ending;
-  }
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(dir.path()), {}), 2);
-}
-
-TEST(HorizonVector, FailsWithTheNameAndWithoutTheFolder) {
-  const TempDir dir;
-  for (const char* name : {"no/such/horizon.fgb", "no/such/horizon.gpkg"}) {
-    Status written = WriteHorizonVector({Feature()}, dir / name);
-    ASSERT_FALSE(written) << name;
-    EXPECT_EQ(written.error().code, ErrorCode::kIo);
-    EXPECT_THAT(written.error().message, Not(HasSubstr(dir.path().string())));
-  }
-  EXPECT_EQ(WriteHorizonVector({}, dir / "horizon.shp").error().code, ErrorCode::kInvalidArgument);
 }
 
 }  // namespace

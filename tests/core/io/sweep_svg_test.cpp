@@ -25,7 +25,7 @@ SweepTrace SomeTrace() {
   return trace;
 }
 
-/// What stands in the first group of a class.
+// The content of the first group of a class.
 std::string GroupOf(const std::string& svg, const std::string& name) {
   const std::size_t at = svg.find("<g class=\"" + name + "\">");
   EXPECT_NE(at, std::string::npos) << name;

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/io/draco_mesh.h"
+
 namespace farhorizon {
 namespace {
 
@@ -43,7 +45,7 @@ struct Placed {
 
 UnitNormal Widen(const std::array<float, 3>& n) { return {n[0], n[1], n[2]}; }
 
-// At some.vertices.
+// The normals at some.vertices, in their order.
 std::vector<UnitNormal> NormalsOf(const Placed& some) {
   Result<PostNormals> found = FindPostNormals(some.terrain, some.georeference);
   if (!found) throw std::runtime_error(found.error().message);
@@ -58,7 +60,7 @@ double AngleDeg(const UnitNormal& a, const UnitNormal& b) {
   return 2 * std::asin(chord / 2) * 180 / std::acos(-1.0);
 }
 
-// Of a surface that rises by `east` and `north`, metres a metre.
+// The normal of a surface that rises by `east` and `north`, metres per metre.
 UnitNormal OfSlope(double east, double north) {
   const double length = std::hypot(east, north, 1);
   return {-east / length, -north / length, 1 / length};
@@ -98,7 +100,7 @@ TEST(PostNormals, AreTheMeanOfTheFacesByArea) {
   const Placed some(MakeDem(23, 19, [&](std::int32_t, std::int32_t) {
     return random() % 5 == 0 ? kNoHeight : static_cast<std::int32_t>(random() % 20000);
   }));
-  // The slow twin: every face of the terrain hands its normal to its corners.
+  // The slow twin adds every face's normal to its corners.
   std::vector<UnitNormal> sums(some.dem.heights.size(), {0, 0, 0});
   for (const Triangle& t : some.terrain.Triangles()) {
     const std::vector<Enu> p = *some.georeference.ToEnu(std::vector<VertexId>(t.begin(), t.end()));
@@ -165,7 +167,7 @@ LocalMesh EveryNth(std::int32_t size, std::int32_t step) {
   const std::int32_t across = (size - 1) / step + 1;
   for (std::int32_t r = 0; r < across; ++r) {
     for (std::int32_t c = 0; c < across; ++c) {
-      mesh.sources.push_back(static_cast<std::uint32_t>(r * step * size + c * step));
+      mesh.posts.push_back(static_cast<std::uint32_t>(r * step * size + c * step));
       if (r + 1 == across || c + 1 == across) continue;
       const auto nw = static_cast<std::uint32_t>(r * across + c);
       const auto down = static_cast<std::uint32_t>(across);
@@ -176,7 +178,7 @@ LocalMesh EveryNth(std::int32_t size, std::int32_t step) {
   return mesh;
 }
 
-// The slow twin asks a triangle about every post: what each corner gets of it.
+// The slow twin: tries every post of the terrain and returns the sums of the triangle's corners.
 std::array<UnitNormal, 3> SumsOver(const Placed& some, const PostNormals& posts,
                                    const std::array<Point3i, 3>& p) {
   const auto area = [](Point3i a, Point3i b, Point3i c) {
@@ -206,11 +208,11 @@ TEST(MeanNormals, WeighPostsByTheSquareOfTheirShare) {
   const Placed some = Hills(25);
   const PostNormals posts = *FindPostNormals(some.terrain, some.georeference);
   const LocalMesh mesh = EveryNth(25, 8);
-  std::vector<UnitNormal> sums(mesh.sources.size(), {0, 0, 0});
+  std::vector<UnitNormal> sums(mesh.posts.size(), {0, 0, 0});
   for (const auto& t : mesh.triangles) {
     std::array<Point3i, 3> p{};
     for (std::size_t k = 0; k < 3; ++k) {
-      p[k] = some.terrain.Point(static_cast<VertexId>(mesh.sources[t[k]]));
+      p[k] = some.terrain.Point(static_cast<VertexId>(mesh.posts[t[k]]));
     }
     const std::array<UnitNormal, 3> here = SumsOver(some, posts, p);
     for (std::size_t i = 0; i < 9; ++i) sums[t[i / 3]][i % 3] += here[i / 3][i % 3];
@@ -240,8 +242,8 @@ TEST(MeanNormals, VerticesThatAreSplitBetweenFansGetTheNormalOfTheWhole) {
   LocalMesh split = whole;
   for (auto& t : split.triangles) {
     for (std::uint32_t& v : t) {
-      split.sources.push_back(split.sources[v]);
-      v = static_cast<std::uint32_t>(split.sources.size() - 1);
+      split.posts.push_back(split.posts[v]);
+      v = static_cast<std::uint32_t>(split.posts.size() - 1);
     }
   }
   const std::vector<UnitNormal> expected = MeanNormals(some.terrain, posts, whole);

@@ -10,12 +10,13 @@
 
 #include "core/io/glb.h"
 #include "core/io/horizon_features.h"
+#include "core/pipeline/build.h"
 #include "tests/support/temp_dir.h"
 
 namespace farhorizon {
 namespace {
 
-// A hilly DEM with a hole, and what is built of it.
+// A hilly DEM with a hole, and its artifacts.
 class Built : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -48,7 +49,7 @@ class Built : public ::testing::Test {
     return lines;
   }
 
-  // Puts `with` for the first `what` of an artifact.
+  // Replaces the first `what` of an artifact by `with`.
   void Change(const std::string& name, const std::string& what, const std::string& with) {
     std::string bytes = SlurpFile(folder_ / "out" / name);
     const std::size_t at = bytes.find(what);
@@ -79,16 +80,16 @@ using Verify = Built;
 TEST_F(Verify, EveryClaimOfABuildHolds) { EXPECT_TRUE(False().empty()) << False().front(); }
 
 TEST_F(Verify, AzimuthsThatAreNotTheEdgesAreFound) {
-  // Every edge's azimuths a quarter turn on.
+  // Turns every edge's azimuths by a quarter turn.
   Result<std::vector<HorizonFeature>> features =
       ReadHorizonGeoJson(SlurpFile(folder_ / "out" / "horizon.geojson"));
   for (HorizonFeature& f : *features) {
-    for (auto& [from, to] : f.azimuths) {
+    for (auto& [from, to] : f.measures.azimuths) {
       const double turn = from < 90 ? 90 : -90;
       from += turn;
       to += turn;
     }
-    std::sort(f.azimuths.begin(), f.azimuths.end());
+    std::sort(f.measures.azimuths.begin(), f.measures.azimuths.end());
   }
   SpillFile(folder_ / "out" / "horizon.geojson", WriteHorizonGeoJson(*features));
   const std::vector<std::string> lines = False();
@@ -109,16 +110,16 @@ TEST_F(Verify, SpansAndWeightsThatAreNotTheEdgesAreFound) {
     SpillFile(folder_ / "out" / "horizon.geojson", WriteHorizonGeoJson(*features));
     return found;
   };
-  EXPECT_TRUE(claim([](HorizonFeature& f) { f.spans[0][1] -= 1e-4; }));
-  EXPECT_TRUE(claim([](HorizonFeature& f) { f.line_measure_m *= 1.001; }));
-  EXPECT_TRUE(claim([](HorizonFeature& f) { f.angular_share += 1e-4; }));
-  EXPECT_TRUE(claim([](HorizonFeature& f) { f.skyline_drop_m += 0.01; }));
+  EXPECT_TRUE(claim([](HorizonFeature& f) { f.measures.spans[0][1] -= 1e-4; }));
+  EXPECT_TRUE(claim([](HorizonFeature& f) { f.measures.line_measure_m *= 1.001; }));
+  EXPECT_TRUE(claim([](HorizonFeature& f) { f.measures.angular_share += 1e-4; }));
+  EXPECT_TRUE(claim([](HorizonFeature& f) { f.measures.skyline_drop_m += 0.01; }));
 }
 
-TEST_F(Verify, ProminencesBelowTheEdgesAreFound) {
+TEST_F(Verify, SkylineDropsBelowTheEdgesAreFound) {
   Result<std::vector<HorizonFeature>> features =
       ReadHorizonGeoJson(SlurpFile(folder_ / "out" / "horizon.geojson"));
-  for (HorizonFeature& f : *features) f.skyline_drop_m /= 8;
+  for (HorizonFeature& f : *features) f.measures.skyline_drop_m /= 8;
   SpillFile(folder_ / "out" / "horizon.geojson", WriteHorizonGeoJson(*features));
   EXPECT_TRUE(Names(False(), "rises above all others by more than its skyline drop"));
 }
@@ -129,7 +130,7 @@ TEST_F(Verify, ANodeThatPlacesTheMeshElsewhereIsFound) {
 }
 
 TEST_F(Verify, ADracoStreamWithAnotherLatticeIsFound) {
-  // Half the step, in the bitstream that both files carry.
+  // Halves the step, in the bitstream that both files have.
   const double half = StepOf("lod1.drc") / 2;
   for (const std::string name : {"lod1.drc", "lod1.glb"}) {
     std::string bytes = SlurpFile(folder_ / "out" / name);
@@ -145,7 +146,7 @@ TEST_F(Verify, ADracoStreamWithAnotherLatticeIsFound) {
 
 TEST_F(Verify, NormalsThatAreNotTheDemsAreFound) {
   DecodedMesh decoded = Decode("lod1.drc");
-  // Turned about by two degrees or so.
+  // Turns normals by some two degrees.
   for (UnitNormal& n : decoded.mesh.normals) {
     n[0] += 0.04;
     const double length = std::hypot(n[0], n[1], n[2]);
@@ -186,7 +187,7 @@ class BuiltApproximately : public Built {
 using VerifyApproximate = BuiltApproximately;
 
 TEST_F(VerifyApproximate, EveryClaimHoldsAndSaysThatTheSetIsASuperset) {
-  // What was asked for stands in the report; the one who verifies does not know it.
+  // Verification takes the budget from the report, not from its caller.
   options_.work_budget.reset();
   options_.approximate = false;
   EXPECT_TRUE(False().empty()) << False().front();

@@ -1,22 +1,15 @@
-#include "core/io/files.h"
+#include "core/io/file.h"
 
 #include <sys/stat.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/io/sha256.h"
 #include "tests/support/temp_dir.h"
 
 namespace farhorizon {
 namespace {
-
-// FIPS 180-2, appendix B.
-TEST(Sha256Hex, AgreesWithTheStandardsExamples) {
-  EXPECT_EQ(Sha256Hex("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
-  EXPECT_EQ(Sha256Hex("abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq"),
-            "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1");
-  EXPECT_EQ(Sha256Hex(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
-}
 
 TEST(Sha256OfFile, IsThatOfItsBytesHoweverMany) {
   const TempDir dir;
@@ -75,31 +68,6 @@ TEST(WriteFile, LeavesTheOldFileWhereTheTargetCannotBeReplaced) {
   std::filesystem::create_directory(dir / "a");
   EXPECT_FALSE(WriteFile(dir / "a", "x"));
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(dir.path()), {}), 1);
-}
-
-TEST(MediaTypeOf, KnowsEveryArtifact) {
-  EXPECT_EQ(MediaTypeOf("lod0.glb"), "model/gltf-binary");
-  EXPECT_EQ(MediaTypeOf("horizon.geojson"), "application/geo+json");
-  EXPECT_EQ(MediaTypeOf("tileset.json"), "application/json");
-  EXPECT_EQ(MediaTypeOf("what"), "application/octet-stream");
-}
-
-TEST(Manifest, ReadsBackWhatItWrote) {
-  const std::vector<ManifestEntry> entries = {{"lod0.glb", "model/gltf-binary", 12, Sha256Hex("x")},
-                                              {"report.json", "application/json", 0, ""}};
-  Result<std::vector<ManifestEntry>> back = ReadManifest(WriteManifest(entries));
-  ASSERT_TRUE(back);
-  ASSERT_EQ(back->size(), 2U);
-  EXPECT_EQ((*back)[0].name, "lod0.glb");
-  EXPECT_EQ((*back)[0].media_type, "model/gltf-binary");
-  EXPECT_EQ((*back)[0].bytes, 12U);
-  EXPECT_EQ((*back)[0].sha256, Sha256Hex("x"));
-}
-
-TEST(Manifest, RefusesWhatIsNoManifest) {
-  for (const char* text : {"", "{", "[]", "{\"artifacts\": [{\"name\": 3}]}"}) {
-    EXPECT_FALSE(ReadManifest(text)) << text;
-  }
 }
 
 }  // namespace

@@ -1,4 +1,7 @@
-#include "core/io/files.h"
+// Files are read in pieces and written beside their target, synced and renamed, so that neither a
+// crash nor a full disk leaves half a file under the name. Messages name files without their
+// folder.
+#include "core/io/file.h"
 
 #include <cerrno>
 #include <cstring>
@@ -6,8 +9,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 #include <utility>
-
-#include <nlohmann/json.hpp>
+#include <vector>
 
 #include "core/io/posix_file.h"
 #include "core/io/sha256.h"
@@ -29,7 +31,7 @@ Error FromErrno(const std::string& what, const std::filesystem::path& path, int 
   return error;
 }
 
-// Opens a regular file and shows its bytes to `take` piece by piece.
+// Opens a regular file and calls `take` with its bytes, piece by piece, until one call fails.
 template <typename Take>
 Status ReadPieces(const std::filesystem::path& path, Take take) {
   const UniqueFd file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
@@ -61,12 +63,6 @@ Status FillAndSync(UniqueFd& file, const std::filesystem::path& path, std::strin
 }
 
 }  // namespace
-
-std::string Sha256Hex(std::string_view bytes) {
-  Sha256 sum;
-  sum.Add(bytes);
-  return sum.Finish().Hex();
-}
 
 Result<std::string> Sha256OfFile(const std::filesystem::path& path) {
   Sha256 sum;
@@ -109,53 +105,6 @@ Status WriteFile(const std::filesystem::path& path, std::string_view bytes) {
   // The rename itself is durable only when the folder is synced; some file systems cannot.
   [[maybe_unused]] const bool synced = SyncDirectory(folder);
   return Done{};
-}
-
-std::string MediaTypeOf(const std::string& name) {
-  static constexpr std::pair<std::string_view, std::string_view> kTypes[] = {
-      {".glb", "model/gltf-binary"},
-      {".drc", "application/vnd.google.draco"},
-      {".geojson", "application/geo+json"},
-      {".json", "application/json"},
-      {".fgb", "application/vnd.flatgeobuf"},
-      {".gpkg", "application/geopackage+sqlite3"},
-      {".svg", "image/svg+xml"},
-      {".tif", "image/tiff; application=geotiff"},
-      {".tiff", "image/tiff; application=geotiff"}};
-  const std::string ending = std::filesystem::path(name).extension().string();
-  for (const auto& [known, type] : kTypes) {
-    if (ending == known) return std::string(type);
-  }
-  return "application/octet-stream";
-}
-
-std::string WriteManifest(const std::vector<ManifestEntry>& entries) {
-  nlohmann::ordered_json artifacts = nlohmann::ordered_json::array();
-  for (const ManifestEntry& entry : entries) {
-    artifacts.push_back({{"name", entry.name},
-                         {"media_type", entry.media_type},
-                         {"bytes", entry.bytes},
-                         {"sha256", entry.sha256}});
-  }
-  nlohmann::ordered_json manifest;
-  manifest["artifacts"] = std::move(artifacts);
-  return manifest.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
-}
-
-Result<std::vector<ManifestEntry>> ReadManifest(const std::string& text) {
-  try {
-    const nlohmann::json manifest = nlohmann::json::parse(text);
-    std::vector<ManifestEntry> entries;
-    for (const nlohmann::json& artifact : manifest.at("artifacts")) {
-      entries.push_back(
-          {artifact.at("name").get<std::string>(), artifact.at("media_type").get<std::string>(),
-           artifact.at("bytes").get<std::uintmax_t>(), artifact.at("sha256").get<std::string>()});
-    }
-    return entries;
-  } catch (const nlohmann::json::exception& failure) {
-    return Error{ErrorCode::kUnsupportedData,
-                 std::string("manifest.json cannot be read: ") + failure.what(), "bad-manifest"};
-  }
 }
 
 }  // namespace farhorizon

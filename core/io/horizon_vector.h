@@ -1,0 +1,20 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/io/horizon_features.h"
+
+namespace farhorizon {
+
+/// Writes horizon edges for GIS programs, through OGR: FlatGeobuf or GeoPackage, by the ending of
+/// `path` (".fgb", ".gpkg"). An existing file is replaced. Same features, same bytes.
+///
+/// Azimuths and spans are fields of text, as in horizon.geojson. Fields that an undecided edge has
+/// no value for are null.
+/// Errors: kInvalidArgument for another ending; kIo where the driver failed, with its message.
+Status WriteHorizonVector(const std::vector<HorizonFeature>& features,
+                          const std::filesystem::path& path);
+
+}  // namespace farhorizon

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <vector>
+
+#include "core/base/progress.h"
+#include "core/base/result.h"
+#include "core/horizon/horizon.h"
+#include "core/io/horizon_features.h"
+#include "core/pipeline/terrain_input.h"
+
+namespace farhorizon {
+
+/// The horizon edges as they are published, in the order of `horizon`.
+///
+/// level_kept: for each edge the coarsest level that has it, -1 for none; empty where no levels
+///   were built.
+/// Errors: those of MeasureEdges and Georeference::ToGeodetic.
+Result<std::vector<HorizonFeature>> BuildFeatures(const TerrainInput& input, const Horizon& horizon,
+                                                  const std::vector<int>& level_kept, int threads,
+                                                  const Watch& watch);
+
+}  // namespace farhorizon
