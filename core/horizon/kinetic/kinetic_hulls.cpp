@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/result.h"
+#include "core/geometry/union_find.h"
 #include "core/horizon/kinetic/hull_location.h"
 
 namespace farhorizon::kinetic {
@@ -56,14 +57,7 @@ void KineticHulls::Join(ClusterId kept, ClusterId lost) {
   MarkChanged(kept);
 }
 
-ClusterId KineticHulls::Find(ClusterId cluster) const {
-  while (roots_[Index(cluster)] != cluster) {
-    ClusterId& root = roots_[Index(cluster)];
-    root = roots_[Index(root)];
-    cluster = root;
-  }
-  return cluster;
-}
+ClusterId KineticHulls::Find(ClusterId cluster) const { return FindRoot(roots_, cluster); }
 
 void KineticHulls::InvalidateCorners(PointId p) {
   const ClusterId c = ClusterOf(p);

@@ -111,7 +111,7 @@ class KineticHulls {
   SweepDepth now_;
   std::vector<KineticPoint> points_;
   std::vector<KineticHull> hulls_;
-  mutable std::vector<ClusterId> roots_;  // a union-find forest; Find() shortens its paths
+  mutable std::vector<ClusterId> roots_;  // a forest as in union_find.h; Find() shortens its paths
   std::vector<ClusterId> clusters_;
   std::vector<ClusterId> changed_;
   std::vector<PointId> interior_points_;  // that are to be given a triangle

@@ -86,8 +86,8 @@ class TangentTable {
   [[nodiscard]] std::array<Arc, 2> ArcsAt(ClusterId c, ClusterId other) const;
 
   /// The step to take towards the corner at which the half tangent supports its own hull: to the
-  /// next corner (1), to the previous one (-1), or none (0). From any corner of a convex polygon and
-  /// any point outside it, such steps lead to the right one of the two tangents.
+  /// next corner (1), to the previous one (-1), or none (0). From any corner of a convex polygon
+  /// and any point outside it, such steps lead to the right one of the two tangents.
   [[nodiscard]] int StepAt(HalfTangentId half) const;
   /// Whether the tangent supports both hulls at corners.
   [[nodiscard]] bool Supports(TangentId t) const;
