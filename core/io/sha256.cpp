@@ -63,7 +63,7 @@ Digest Sha256::Finish() {
 std::string Sha256Hex(std::string_view bytes) {
   Sha256 sum;
   sum.Add(bytes);
-  return sum.Finish();
+  return sum.Finish().Hex();
 }
 
 }  // namespace farhorizon

@@ -26,7 +26,7 @@ struct LevelContext {
 
   /// The same, watched by another watch, which must outlive it.
   [[nodiscard]] LevelContext With(const Watch& other) const {
-    return {terrain, horizon, placement, normals, other};
+    return {terrain, horizon, georeference, normals, other};
   }
 };
 

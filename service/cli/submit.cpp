@@ -168,8 +168,9 @@ int Run(const SubmitArguments& arguments) {
   Result<ServiceUrl> url = ReadServiceUrl(arguments.url);
   if (!url) return ReportError(url.error());
   // RunOnDem refuses invalid flags before anything is sent.
-  return ExitStatusOf(RunOnDem(
-      arguments.dem, [&](const DemRun& run) { return RemoteJob(*url, arguments, run).Run(); }));
+  return ExitStatusOf(RunOnDem(arguments.dem, Workflow::kBuild, [&](const DemRun& run) {
+    return RemoteJob(*url, arguments, run).Run();
+  }));
 }
 
 }  // namespace

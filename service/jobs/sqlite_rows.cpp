@@ -9,7 +9,8 @@ namespace {
 std::optional<Error> ReadFailure(const Statement& row) {
   if (row.IsNull(14)) return std::nullopt;
   const ErrorCode code = ErrorCodeFromName(row.Text(14)).value_or(ErrorCode::kIo);
-  return Error{code, row.Text(16), row.Text(15)};
+  // Another version of the program may have written a kind that this one does not know.
+  return Error{code, row.Text(16), ErrorKind::FromName(row.Text(15)).value_or(ErrorKind())};
 }
 
 std::map<std::string, double> ReadTimings(const std::string& text) {
