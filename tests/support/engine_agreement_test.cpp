@@ -67,7 +67,7 @@ TEST(EngineOffence, AllowsAnEngineItsDocumentedErrorOnly) {
   const Dem pyramid = AsciiDem(".0.\n010\n.0.");
   const ErrorCode code = ErrorCode::kUnsupportedData;
   EXPECT_EQ(EngineOffence(pyramid, WithKinetic(Error{code, "no", "kinetic-too-large"})), "");
-  EXPECT_EQ(EngineOffence(pyramid, WithKinetic(Error{code, "no", "other"})),
+  EXPECT_EQ(EngineOffence(pyramid, WithKinetic(Error{code, "no", "no-surface"})),
             "the kinetic engine says: no");
 }
 

@@ -8,12 +8,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/horizon/horizon.h"
+#include "core/horizon/find_horizon.h"
 #include "core/pipeline/build.h"
-#include "core/pipeline/horizon_edges.h"
-#include "core/pipeline/skyline_of_dem.h"
-#include "core/pipeline/trace.h"
-#include "core/pipeline/verify.h"
+#include "core/pipeline/sweep_picture.h"
+#include "core/pipeline/verify/verify.h"
+#include "core/pipeline/write_horizon.h"
+#include "core/pipeline/write_skyline.h"
 #include "tests/support/hilly_grid.h"
 #include "tests/support/progress_checks.h"
 #include "tests/support/temp_dir.h"
@@ -128,7 +128,7 @@ TEST_F(RealRuns, AnApproximateHorizonRisesWhetherOrNotTheBudgetSuffices) {
 
 TEST_F(RealRuns, ASkylineRises) {
   for (const SkylineFormat format : {SkylineFormat::kGeoJson, SkylineFormat::kSvg}) {
-    Result<std::string> skyline = SkylineOfDem(dem_, 33, format, options_, Recording());
+    Result<std::string> skyline = WriteSkyline(dem_, 33, format, options_, Recording());
     ASSERT_TRUE(skyline) << skyline.error().message;
     EXPECT_THAT(OffencesAgainstPlan(Workflow::kSkyline, reports_), IsEmpty());
   }

@@ -64,17 +64,19 @@ TEST(BuildFlags, RefuseWhatAJobRefuses) {
 TEST(RunOnDem, GivesOptionsToTheWorkAndReturnsItsAnswer) {
   const DemArguments arguments = Parsed("a.tif --levels 4 --progress none");
   const Result<int> levels =
-      RunOnDem(arguments, [](const DemRun& run) -> Result<int> { return run.options.levels; });
+      RunOnDem(arguments, Workflow::kBuild,
+               [](const DemRun& run) -> Result<int> { return run.options.levels; });
   ASSERT_TRUE(levels);
   EXPECT_EQ(*levels, 4);
 }
 
 TEST(RunOnDem, DoesNoWorkWithInvalidFlags) {
   bool worked = false;
-  Status done = RunOnDem(Parsed("a.tif --levels 99"), [&](const DemRun&) -> Status {
-    worked = true;
-    return Done{};
-  });
+  Status done =
+      RunOnDem(Parsed("a.tif --levels 99"), Workflow::kBuild, [&](const DemRun&) -> Status {
+        worked = true;
+        return Done{};
+      });
   EXPECT_FALSE(done);
   EXPECT_FALSE(worked);
 }
