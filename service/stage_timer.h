@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "core/base/progress.h"
+#include "core/base/run_control.h"
 
 namespace farhorizon {
 

@@ -71,7 +71,6 @@ inline constexpr auto kErrorKinds = std::to_array<std::string_view>({
     "no-such-resource",
     "no-surface",
     "not-a-raster",
-    "not-available",
     "not-found",
     "outside-crs",
     "overlap",

@@ -9,16 +9,16 @@
 namespace farhorizon {
 
 bool ParallelForBatches(std::size_t count, std::size_t size, int threads, Stage stage,
-                        const Watch& watch,
+                        const RunControl& control,
                         const std::function<void(std::size_t, std::size_t, std::size_t)>& work) {
   std::atomic<std::size_t> next{0};
   const auto run = [&](std::size_t thread) {
-    while (!watch.StopRequested()) {
+    while (!control.StopRequested()) {
       const std::size_t begin = next.fetch_add(size);
       if (begin >= count) return;
       const std::size_t end = std::min(begin + size, count);
       work(begin, end, thread);
-      if (thread == 0) watch.Report(stage, static_cast<double>(end) / static_cast<double>(count));
+      if (thread == 0) control.Report(stage, static_cast<double>(end) / static_cast<double>(count));
     }
   };
   std::vector<std::exception_ptr> failures(static_cast<std::size_t>(std::max(threads, 1)));
@@ -38,8 +38,8 @@ bool ParallelForBatches(std::size_t count, std::size_t size, int threads, Stage 
   for (const std::exception_ptr& failure : failures) {
     if (failure) std::rethrow_exception(failure);
   }
-  if (watch.StopRequested()) return false;
-  watch.Report(stage, 1);
+  if (control.StopRequested()) return false;
+  control.Report(stage, 1);
   return true;
 }
 

@@ -29,7 +29,9 @@ std::optional<ErrorCode> ErrorCodeFromName(std::string_view name) {
   return std::nullopt;
 }
 
-Error Error::Within(const std::string& where) && { return {code, where + ": " + message, kind}; }
+Error Error::WithContext(const std::string& where) && {
+  return {code, where + ": " + message, kind};
+}
 
 void Check(bool holds, const char* what, std::source_location where) {
   if (holds) return;

@@ -34,7 +34,7 @@ struct Error {
   ErrorKind kind = {};  ///< stable, for programs to switch on: "no-crs", "several-bands"
 
   /// This error with `where` put in front: "read DEM: file is empty".
-  [[nodiscard]] Error Within(const std::string& where) &&;
+  [[nodiscard]] Error WithContext(const std::string& where) &&;
 };
 
 /// Thrown where an invariant of this program is broken: a bug of the program, whatever the data.
@@ -87,7 +87,7 @@ class [[nodiscard]] Result {
 };
 
 /// The result of work that returns no value.
-struct Done {};
-using Status = Result<Done>;
+struct Ok {};
+using Status = Result<Ok>;
 
 }  // namespace farhorizon

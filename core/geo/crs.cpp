@@ -154,7 +154,7 @@ Status CheckPlan(const PJ* horizontal, const std::string& name) {
     case PJ_TYPE_GEOGRAPHIC_2D_CRS:
     case PJ_TYPE_GEOGRAPHIC_3D_CRS:
     case PJ_TYPE_PROJECTED_CRS:
-      return Done{};
+      return Ok{};
     case PJ_TYPE_ENGINEERING_CRS:
       return Unusable("reference system \"" + name +
                           "\" is local: nothing says where on Earth it lies; give the true one "
@@ -180,7 +180,7 @@ Result<PjPtr> WithVerticalDatum(Session& session, PjPtr crs, const std::string& 
   if (!plan) return Unusable("reference system \"" + name + "\" has no plan", "unknown-crs");
   if (datum == "ellipsoid") return plan;
   Result<PjPtr> height = ReadCrs(session, datum);
-  if (!height) return std::move(height.error()).Within("vertical datum");
+  if (!height) return std::move(height.error()).WithContext("vertical datum");
   if (proj_get_type(height->get()) != PJ_TYPE_VERTICAL_CRS) {
     return Unusable("vertical datum \"" + datum +
                         "\" is no vertical reference system; give one such as EPSG:5773 (EGM96 "
@@ -270,7 +270,7 @@ Status GlobeTransform::State::FindWay() {
                             "+proj=pipeline +step +proj=unitconvert +xy_in=deg +xy_out=rad "
                             "+step +proj=cart +ellps=WGS84"));
   Check(to_ecef != nullptr, "PROJ has no geocentric conversion");
-  return Done{};
+  return Ok{};
 }
 
 // Keeps the operation that PROJ uses at `about` for all points.
@@ -288,7 +288,7 @@ Status GlobeTransform::State::FixWayAt(const MapPoint& about) {
   if (PJ* used = proj_trans_get_last_used_operation(to_globe.get()); used != nullptr) {
     to_globe.reset(used);
   }
-  return Done{};
+  return Ok{};
 }
 
 GlobeTransform::GlobeTransform(std::unique_ptr<State> state) : state_(std::move(state)) {}

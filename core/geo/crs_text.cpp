@@ -61,13 +61,13 @@ Status CheckCrsText(const std::string& text) {
       return Refused(text, "names a grid file, which is not allowed");
     }
   }
-  if (IsStructured(lower)) return Done{};
+  if (IsStructured(lower)) return Ok{};
   if (lower.find("://") != std::string::npos) return Refused(text, "is a URL");
   if (lower.starts_with('/') || lower.starts_with('.') || lower.starts_with('~') ||
       lower.find('\\') != std::string::npos || lower.find("..") != std::string::npos) {
     return Refused(text, "is a path");
   }
-  return Done{};
+  return Ok{};
 }
 
 }  // namespace farhorizon

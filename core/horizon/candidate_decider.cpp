@@ -13,10 +13,10 @@
 namespace farhorizon {
 
 CandidateDecider::CandidateDecider(const Terrain& terrain, const Candidates& candidates,
-                                   const Watch& watch)
+                                   const RunControl& control)
     : terrain_(terrain),
       candidates_(candidates),
-      watch_(watch),
+      control_(control),
       occluders_(terrain.dem().columns, terrain.dem().rows),
       witnesses_(candidates.edges.size()),
       decided_(candidates.edges.size(), 0),
@@ -28,13 +28,13 @@ CandidateDecider::CandidateDecider(const Terrain& terrain, const Candidates& can
 bool CandidateDecider::DecideAll(int threads, std::int64_t budget, double share) {
   DecideRound(threads, {budget, budget}, share);
   if (spent_ <= budget) undecided_.clear();
-  return !watch_.StopRequested();
+  return !control_.StopRequested();
 }
 
 bool CandidateDecider::DecideSome(int threads, std::int64_t budget) {
   counts_ = {};
   std::fill(decided_.begin(), decided_.end(), 0);
-  for (std::int64_t share = 0; !undecided_.empty() && !watch_.StopRequested();) {
+  for (std::int64_t share = 0; !undecided_.empty() && !control_.StopRequested();) {
     const std::int64_t next =
         (budget - counts_.Sum()) / static_cast<std::int64_t>(undecided_.size());
     if (next < std::max<std::int64_t>(2 * share, 1)) break;
@@ -43,7 +43,7 @@ bool CandidateDecider::DecideSome(int threads, std::int64_t budget) {
     DecideRound(threads, {share, std::numeric_limits<std::int64_t>::max()}, (done_ + 1) / 2);
     std::erase_if(undecided_, [this](std::size_t i) { return decided_[i] != 0; });
   }
-  return !watch_.StopRequested();
+  return !control_.StopRequested();
 }
 
 void CandidateDecider::AppendEdges(Horizon& horizon) const {
@@ -70,7 +70,7 @@ void CandidateDecider::DecideRound(int threads, Limits limits, double done) {
   spent_ = 0;
   std::vector<PredicateCounts> per_thread(static_cast<std::size_t>(std::max(threads, 1)));
   ParallelForBatches(undecided_.size(), kBatch, threads, Stage::kDecide,
-                     watch_.Between(done_, done),
+                     control_.Between(done_, done),
                      [&](std::size_t begin, std::size_t end, std::size_t thread) {
                        if (spent_ > limits.all) return;
                        const PredicateCounts taken = DecideBatch(begin, end, limits.each);

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/base/progress.h"
+#include "core/base/run_control.h"
 #include "core/horizon/horizon.h"
 #include "core/horizon/sweep/candidates.h"
 #include "core/horizon/visibility/occluder_set.h"
@@ -20,7 +20,7 @@ namespace farhorizon {
 class CandidateDecider {
  public:
   /// Requires: all three outlive it.
-  CandidateDecider(const Terrain& terrain, const Candidates& candidates, const Watch& watch);
+  CandidateDecider(const Terrain& terrain, const Candidates& candidates, const RunControl& control);
 
   /// Decides all candidates, or, if that takes more decisions than `budget`, leaves all undecided.
   /// Decisions are summed over all threads, so their number does not matter.
@@ -60,7 +60,7 @@ class CandidateDecider {
 
   const Terrain& terrain_;
   const Candidates& candidates_;
-  const Watch& watch_;
+  const RunControl& control_;
   OccluderSet occluders_;  ///< the candidates, by their indices
   std::vector<std::optional<Witness>> witnesses_;
   std::vector<char> decided_;  ///< a byte each, so that threads can write side by side

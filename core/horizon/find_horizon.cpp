@@ -53,8 +53,9 @@ std::string ApproximationWarning(const Horizon& horizon) {
 // Removes the candidates that the kinetic engine does not find. Those that stay make the same
 // skyline as the terrain, so they suffice as occluders, too.
 Result<EventCounts> KeepKineticEdges(const Terrain& terrain, Candidates& candidates,
-                                     const Watch& watch, std::optional<std::int64_t> work_budget) {
-  Result<KineticHorizon> kinetic = FindHorizonKinetic(terrain, watch, work_budget);
+                                     const RunControl& control,
+                                     std::optional<std::int64_t> work_budget) {
+  Result<KineticHorizon> kinetic = FindHorizonKinetic(terrain, control, work_budget);
   if (!kinetic) return std::move(kinetic.error());
   std::erase_if(candidates.edges, [&](const Candidate& candidate) {
     return !std::binary_search(kinetic->edges.begin(), kinetic->edges.end(), candidate.edge);
@@ -86,10 +87,10 @@ std::int64_t DefaultWorkBudget(std::int64_t terrain_edges) {
 }
 
 Result<Horizon> FindHorizon(const Terrain& terrain, const HorizonOptions& options,
-                            const Watch& watch) {
-  Result<HullSweep> sweep = SweepHulls(terrain, options.threads, watch);
+                            const RunControl& control) {
+  Result<HullSweep> sweep = SweepHulls(terrain, options.threads, control);
   if (!sweep) return std::move(sweep.error());
-  Result<Candidates> candidates = FindCandidates(terrain, *sweep, options.threads, watch);
+  Result<Candidates> candidates = FindCandidates(terrain, *sweep, options.threads, control);
   if (!candidates) return std::move(candidates.error());
   Horizon horizon;
   horizon.statistics = sweep->statistics;
@@ -98,15 +99,16 @@ Result<Horizon> FindHorizon(const Terrain& terrain, const HorizonOptions& option
   const bool kinetic = options.engine == Engine::kKinetic;
   std::int64_t budget = DefaultWorkBudget(horizon.statistics.terrain_edges);
   if (kinetic) {
-    Result<EventCounts> events = KeepKineticEdges(terrain, *candidates, watch, options.work_budget);
+    Result<EventCounts> events =
+        KeepKineticEdges(terrain, *candidates, control, options.work_budget);
     if (!events) return std::move(events.error());
     SetCounts(horizon.statistics, *events);
   } else {
     budget = options.work_budget.value_or(budget);
   }
   horizon.statistics.work_budget = budget;
-  watch.Report(Stage::kDecide, 0);
-  CandidateDecider decider(terrain, *candidates, watch);
+  control.Report(Stage::kDecide, 0);
+  CandidateDecider decider(terrain, *candidates, control);
   bool completed = decider.DecideAll(options.threads, budget, options.approximate ? 0.5 : 1);
   if (completed && decider.undecided() > 0) {
     if (!options.approximate) return OverBudget(budget, candidates->edges.size());
@@ -116,7 +118,7 @@ Result<Horizon> FindHorizon(const Terrain& terrain, const HorizonOptions& option
   horizon.statistics.predicates = decider.counts();
   horizon.statistics.undecided = decider.undecided();
   decider.AppendEdges(horizon);
-  if (decider.undecided() > 0) watch.Tell(ApproximationWarning(horizon));
+  if (decider.undecided() > 0) control.Warn(ApproximationWarning(horizon));
   Check(!kinetic || horizon.edges.size() == candidates->edges.size(),
         "every edge of the kinetic engine has a line of sight");
   for (const HorizonEdge& e : horizon.edges) {
@@ -124,7 +126,7 @@ Result<Horizon> FindHorizon(const Terrain& terrain, const HorizonOptions& option
     Check(!kinetic || e.undecided || WitnessHolds(terrain, e.edge, e.witness),
           "a line of sight over the kinetic engine's edges is one over the terrain");
   }
-  watch.Report(Stage::kDecide, 1);
+  control.Report(Stage::kDecide, 1);
   return horizon;
 }
 

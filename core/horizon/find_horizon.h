@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <optional>
 
-#include "core/base/progress.h"
 #include "core/base/result.h"
+#include "core/base/run_control.h"
 #include "core/horizon/horizon.h"
 #include "core/terrain/terrain.h"
 
@@ -45,6 +45,6 @@ std::int64_t DefaultWorkBudget(std::int64_t terrain_edges);
 /// Cost: about O(n log n) on real terrain; a few hundred bytes for each candidate, some 20 for each
 /// post.
 Result<Horizon> FindHorizon(const Terrain& terrain, const HorizonOptions& options,
-                            const Watch& watch);
+                            const RunControl& control);
 
 }  // namespace farhorizon

@@ -17,12 +17,12 @@ auto Ends(const Segment& s) { return std::tuple(s.a.y, s.a.x, s.a.z, s.b.y, s.b.
 
 Result<std::vector<std::size_t>> FindHorizonSegments(const std::vector<Segment>& segments,
                                                      std::int32_t columns, std::int32_t rows,
-                                                     const Watch& watch) {
+                                                     const RunControl& control) {
   OccluderSet occluders(columns, rows);
   for (const Segment& segment : segments) occluders.Insert(segment);
   std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < segments.size(); ++i) {
-    if (i % kSegmentsBetweenChecks == 0 && watch.StopRequested()) {
+    if (i % kSegmentsBetweenChecks == 0 && control.StopRequested()) {
       return Error{ErrorCode::kCancelled, "stopped while joining horizons"};
     }
     const auto self = static_cast<OccluderId>(i);
@@ -35,7 +35,7 @@ Result<std::vector<std::size_t>> FindHorizonSegments(const std::vector<Segment>&
 
 Result<std::vector<Segment>> JoinHorizons(std::vector<Segment> a, const std::vector<Segment>& b,
                                           std::int32_t columns, std::int32_t rows,
-                                          const Watch& watch) {
+                                          const RunControl& control) {
   a.insert(a.end(), b.begin(), b.end());
   for (Segment& segment : a) {
     if (Ends({segment.b, segment.a}) < Ends(segment)) std::swap(segment.a, segment.b);
@@ -45,7 +45,7 @@ Result<std::vector<Segment>> JoinHorizons(std::vector<Segment> a, const std::vec
   a.erase(std::unique(a.begin(), a.end(),
                       [](const Segment& p, const Segment& q) { return Ends(p) == Ends(q); }),
           a.end());
-  Result<std::vector<std::size_t>> kept = FindHorizonSegments(a, columns, rows, watch);
+  Result<std::vector<std::size_t>> kept = FindHorizonSegments(a, columns, rows, control);
   if (!kept) return std::move(kept.error());
   std::vector<Segment> joined;
   joined.reserve(kept->size());

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/base/progress.h"
 #include "core/base/result.h"
+#include "core/base/run_control.h"
 #include "core/geometry/segment.h"
 
 namespace farhorizon {
@@ -21,12 +21,12 @@ namespace farhorizon {
 /// Errors: kCancelled. Cost: a query (occluder_set.h) for each segment.
 Result<std::vector<std::size_t>> FindHorizonSegments(const std::vector<Segment>& segments,
                                                      std::int32_t columns, std::int32_t rows,
-                                                     const Watch& watch);
+                                                     const RunControl& control);
 
 /// horizon(a u b), where each set is a horizon already or not; equal segments once, by rising ends.
 /// Requires and errors: those of FindHorizonSegments.
 Result<std::vector<Segment>> JoinHorizons(std::vector<Segment> a, const std::vector<Segment>& b,
                                           std::int32_t columns, std::int32_t rows,
-                                          const Watch& watch);
+                                          const RunControl& control);
 
 }  // namespace farhorizon

@@ -90,7 +90,7 @@ Status CheckAsciiGrid(const std::filesystem::path& path, std::int64_t posts) {
                      " of its " + std::to_string(posts) + " cells; fetch or make the file again",
                  "truncated"};
   }
-  return Done{};
+  return Ok{};
 }
 
 }  // namespace farhorizon

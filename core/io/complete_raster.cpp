@@ -35,7 +35,7 @@ Status CheckTiffBlocks(GDALRasterBandH band, std::uintmax_t file_bytes, bool has
       }
     }
   }
-  return Done{};
+  return Ok{};
 }
 
 }  // namespace
@@ -68,7 +68,7 @@ Status CheckComplete(void* dataset, const std::filesystem::path& path, bool has_
                        std::to_string(start + wanted) + " bytes");
     }
   }
-  return Done{};
+  return Ok{};
 }
 
 }  // namespace farhorizon

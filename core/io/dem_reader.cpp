@@ -97,7 +97,7 @@ Status CheckSize(GDALDatasetH dataset, const DemReadOptions& options) {
                      " a side; cut it or make it coarser",
                  "raster-too-large"};
   }
-  return Done{};
+  return Ok{};
 }
 
 // GDAL decodes a block as a whole. A block much larger than the raster fills memory to no purpose.
@@ -109,7 +109,7 @@ Status CheckBlock(GDALRasterBandH band, const DemReadOptions& options) {
   const std::int64_t posts =
       std::int64_t{GDALGetRasterBandXSize(band)} * GDALGetRasterBandYSize(band);
   const std::int64_t limit = std::max(kAlwaysFine, std::min(options.max_posts, 4 * posts));
-  if (width > 0 && height > 0 && std::int64_t{width} * height <= limit) return Done{};
+  if (width > 0 && height > 0 && std::int64_t{width} * height <= limit) return Ok{};
   return Error{ErrorCode::kResourceExhausted,
                "the raster is stored in blocks of " + std::to_string(width) + " x " +
                    std::to_string(height) + " cells, the limit is " + std::to_string(limit) +
@@ -128,7 +128,7 @@ Status CheckType(GDALRasterBandH band) {
     return BadData("the band is a picture with a colour table, heights are needed",
                    "unsupported-type");
   }
-  return Done{};
+  return Ok{};
 }
 
 Result<GeoTransform> ReadGeoTransform(GDALDatasetH dataset) {
@@ -186,7 +186,7 @@ Result<std::string> ReadCrs(GDALDatasetH dataset, const DemReadOptions& options)
 
 // Makes NaN of cells that an internal mask hides, whatever their values.
 Status ApplyMask(GDALRasterBandH band, GdalSession& session, std::vector<double>& values) {
-  if ((GDALGetMaskFlags(band) & GMF_PER_DATASET) == 0) return Done{};
+  if ((GDALGetMaskFlags(band) & GMF_PER_DATASET) == 0) return Ok{};
   const int columns = GDALGetRasterBandXSize(band);
   const int rows = GDALGetRasterBandYSize(band);
   std::vector<std::uint8_t> mask(values.size());
@@ -198,7 +198,7 @@ Status ApplyMask(GDALRasterBandH band, GdalSession& session, std::vector<double>
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (mask[i] == 0) values[i] = std::numeric_limits<double>::quiet_NaN();
   }
-  return Done{};
+  return Ok{};
 }
 
 std::string CellName(std::size_t post, int columns) {

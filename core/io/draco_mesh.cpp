@@ -58,7 +58,7 @@ Status CheckMesh(const LocalMesh& mesh) {
   if (unused != used.end()) {
     return BadMesh("vertex " + std::to_string(unused - used.begin()) + " is in no triangle");
   }
-  return Done{};
+  return Ok{};
 }
 
 int AddAttribute(draco::Mesh& mesh, draco::GeometryAttribute::Type type, std::int8_t components,
@@ -193,7 +193,7 @@ Status ReadVertices(const draco::Mesh& mesh, const Attributes& attributes, Decod
     local.normals.push_back({normal[0], normal[1], normal[2]});
   }
   std::frexp(last, &lattice.bits);  // last < 2^bits
-  return Done{};
+  return Ok{};
 }
 
 }  // namespace

@@ -45,7 +45,7 @@ Status ReadPieces(const std::filesystem::path& path, Take take) {
   for (;;) {
     const std::int64_t got = ReadSome(file.get(), piece);
     if (got < 0) return FromErrno("cannot read", path, errno);
-    if (got == 0) return Done{};
+    if (got == 0) return Ok{};
     if (Status taken = take(std::string_view(piece.data(), static_cast<std::size_t>(got)));
         !taken) {
       return taken;
@@ -59,7 +59,7 @@ Status FillAndSync(UniqueFd& file, const std::filesystem::path& path, std::strin
   if (::fchmod(file.get(), 0644) != 0) return FromErrno("cannot write", path, errno);
   if (::fsync(file.get()) != 0) return FromErrno("cannot sync", path, errno);
   if (!file.Close()) return FromErrno("cannot close", path, errno);
-  return Done{};
+  return Ok{};
 }
 
 }  // namespace
@@ -68,7 +68,7 @@ Result<std::string> Sha256OfFile(const std::filesystem::path& path) {
   Sha256 sum;
   Status read = ReadPieces(path, [&](std::string_view piece) -> Status {
     sum.Add(piece);
-    return Done{};
+    return Ok{};
   });
   if (!read) return std::move(read.error());
   return sum.Finish().Hex();
@@ -82,7 +82,7 @@ Result<std::string> ReadFile(const std::filesystem::path& path, std::uintmax_t m
                                                       std::to_string(max_bytes) + " bytes allowed"};
     }
     bytes += piece;
-    return Done{};
+    return Ok{};
   });
   if (!read) return std::move(read.error());
   return bytes;
@@ -104,7 +104,7 @@ Status WriteFile(const std::filesystem::path& path, std::string_view bytes) {
   }
   // The rename itself is durable only when the folder is synced; some file systems cannot.
   [[maybe_unused]] const bool synced = SyncDirectory(folder);
-  return Done{};
+  return Ok{};
 }
 
 }  // namespace farhorizon

@@ -111,7 +111,7 @@ Status WriteHorizonVector(const std::vector<HorizonFeature>& features,
   const bool written = WriteLayer(driver, absolute, features, session);
   CPLSetThreadLocalConfigOption("OGR_CURRENT_DATE", nullptr);
   // FlatGeobuf writes its file when the dataset is closed, so this failure may be the first.
-  if (written && !session.Failed()) return Done{};
+  if (written && !session.Failed()) return Ok{};
   std::filesystem::remove(path, ignored);
   return Error{ErrorCode::kIo, "cannot write " + path.filename().string() + session.Complaint()};
 }

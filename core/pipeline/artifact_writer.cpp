@@ -28,7 +28,7 @@ Status ArtifactWriter::Open() {
     return Error{ErrorCode::kIo, "cannot make the folder " + directory_.filename().string() + ": " +
                                      failure.message()};
   }
-  return Done{};
+  return Ok{};
 }
 
 Status ArtifactWriter::Add(const std::string& name, std::string_view bytes) {
@@ -40,7 +40,7 @@ Status ArtifactWriter::AddWritten(const std::string& name) {
   Result<std::string> bytes = ReadFile(PathOf(name));
   if (!bytes) return std::move(bytes.error());
   entries_.push_back({name, MediaTypeOf(name), bytes->size(), Sha256Hex(*bytes)});
-  return Done{};
+  return Ok{};
 }
 
 fs::path ArtifactWriter::PathOf(const std::string& name) const { return directory_ / name; }

@@ -93,7 +93,7 @@ Status WriteFeatures(const std::vector<HorizonFeature>& features, const BuildOpt
     if (!written) return written;
     return writer.AddWritten("horizon.fgb");
   }
-  return Done{};
+  return Ok{};
 }
 
 Result<std::vector<LevelReport>> WriteLevels(const LevelContext& context,
@@ -102,8 +102,8 @@ Result<std::vector<LevelReport>> WriteLevels(const LevelContext& context,
                                              const BuildOptions& options, ArtifactWriter& writer) {
   std::vector<LevelReport> reports;
   for (std::size_t i = 0; i < chain.size(); ++i) {
-    const Watch watch = LevelWatch(context.watch, i, chain.size());
-    Result<LevelArtifact> level = EncodeLevel(context.With(watch), chain[i], static_cast<int>(i),
+    const RunControl control = LevelControl(context.control, i, chain.size());
+    Result<LevelArtifact> level = EncodeLevel(context.With(control), chain[i], static_cast<int>(i),
                                               plans[i].lattice, plans[i].silhouette_error_m);
     if (!level) return std::move(level.error());
     level->report.asked_vertical_m = plans[i].max_error_m;
@@ -134,32 +134,32 @@ Result<std::vector<LevelReport>> WriteLevels(const LevelContext& context,
 }  // namespace
 
 Status BuildArtifacts(const fs::path& dem, const fs::path& directory, const BuildOptions& options,
-                      const Watch& watch) {
+                      const RunControl& control) {
   Status checked = CheckOptions(options);
   if (!checked) return checked;
-  watch.Report(Stage::kRead, 0);
+  control.Report(Stage::kRead, 0);
   Result<std::unique_ptr<TerrainInput>> input = TerrainInput::Open(dem, options);
   if (!input) return std::move(input.error());
   Result<std::vector<LevelPlan>> plans = PlanLevels(**input, options);
   if (!plans) return std::move(plans.error());
-  watch.Report(Stage::kRead, 1);
+  control.Report(Stage::kRead, 1);
 
-  Result<Horizon> horizon = FindHorizon((*input)->terrain(), HorizonOptionsOf(options), watch);
+  Result<Horizon> horizon = FindHorizon((*input)->terrain(), HorizonOptionsOf(options), control);
   if (!horizon) return std::move(horizon.error());
 
   std::vector<LevelBudget> budgets;
   for (const LevelPlan& plan : *plans) budgets.push_back(plan.budget);
-  Result<std::vector<Lod>> chain = BuildLodChain((*input)->terrain(), *horizon, budgets, watch);
+  Result<std::vector<Lod>> chain = BuildLodChain((*input)->terrain(), *horizon, budgets, control);
   if (!chain) return std::move(chain.error());
 
-  watch.Report(Stage::kEncode, 0);
+  control.Report(Stage::kEncode, 0);
   Result<PostNormals> normals = FindPostNormals((*input)->terrain(), (*input)->georeference());
   if (!normals) return std::move(normals.error());
   ArtifactWriter writer(directory);
   Status opened = writer.Open();
   if (!opened) return opened;
   const LevelContext context{(*input)->terrain(), *horizon, (*input)->georeference(), *normals,
-                             watch};
+                             control};
   Result<std::vector<LevelReport>> levels = WriteLevels(context, *plans, *chain, options, writer);
   if (!levels) return std::move(levels.error());
   if (Asks(options, "3dtiles")) {
@@ -167,9 +167,9 @@ Status BuildArtifacts(const fs::path& dem, const fs::path& directory, const Buil
     if (!tileset) return tileset;
   }
   Result<std::vector<HorizonFeature>> features =
-      BuildFeatures(**input, *horizon, LevelsKept(*horizon, *chain), options.threads, watch);
+      BuildFeatures(**input, *horizon, LevelsKept(*horizon, *chain), options.threads, control);
   if (!features) return std::move(features.error());
-  watch.Report(Stage::kWrite, 0);
+  control.Report(Stage::kWrite, 0);
   Status written = WriteFeatures(*features, options, writer);
   if (!written) return written;
   const Report report{Version(), (*input)->report(),
@@ -178,7 +178,7 @@ Status BuildArtifacts(const fs::path& dem, const fs::path& directory, const Buil
   Status reported = writer.Add("report.json", WriteReport(report));
   if (!reported) return reported;
   Status finished = writer.Finish();
-  watch.Report(Stage::kWrite, 1);
+  control.Report(Stage::kWrite, 1);
   return finished;
 }
 

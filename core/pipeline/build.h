@@ -2,8 +2,8 @@
 
 #include <filesystem>
 
-#include "core/base/progress.h"
 #include "core/base/result.h"
+#include "core/base/run_control.h"
 #include "core/pipeline/build_options.h"
 
 namespace farhorizon {
@@ -17,6 +17,6 @@ namespace farhorizon {
 /// Errors: those of CheckOptions, TerrainInput::Open, PlanLevels, FindHorizon and BuildLodChain;
 ///   kCancelled; kIo and kResourceExhausted where a file cannot be written.
 Status BuildArtifacts(const std::filesystem::path& dem, const std::filesystem::path& directory,
-                      const BuildOptions& options, const Watch& watch);
+                      const BuildOptions& options, const RunControl& control);
 
 }  // namespace farhorizon

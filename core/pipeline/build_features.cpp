@@ -8,7 +8,7 @@ namespace farhorizon {
 
 Result<std::vector<HorizonFeature>> BuildFeatures(const TerrainInput& input, const Horizon& horizon,
                                                   const std::vector<int>& level_kept, int threads,
-                                                  const Watch& watch) {
+                                                  const RunControl& control) {
   std::vector<VertexId> ends;
   for (const HorizonEdge& e : horizon.edges) {
     ends.push_back(e.edge.a);
@@ -17,7 +17,7 @@ Result<std::vector<HorizonFeature>> BuildFeatures(const TerrainInput& input, con
   Result<std::vector<Geodetic>> points = input.georeference().ToGeodetic(ends);
   if (!points) return std::move(points.error());
   Result<std::vector<EdgeMeasures>> measures =
-      MeasureEdges(input.terrain(), horizon, input.georeference(), threads, watch);
+      MeasureEdges(input.terrain(), horizon, input.georeference(), threads, control);
   if (!measures) return std::move(measures.error());
   const Dem& dem = input.dem();
   std::vector<HorizonFeature> features;

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "core/base/progress.h"
 #include "core/base/result.h"
+#include "core/base/run_control.h"
 #include "core/horizon/horizon.h"
 #include "core/io/horizon_features.h"
 #include "core/pipeline/terrain_input.h"
@@ -17,6 +17,6 @@ namespace farhorizon {
 /// Errors: those of MeasureEdges and Georeference::ToGeodetic.
 Result<std::vector<HorizonFeature>> BuildFeatures(const TerrainInput& input, const Horizon& horizon,
                                                   const std::vector<int>& level_kept, int threads,
-                                                  const Watch& watch);
+                                                  const RunControl& control);
 
 }  // namespace farhorizon

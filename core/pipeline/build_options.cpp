@@ -39,40 +39,40 @@ std::vector<std::string> SplitAtCommas(const std::string& text) {
 Status Read(const std::string& name, const std::string& value, BuildOptions& options) {
   const auto read_metres = [&](double& metres) -> Status {
     if (!ReadNumber(value, metres)) return Invalid(name, value, "a number of metres");
-    return Done{};
+    return Ok{};
   };
   if (name == "levels") {
     if (!ReadNumber(value, options.levels)) return Invalid(name, value, "a number from 1 to 12");
-    return Done{};
+    return Ok{};
   }
   if (name == "maxError") return read_metres(options.max_error_m.emplace());
   if (name == "silhouetteError") return read_metres(options.silhouette_error_m);
   if (name == "formats") {
     options.formats = SplitAtCommas(value);
-    return Done{};
+    return Ok{};
   }
   if (name == "crs") {
     options.crs = value;
-    return Done{};
+    return Ok{};
   }
   if (name == "verticalDatum") {
     options.vertical_datum = value;
-    return Done{};
+    return Ok{};
   }
   if (name == "nodata") {
     if (!ReadNumber(value, options.nodata.emplace())) return Invalid(name, value, "a number");
-    return Done{};
+    return Ok{};
   }
   if (name == "workBudget") {
     if (!ReadNumber(value, options.work_budget.emplace())) {
       return Invalid(name, value, "a whole number");
     }
-    return Done{};
+    return Ok{};
   }
   if (name == "approximate") {
     if (value != "true" && value != "false") return Invalid(name, value, "true or false");
     options.approximate = value == "true";
-    return Done{};
+    return Ok{};
   }
   return Error{ErrorCode::kInvalidArgument,
                "there is no parameter \"" + name +
@@ -109,7 +109,7 @@ Status CheckOptions(const BuildOptions& options) {
   if (options.threads < 1 || options.threads > 1024) {
     return Invalid("threads", std::to_string(options.threads), "1 to 1024");
   }
-  return Done{};
+  return Ok{};
 }
 
 Result<BuildOptions> ParseOptions(const std::map<std::string, std::string>& parameters) {

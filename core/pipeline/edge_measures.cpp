@@ -139,10 +139,10 @@ EdgeMeasures MeasuresOf(const LinesOfSight& sights, std::array<double, 2> along,
 
 Result<std::vector<EdgeMeasures>> MeasureEdges(const Terrain& terrain, const Horizon& horizon,
                                                const Georeference& georeference, int threads,
-                                               const Watch& watch) {
-  Result<std::vector<LinesOfSight>> sights = FindLinesOfSight(terrain, horizon, threads, watch);
+                                               const RunControl& control) {
+  Result<std::vector<LinesOfSight>> sights = FindLinesOfSight(terrain, horizon, threads, control);
   if (!sights) return std::move(sights.error());
-  watch.Report(Stage::kEdgeMeasures, 0);
+  control.Report(Stage::kEdgeMeasures, 0);
   std::vector<std::array<double, 2>> middles;
   for (const HorizonEdge& e : horizon.edges) {
     const Point3i a = terrain.Point(e.edge.a);
@@ -164,7 +164,8 @@ Result<std::vector<EdgeMeasures>> MeasureEdges(const Terrain& terrain, const Hor
       measures[i].skyline_drop_m = skyline_drops.Of(i) * terrain.dem().quantum_m;
     }
   };
-  if (!ParallelForBatches(measures.size(), kBatch, threads, Stage::kEdgeMeasures, watch, measure)) {
+  if (!ParallelForBatches(measures.size(), kBatch, threads, Stage::kEdgeMeasures, control,
+                          measure)) {
     return Error{ErrorCode::kCancelled, "stopped while weighing horizon edges"};
   }
   return measures;

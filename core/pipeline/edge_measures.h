@@ -3,8 +3,8 @@
 #include <array>
 #include <vector>
 
-#include "core/base/progress.h"
 #include "core/base/result.h"
+#include "core/base/run_control.h"
 #include "core/horizon/lines_of_sight/lines_of_sight.h"
 #include "core/io/horizon_features.h"
 #include "core/pipeline/georeference.h"
@@ -24,6 +24,6 @@ EdgeMeasures MeasuresOf(const LinesOfSight& sights, std::array<double, 2> along,
 /// Cost: that of FindLinesOfSight and SkylineDrops.
 Result<std::vector<EdgeMeasures>> MeasureEdges(const Terrain& terrain, const Horizon& horizon,
                                                const Georeference& georeference, int threads,
-                                               const Watch& watch);
+                                               const RunControl& control);
 
 }  // namespace farhorizon

@@ -117,11 +117,11 @@ Result<LevelReport> MeasureLevel(const LevelContext& context, const LocalMesh& d
                               static_cast<std::int32_t>(t[keeps ? 2 : 1])});
   }
   Result<MeshError> error = MeasureMeshError(context.terrain, context.horizon, grid, posts, asked_m,
-                                             context.watch.Between(0, kMeshErrorShare));
+                                             context.control.Between(0, kMeshErrorShare));
   if (!error) return std::move(error.error());
   Result<double> geometric = MeasureGeometricError(context.terrain, context.georeference, decoded);
   if (!geometric) return std::move(geometric.error());
-  context.watch.Report(Stage::kMeasure, 1);
+  context.control.Report(Stage::kMeasure, 1);
   LevelReport report;
   report.level = level;
   report.triangles = static_cast<std::int64_t>(decoded.triangles.size());
@@ -135,7 +135,7 @@ Result<LevelReport> MeasureLevel(const LevelContext& context, const LocalMesh& d
 
 Result<LevelArtifact> EncodeLevel(const LevelContext& context, const Lod& lod, int level,
                                   const QuantizationLattice& lattice, double asked_m) {
-  context.watch.Report(Stage::kEncode, 0);
+  context.control.Report(Stage::kEncode, 0);
   Result<LocalMesh> local = ToLocal(context, lod.mesh);
   if (!local) return std::move(local.error());
   LevelArtifact artifact;
@@ -146,10 +146,10 @@ Result<LevelArtifact> EncodeLevel(const LevelContext& context, const Lod& lod, i
   if (!decoded) return std::move(decoded.error());
   artifact.glb =
       WriteGlb(artifact.drc, *decoded, KeptInDecoded(context.horizon, lod, decoded->mesh));
-  context.watch.Report(Stage::kEncode, 1);
+  context.control.Report(Stage::kEncode, 1);
   Result<LevelReport> report = MeasureLevel(context, decoded->mesh, level, lattice.step_m, asked_m);
   if (!report) {
-    return std::move(report.error()).Within("level " + std::to_string(level));
+    return std::move(report.error()).WithContext("level " + std::to_string(level));
   }
   artifact.report = *std::move(report);
   artifact.report.horizon_edges = static_cast<std::int64_t>(lod.kept.size());

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/base/progress.h"
 #include "core/base/result.h"
+#include "core/base/run_control.h"
 #include "core/horizon/horizon.h"
 #include "core/io/local_mesh.h"
 #include "core/io/quantization_lattice.h"
@@ -22,20 +22,20 @@ struct LevelContext {
   const Horizon& horizon;
   const Georeference& georeference;
   const PostNormals& normals;
-  const Watch& watch;
+  const RunControl& control;
 
-  /// The same, watched by another watch, which must outlive it.
-  [[nodiscard]] LevelContext With(const Watch& other) const {
+  /// The same under another control, which must outlive it.
+  [[nodiscard]] LevelContext With(const RunControl& other) const {
     return {terrain, horizon, georeference, normals, other};
   }
 };
 
-/// The watch for level i of `count`.
-inline Watch LevelWatch(const Watch& watch, std::size_t i, std::size_t count) {
+/// The control of level i of `count`.
+inline RunControl LevelControl(const RunControl& control, std::size_t i, std::size_t count) {
   const auto share = [count](std::size_t n) {
     return static_cast<double>(n) / static_cast<double>(count);
   };
-  return watch.Between(share(i), share(i + 1));
+  return control.Between(share(i), share(i + 1));
 }
 
 /// A level as it is stored, and the measures of the mesh that it decodes to.

@@ -2,8 +2,8 @@
 
 #include <filesystem>
 
-#include "core/base/progress.h"
 #include "core/base/result.h"
+#include "core/base/run_control.h"
 #include "core/pipeline/build_options.h"
 
 namespace farhorizon {
@@ -15,6 +15,6 @@ namespace farhorizon {
 ///   plane cuts no ground, kind "no-such-level", with the heights at which it does; those of
 ///   TerrainInput::Open and TraceSweep.
 Status WriteSweepPicture(const std::filesystem::path& dem, const std::filesystem::path& out,
-                         double height_m, const BuildOptions& options, const Watch& watch);
+                         double height_m, const BuildOptions& options, const RunControl& control);
 
 }  // namespace farhorizon

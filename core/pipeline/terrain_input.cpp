@@ -32,17 +32,17 @@ Result<std::unique_ptr<TerrainInput>> TerrainInput::Open(const std::filesystem::
   std::unique_ptr<TerrainInput> input(new TerrainInput());
   Result<Dem> dem =
       ReadDem(path, {.max_posts = options.max_posts, .crs = options.crs, .nodata = options.nodata});
-  if (!dem) return std::move(dem.error()).Within("read DEM");
+  if (!dem) return std::move(dem.error()).WithContext("read DEM");
   input->dem_ = *std::move(dem);
   Result<Terrain> terrain = Terrain::Build(input->dem_);
-  if (!terrain) return std::move(terrain.error()).Within("triangulate DEM");
+  if (!terrain) return std::move(terrain.error()).WithContext("triangulate DEM");
   input->terrain_ = *terrain;
   Result<Georeference> georeference =
       Georeference::Of(*input->terrain_, options.vertical_datum.value_or(""));
-  if (!georeference) return std::move(georeference.error()).Within("place DEM on the globe");
+  if (!georeference) return std::move(georeference.error()).WithContext("place DEM on the globe");
   input->georeference_.emplace(*std::move(georeference));
   Result<std::string> sha256 = Sha256OfFile(path);
-  if (!sha256) return std::move(sha256.error()).Within("read DEM");
+  if (!sha256) return std::move(sha256.error()).WithContext("read DEM");
   input->report_.sha256 = *std::move(sha256);
   input->Describe();
   return input;

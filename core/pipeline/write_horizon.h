@@ -2,8 +2,8 @@
 
 #include <filesystem>
 
-#include "core/base/progress.h"
 #include "core/base/result.h"
+#include "core/base/run_control.h"
 #include "core/horizon/find_horizon.h"
 #include "core/pipeline/build_options.h"
 
@@ -17,7 +17,7 @@ namespace farhorizon {
 /// Errors: kInvalidArgument for another ending; those of TerrainInput::Open, FindHorizon,
 ///   BuildFeatures and of writing the file.
 Status WriteHorizonEdges(const std::filesystem::path& dem, const std::filesystem::path& out,
-                         const BuildOptions& options, const Watch& watch,
+                         const BuildOptions& options, const RunControl& control,
                          Engine engine = Engine::kAdaptive);
 
 }  // namespace farhorizon

@@ -95,17 +95,17 @@ Result<SkylineOfDirection> Published(const TerrainInput& input, const Horizon& h
 }
 
 Result<SkylineOfDirection> Find(const TerrainInput& input, double azimuth,
-                                const BuildOptions& options, const Watch& watch) {
+                                const BuildOptions& options, const RunControl& control) {
   const Dem& dem = input.dem();
   const std::array<double, 2> middle = {(dem.columns - 1) / 2.0, (dem.rows - 1) / 2.0};
   Result<std::vector<GroundStep>> step = input.georeference().StepsAt({middle});
   if (!step) return std::move(step.error());
-  Result<Horizon> horizon = FindHorizon(input.terrain(), HorizonOptionsOf(options), watch);
+  Result<Horizon> horizon = FindHorizon(input.terrain(), HorizonOptionsOf(options), control);
   if (!horizon) return std::move(horizon.error());
   Result<std::vector<LinesOfSight>> sights =
-      FindLinesOfSight(input.terrain(), *horizon, options.threads, watch);
+      FindLinesOfSight(input.terrain(), *horizon, options.threads, control);
   if (!sights) return std::move(sights.error());
-  watch.Report(Stage::kWrite, 0);
+  control.Report(Stage::kWrite, 0);
   const ViewDirection view = DirectionOf(azimuth, step->front());
   const ViewFrame frame(view, step->front(), middle);
   const DirectionalSkylines skylines(input.terrain(), *horizon, *sights);
@@ -140,22 +140,22 @@ ViewDirection DirectionOf(double azimuth_deg, const GroundStep& step) {
 
 Result<std::string> WriteSkyline(const std::filesystem::path& dem, double azimuth,
                                  SkylineFormat format, const BuildOptions& options,
-                                 const Watch& watch) {
+                                 const RunControl& control) {
   if (!(std::abs(azimuth) <= 360)) {
     return Error{ErrorCode::kInvalidArgument,
                  "an azimuth is in degrees clockwise from north, from -360 to 360", "bad-azimuth"};
   }
-  watch.Report(Stage::kRead, 0);
+  control.Report(Stage::kRead, 0);
   Result<std::unique_ptr<TerrainInput>> input = TerrainInput::Open(dem, options);
   if (!input) return std::move(input.error());
-  watch.Report(Stage::kRead, 1);
-  Result<SkylineOfDirection> skyline = Find(**input, azimuth, options, watch);
+  control.Report(Stage::kRead, 1);
+  Result<SkylineOfDirection> skyline = Find(**input, azimuth, options, control);
   if (!skyline) return std::move(skyline.error());
   std::string text = format == SkylineFormat::kGeoJson
                          ? WriteSkylineGeoJson(*skyline)
                          : DrawSkyline(*skyline, dem.filename().string() + " towards " +
                                                      Rounded(azimuth, 6) + " degrees");
-  watch.Report(Stage::kWrite, 1);
+  control.Report(Stage::kWrite, 1);
   return text;
 }
 

@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <string>
 
-#include "core/base/progress.h"
 #include "core/base/result.h"
+#include "core/base/run_control.h"
 #include "core/horizon/lines_of_sight/upper_envelope.h"
 #include "core/pipeline/build_options.h"
 #include "core/pipeline/ground_step.h"
@@ -30,6 +30,6 @@ ViewDirection DirectionOf(double azimuth_deg, const GroundStep& step);
 ///   of TerrainInput::Open, FindHorizon and FindLinesOfSight.
 Result<std::string> WriteSkyline(const std::filesystem::path& dem, double azimuth,
                                  SkylineFormat format, const BuildOptions& options,
-                                 const Watch& watch);
+                                 const RunControl& control);
 
 }  // namespace farhorizon

@@ -133,7 +133,7 @@ void Collapser::MarkNeighboursStale() {
   }
 }
 
-Status Collapser::Run(const CollapseRules& rules, const Watch& watch,
+Status Collapser::Run(const CollapseRules& rules, const RunControl& control,
                       const std::function<void(double)>& report) {
   Start(rules);
   last_cost_ = 0;
@@ -141,7 +141,7 @@ Status Collapser::Run(const CollapseRules& rules, const Watch& watch,
   std::int64_t steps = 0;
   while (!queue_.empty()) {
     if (steps++ % kStepsBetweenChecks == 0) {
-      if (watch.StopRequested()) return Error{ErrorCode::kCancelled, "stopped while simplifying"};
+      if (control.StopRequested()) return Error{ErrorCode::kCancelled, "stopped while simplifying"};
       if (report) {
         report(1.0 - static_cast<double>(surface_.triangle_count()) /
                          static_cast<double>(triangles_before));
@@ -157,7 +157,7 @@ Status Collapser::Run(const CollapseRules& rules, const Watch& watch,
     last_cost_ = entry.cost;
     MarkNeighboursStale();
   }
-  return Done{};
+  return Ok{};
 }
 
 }  // namespace farhorizon

@@ -5,8 +5,8 @@
 #include <unordered_set>
 #include <vector>
 
-#include "core/base/progress.h"
 #include "core/base/result.h"
+#include "core/base/run_control.h"
 #include "core/simplify/posts_by_triangle.h"
 #include "core/simplify/star.h"
 #include "core/simplify/surface.h"
@@ -41,7 +41,7 @@ class Collapser {
   /// Collapses under `rules` until no vertex can be removed.
   /// report: called with the share of the triangles that are gone.
   /// Errors: kCancelled. Cost: about n log n, and the posts under a star for each collapse tried.
-  Status Run(const CollapseRules& rules, const Watch& watch,
+  Status Run(const CollapseRules& rules, const RunControl& control,
              const std::function<void(double)>& report);
 
   [[nodiscard]] const Surface& surface() const { return surface_; }

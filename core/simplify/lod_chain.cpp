@@ -39,12 +39,12 @@ class ChainBuilder {
         guard_(terrain, horizon),
         ridges_(terrain, horizon, guard_.scale()) {}
 
-  Status BuildLevel(const LevelBudget& budget, const Watch& watch,
+  Status BuildLevel(const LevelBudget& budget, const RunControl& control,
                     const std::function<void(double)>& report) {
     const double quantum = terrain_.dem().quantum_m;
     const std::int32_t steps = guard_.scale().Steps(budget.silhouette_error_m / quantum);
     ridges_.Allow(steps);
-    ridges_.PruneLeaves(watch);
+    ridges_.PruneLeaves(control);
     CollapseRules rules;
     rules.limits = {budget.vertical_error_m / quantum, budget.longest_edge, budget.least_altitude,
                     steepest_};
@@ -54,7 +54,7 @@ class ChainBuilder {
     };
     rules.may_move = [this](VertexId v, VertexId b) { return ridges_.MayMove(v, b); };
     rules.move_ridges = [this](VertexId v, VertexId b) { return ridges_.Move(v, b); };
-    return collapser_.Run(rules, watch, report);
+    return collapser_.Run(rules, control, report);
   }
 
   [[nodiscard]] Lod Level() const {
@@ -98,21 +98,21 @@ class ChainBuilder {
 
 Result<std::vector<Lod>> BuildLodChain(const Terrain& terrain, const Horizon& horizon,
                                        const std::vector<LevelBudget>& budgets,
-                                       const Watch& watch) {
-  watch.Report(Stage::kSimplify, 0);
+                                       const RunControl& control) {
+  control.Report(Stage::kSimplify, 0);
   ChainBuilder builder(terrain, horizon);
   std::vector<Lod> levels;
   const auto count = static_cast<double>(budgets.size());
   for (const LevelBudget& budget : budgets) {
     const auto done = static_cast<double>(levels.size());
     const auto report = [&](double share) {
-      watch.Report(Stage::kSimplify, (done + share) / count);
+      control.Report(Stage::kSimplify, (done + share) / count);
     };
-    Status status = builder.BuildLevel(budget, watch, report);
+    Status status = builder.BuildLevel(budget, control, report);
     if (!status) return std::move(status.error());
     levels.push_back(builder.Level());
   }
-  watch.Report(Stage::kSimplify, 1.0);
+  control.Report(Stage::kSimplify, 1.0);
   return levels;
 }
 

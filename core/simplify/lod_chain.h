@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/base/progress.h"
 #include "core/base/result.h"
+#include "core/base/run_control.h"
 #include "core/horizon/horizon.h"
 #include "core/terrain/mesh.h"
 #include "core/terrain/terrain.h"
@@ -37,6 +37,7 @@ struct Lod {
 /// Requires: budgets do not fall from level to level.
 /// Errors: kCancelled.
 Result<std::vector<Lod>> BuildLodChain(const Terrain& terrain, const Horizon& horizon,
-                                       const std::vector<LevelBudget>& budgets, const Watch& watch);
+                                       const std::vector<LevelBudget>& budgets,
+                                       const RunControl& control);
 
 }  // namespace farhorizon

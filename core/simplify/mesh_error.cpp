@@ -159,8 +159,8 @@ std::vector<GridSegment> SidesOf(const GridMesh& mesh) {
 
 Result<MeshError> MeasureMeshError(const Terrain& terrain, const Horizon& horizon,
                                    const GridMesh& mesh, const std::vector<VertexId>& posts,
-                                   double asked_m, const Watch& watch) {
-  watch.Report(Stage::kMeasure, 0);
+                                   double asked_m, const RunControl& control) {
+  control.Report(Stage::kMeasure, 0);
   Result<Displacement> displacement = MeasureDisplacement(terrain, mesh, posts);
   if (!displacement) return std::move(displacement.error());
   Result<std::vector<Triangle>> triangles = TrianglesOverPosts(terrain, mesh, posts);
@@ -180,20 +180,20 @@ Result<MeshError> MeasureMeshError(const Terrain& terrain, const Horizon& horizo
   MeshError error;
   error.displacement = displacement->greatest;
   error.vertical = VerticalError(terrain, mesh);
-  watch.Report(Stage::kMeasure, 0.05);
+  control.Report(Stage::kMeasure, 0.05);
   error.silhouette.rms_m = RmsOverLines(SkylineOf(terrain, horizon), SidesOf(mesh),
                                         terrain.dem().columns, terrain.dem().rows);
-  watch.Report(Stage::kMeasure, 0.45);
+  control.Report(Stage::kMeasure, 0.45);
   const double quantum = terrain.dem().quantum_m;
   // A point of the mesh is at most `by_column`, `by_row` in plan and `greatest_m` in height away
   // from its counterpart on the mesh over posts. On the way in plan the height of that mesh changes
   // by no more than slope times distance.
   const double lost_m = displacement->greatest_m + HeightChange(terrain, *triangles, *displacement);
   Result<double> bound =
-      SilhouetteBound(terrain, horizon, *edges, (asked_m - lost_m) / quantum, watch);
+      SilhouetteBound(terrain, horizon, *edges, (asked_m - lost_m) / quantum, control);
   if (!bound) return std::move(bound.error());
   error.silhouette.max_m = *bound * quantum + lost_m;
-  watch.Report(Stage::kMeasure, 1.0);
+  control.Report(Stage::kMeasure, 1.0);
   return error;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/base/progress.h"
 #include "core/base/result.h"
+#include "core/base/run_control.h"
 #include "core/horizon/horizon.h"
 #include "core/terrain/mesh.h"
 #include "core/terrain/terrain.h"
@@ -34,6 +34,6 @@ struct MeshError {
 ///   post by more than half a cell; kCancelled.
 Result<MeshError> MeasureMeshError(const Terrain& terrain, const Horizon& horizon,
                                    const GridMesh& mesh, const std::vector<VertexId>& posts,
-                                   double asked_m, const Watch& watch);
+                                   double asked_m, const RunControl& control);
 
 }  // namespace farhorizon

@@ -195,7 +195,7 @@ bool RidgeNetwork::Replace(std::span<const RidgeId> old, const std::vector<Edge>
   return true;
 }
 
-void RidgeNetwork::PruneLeaves(const Watch& watch) {
+void RidgeNetwork::PruneLeaves(const RunControl& control) {
   if (allowance_ == 0) return;
   // In ascending order of the ridge's upper end: low ridges are the likeliest to be occluded.
   using Leaf = std::tuple<std::int32_t, RidgeId>;
@@ -208,7 +208,7 @@ void RidgeNetwork::PruneLeaves(const Watch& watch) {
   for (RidgeId r = 0; r < static_cast<RidgeId>(ridges_.size()); ++r) {
     if (ridges_[Index(r)].in_network) consider(r);
   }
-  while (!leaves.empty() && !watch.StopRequested()) {
+  while (!leaves.empty() && !control.StopRequested()) {
     const RidgeId r = std::get<1>(leaves.top());
     leaves.pop();
     if (!ridges_[Index(r)].in_network) continue;

@@ -5,7 +5,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "core/base/progress.h"
+#include "core/base/run_control.h"
 #include "core/geometry/finer_heights.h"
 #include "core/horizon/horizon.h"
 #include "core/horizon/visibility/occluder_set.h"
@@ -36,9 +36,9 @@ class RidgeNetwork {
   void Allow(std::int32_t steps) { allowance_ = steps; }
 
   /// Removes ridges one end of which meets no other ridge, lowest first, while the invariant holds.
-  /// Ends early, with the invariant intact, if the watch requests a stop.
+  /// Ends early, with the invariant intact, if the control requests a stop.
   /// Cost: one visibility query for each dependent of a ridge tried.
-  void PruneLeaves(const Watch& watch);
+  void PruneLeaves(const RunControl& control);
 
   /// Whether a post may be moved onto its neighbour: one on no ridge may, another along a ridge.
   [[nodiscard]] bool MayMove(VertexId v, VertexId b) const;

@@ -27,19 +27,19 @@ class BoundSearch {
       : asked_(std::clamp(asked, 1, std::max(most, 1))), most_(most) {}
 
   // Raises the bound until each of `count` edges, lowered by it, is occluded.
-  Status Include(std::size_t count, const IsOccluded& occluded, const Watch& watch) {
+  Status Include(std::size_t count, const IsOccluded& occluded, const RunControl& control) {
     // In scattered order, by steps of five eighths of the whole: neighbouring edges need about the
     // same bound, so it is near its end after few edges. Any order is sound.
     std::size_t stride = count * 5 / 8 + 1;
     while (std::gcd(stride, count) > 1) ++stride;
     std::size_t i = 0;
     for (std::size_t n = 0; n < count; ++n, i = (i + stride) % count) {
-      if (n % kEdgesBetweenChecks == 0 && watch.StopRequested()) {
+      if (n % kEdgesBetweenChecks == 0 && control.StopRequested()) {
         return Error{ErrorCode::kCancelled, "stopped while measuring the silhouette"};
       }
       if (!occluded(i, bound_)) Raise(i, occluded);
     }
-    return Done{};
+    return Ok{};
   }
 
   [[nodiscard]] std::int32_t bound() const { return bound_; }
@@ -84,7 +84,7 @@ bool IsTerrainEdge(const Terrain& terrain, Edge edge) {
 
 Result<double> SilhouetteBound(const Terrain& terrain, const Horizon& horizon,
                                const std::vector<MeshEdge>& edges, double asked,
-                               const Watch& watch) {
+                               const RunControl& control) {
   const SkylineGuard guard(terrain, horizon);
   const FinerHeights& scale = guard.scale();
   BoundSearch search(scale.Steps(asked), scale.most_steps);
@@ -103,7 +103,7 @@ Result<double> SilhouetteBound(const Terrain& terrain, const Horizon& horizon,
       [&](std::size_t i, std::int32_t steps) {
         return guard.IsOccluded(added[i].a, added[i].b, steps);
       },
-      watch);
+      control);
   if (!above) return std::move(above.error());
 
   // H of the mesh is not below that of the DEM. A horizon edge that is an edge of the mesh has
@@ -122,7 +122,7 @@ Result<double> SilhouetteBound(const Terrain& terrain, const Horizon& horizon,
         const Segment lowered = Lowered(lost[i], steps);
         return !occluders.FindLineOfSight({.segment = lowered, .ties = Ties::kBlock}).witness;
       },
-      watch);
+      control);
   if (!below) return std::move(below.error());
   return scale.Quanta(search.bound());
 }

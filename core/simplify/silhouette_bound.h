@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "core/base/progress.h"
 #include "core/base/result.h"
+#include "core/base/run_control.h"
 #include "core/horizon/horizon.h"
 #include "core/simplify/mesh_edges.h"
 #include "core/terrain/terrain.h"
@@ -22,6 +22,6 @@ namespace farhorizon {
 /// Errors: kCancelled. Cost: a visibility query for each edge that simpler proofs do not settle.
 Result<double> SilhouetteBound(const Terrain& terrain, const Horizon& horizon,
                                const std::vector<MeshEdge>& edges, double asked,
-                               const Watch& watch);
+                               const RunControl& control);
 
 }  // namespace farhorizon

@@ -23,15 +23,16 @@ Status WriteTimings(const std::string& path, StageTimer& timer) {
   std::ofstream file(path);
   file << nlohmann::json(timer.Seconds()).dump(2) << "\n";
   file.close();
-  if (file) return Done{};
+  if (file) return Ok{};
   return Error{ErrorCode::kIo, "cannot write the timings to " + path};
 }
 
 int Run(const BuildArguments& arguments) {
   return ExitStatusOf(RunOnDem(arguments.dem, Workflow::kBuild, [&](const DemRun& run) {
     StageTimer timer;
-    const Watch watch{timer.Listen(run.watch.progress), run.watch.stop, run.watch.notice};
-    Status built = BuildArtifacts(arguments.dem.path, arguments.directory, run.options, watch);
+    const RunControl control{timer.Listen(run.control.progress), run.control.stop,
+                             run.control.on_warning};
+    Status built = BuildArtifacts(arguments.dem.path, arguments.directory, run.options, control);
     if (built && !arguments.timings.empty()) built = WriteTimings(arguments.timings, timer);
     return built;
   }));

@@ -6,8 +6,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include "core/base/progress.h"
 #include "core/base/result.h"
+#include "core/base/run_control.h"
 #include "core/pipeline/build.h"
 #include "core/pipeline/progress_plan.h"
 #include "service/cli/build_flags.h"
@@ -35,7 +35,7 @@ void AddRunFlags(CLI::App& command, DemArguments& arguments);
 struct DemRun {
   const BuildOptions& options;
   Reporter& reporter;
-  Watch watch;
+  RunControl control;
 };
 
 /// Calls work(const DemRun&) and returns its Result, after the progress bar was removed.
@@ -48,8 +48,8 @@ auto RunOnDem(const DemArguments& arguments, Workflow workflow, Work work)
   if (!options) return std::move(options.error());
   const StopOnSignal signals;
   Reporter reporter(arguments.reporter);
-  const Watch watch{reporter.progress(workflow), signals.token(), reporter.notice()};
-  return work(DemRun{*options, reporter, watch});
+  const RunControl control{reporter.progress(workflow), signals.token(), reporter.warn()};
+  return work(DemRun{*options, reporter, control});
 }
 
 }  // namespace farhorizon

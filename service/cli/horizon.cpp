@@ -35,8 +35,8 @@ int Run(const HorizonArguments& arguments) {
   return ExitStatusOf(RunOnDem(arguments.dem, WorkflowOf(arguments), [&](const DemRun& run) {
     return arguments.trace_level_m
                ? WriteSweepPicture(dem, arguments.file, *arguments.trace_level_m, run.options,
-                                   run.watch)
-               : WriteHorizonEdges(dem, arguments.file, run.options, run.watch,
+                                   run.control)
+               : WriteHorizonEdges(dem, arguments.file, run.options, run.control,
                                    EngineOf(arguments.engine));
   }));
 }

@@ -36,7 +36,7 @@ Progress Reporter::progress(Workflow workflow) {
   };
 }
 
-Notice Reporter::notice() {
+WarningHandler Reporter::warn() {
   return [this](const std::string& text) {
     Clear();
     const std::string line =

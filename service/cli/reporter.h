@@ -5,7 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "core/base/progress.h"
+#include "core/base/run_control.h"
 #include "core/pipeline/progress_plan.h"
 
 namespace farhorizon {
@@ -28,7 +28,7 @@ class Reporter {
   /// Shows each step with its percentage of the workflow. Requires: this outlives it.
   Progress progress(Workflow workflow);
   /// Prints each notice on a line of its own, in every form. Requires: this outlives it.
-  Notice notice();
+  WarningHandler warn();
   /// Shows `stage`, the share of it that is done, and the percentage of the whole work.
   void Show(const std::string& stage, double done, int percent);
   /// Removes the bar, so that a message can be printed in its place. So does the destructor.

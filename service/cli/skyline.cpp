@@ -21,7 +21,7 @@ Status Print(const std::string& text) {
   const bool written =
       std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
   if (!written) return Error{ErrorCode::kIo, "cannot write to the standard output", "io"};
-  return Done{};
+  return Ok{};
 }
 
 int Run(const SkylineArguments& arguments) {
@@ -32,7 +32,7 @@ int Run(const SkylineArguments& arguments) {
             file.empty() ? SkylineFormat::kGeoJson : SkylineFormatOf(file);
         if (!format) return std::move(format.error());
         return WriteSkyline(arguments.dem.path, arguments.azimuth_deg, *format, run.options,
-                            run.watch);
+                            run.control);
       });
   if (!skyline) return ReportError(skyline.error());
   return ExitStatusOf(file.empty() ? Print(*skyline) : WriteFile(file, *skyline));

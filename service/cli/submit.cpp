@@ -38,10 +38,10 @@ struct SubmitArguments {
 class RemoteJob {
  public:
   RemoteJob(const ServiceUrl& url, const SubmitArguments& arguments, const DemRun& run)
-      : client_(url, run.watch.stop),
+      : client_(url, run.control.stop),
         arguments_(arguments),
         reporter_(run.reporter),
-        stop_(run.watch.stop) {}
+        stop_(run.control.stop) {}
 
   Status Run() {
     Status sent = Send();
@@ -69,7 +69,7 @@ class RemoteJob {
     Result<json> job = client_.SendForJson("/jobs?" + EncodeQuery(query), 201, request);
     if (!job) return std::move(job.error());
     id_ = job->value("jobID", "");
-    if (IsJobId(id_)) return Done{};
+    if (IsJobId(id_)) return Ok{};
     return Error{ErrorCode::kIo, "the service's answer names no job; is it a farhorizon?"};
   }
 
@@ -81,7 +81,7 @@ class RemoteJob {
       const std::string stage = job->value("message", "");
       const int percent = job->value("progress", 0);
       reporter_.Show(stage, percent / 100.0, percent);
-      if (status == "successful") return Done{};
+      if (status == "successful") return Ok{};
       if (status == "dismissed") {
         return Error{ErrorCode::kUnsupportedData, "the job was dismissed by somebody"};
       }
@@ -106,7 +106,7 @@ class RemoteJob {
       return Error{ErrorCode::kIo,
                    "cannot make the folder " + arguments_.directory + ": " + failure.message()};
     }
-    Status fetched = Done{};
+    Status fetched = Ok{};
     std::vector<std::string> names;
     for (const auto& [name, link] : results->items()) {
       if (fetched) fetched = FetchOne(name, names);
@@ -136,14 +136,14 @@ class RemoteJob {
     Result<ClientResponse> response = client_.Send(request);
     if (!response) return std::move(response.error());
     if (response->status != 200) return ErrorOfProblem(*response);
-    return Done{};
+    return Ok{};
   }
 
   Status CheckAgainstManifest(const std::vector<std::string>& names) {
     Result<std::string> text = ReadFile(PartOf("manifest.json"));
-    if (!text) return std::move(text.error()).Within("manifest.json");
+    if (!text) return std::move(text.error()).WithContext("manifest.json");
     Result<std::vector<ManifestEntry>> entries = ReadManifest(*text);
-    if (!entries) return std::move(entries.error()).Within("manifest.json");
+    if (!entries) return std::move(entries.error()).WithContext("manifest.json");
     for (const ManifestEntry& entry : *entries) {
       Result<std::string> found = Error{ErrorCode::kNotFound, "it was not fetched"};
       if (std::find(names.begin(), names.end(), entry.name) != names.end()) {
@@ -154,7 +154,7 @@ class RemoteJob {
                      entry.name + " is not what manifest.json says; fetch it again"};
       }
     }
-    return Done{};
+    return Ok{};
   }
 
   JobClient client_;

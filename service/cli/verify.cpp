@@ -19,7 +19,7 @@ int Run(const VerifyArguments& arguments) {
   Result<std::vector<ClaimCheck>> checks =
       RunOnDem(arguments.dem, Workflow::kVerify, [&](const DemRun& run) {
         return VerifyArtifacts(arguments.dem.path, arguments.directory, run.options,
-                               Watch{run.watch.progress, run.watch.stop});
+                               RunControl{run.control.progress, run.control.stop});
       });
   if (!checks) return ReportError(checks.error());
   std::size_t broken = 0;

@@ -47,7 +47,7 @@ Status Set(const ConfigKey& key, const std::string& text, const std::string& ori
     key.set(loaded.config, number);
   }
   loaded.origins[key.name] = origin;
-  return Done{};
+  return Ok{};
 }
 
 const ConfigKey* FindKey(const std::string& name) {
@@ -82,7 +82,7 @@ Status SetSection(const nlohmann::json& section, const std::string& prefix,
     Status set = Set(*key, wants_text ? value.get<std::string>() : value.dump(), origin, loaded);
     if (!set) return set;
   }
-  return Done{};
+  return Ok{};
 }
 
 Status LoadFile(const std::filesystem::path& path, LoadedConfig& loaded) {

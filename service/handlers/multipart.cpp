@@ -87,12 +87,12 @@ Status MultipartParser::Feed(std::string_view piece) {
   for (;;) {
     Result<bool> stepped = Step();
     if (!stepped) return std::move(stepped.error());
-    if (!*stepped) return Done{};
+    if (!*stepped) return Ok{};
   }
 }
 
 Status MultipartParser::Finish() const {
-  if (state_ == State::kEnd) return Done{};
+  if (state_ == State::kEnd) return Ok{};
   return Broken("it stops before its closing boundary");
 }
 

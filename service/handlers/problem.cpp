@@ -24,9 +24,9 @@ constexpr ErrorKind kKinds400[] = {
     "invalid-json",      "invalid-multipart",
     "invalid-parameter", "invalid-query-parameter-value",
     "invalid-url",       "max-error-too-small",
-    "no-such-level",     "not-available",
-    "unknown-config",    "unknown-format",
-    "unknown-parameter", "virtual-path",
+    "no-such-level",     "unknown-config",
+    "unknown-format",    "unknown-parameter",
+    "virtual-path",
 };
 constexpr ErrorKind kKinds404[] = {
     "no-config",        "no-such-file", "no-such-job",          "no-such-output",

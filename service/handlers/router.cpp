@@ -57,7 +57,7 @@ class BodylessExchange : public Exchange {
 
   Status Take(std::string_view) override {
     Check(false, "a request with a body is not admitted here");
-    return Done{};
+    return Ok{};
   }
   HttpResponse Finish() override { return answer_(request_); }
 

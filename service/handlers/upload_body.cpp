@@ -36,10 +36,10 @@ Status UploadBody::Take(std::string_view piece) {
 }
 
 Status UploadBody::Finish() const {
-  if (!form_) return Done{};
+  if (!form_) return Ok{};
   Status ended = form_->Finish();
   if (!ended) return ended;
-  if (has_dem_) return Done{};
+  if (has_dem_) return Ok{};
   return InvalidForm("the form has no part named 'dem'");
 }
 
@@ -58,13 +58,13 @@ Status UploadBody::BeginPart(const PartHead& head) {
   } else {
     params_.emplace();
   }
-  return Done{};
+  return Ok{};
 }
 
 Status UploadBody::TakePart(std::string_view data) {
   if (in_dem_) return spool_.Write(data);
   *params_ += data;
-  if (params_->size() <= kMaxParamsBytes) return Done{};
+  if (params_->size() <= kMaxParamsBytes) return Ok{};
   return InvalidForm("the part 'params' is larger than 65536 bytes");
 }
 

@@ -87,7 +87,7 @@ class ClientConnection {
     error_code failure;
     co_await asio::async_write(stream_, asio::buffer(head), Into(failure));
     if (failure) co_return Broken("send", failure);
-    co_return Done{};
+    co_return Ok{};
   }
 
   asio::awaitable<Status> SendUpload() {
@@ -106,7 +106,7 @@ class ClientConnection {
         request_.uploaded(static_cast<double>(sent) / static_cast<double>(total_));
       }
     }
-    co_return Done{};
+    co_return Ok{};
   }
 
   asio::awaitable<Result<ClientResponse>> Receive() {

@@ -70,7 +70,7 @@ Status AsioServer::Open() {
   if (!failure) acceptor_.bind(endpoint, failure);
   if (!failure) acceptor_.listen(asio::socket_base::max_listen_connections, failure);
   if (failure) return cannot(failure);
-  return Done{};
+  return Ok{};
 }
 
 void AsioServer::Serve(const Router& router) {

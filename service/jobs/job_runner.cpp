@@ -143,7 +143,7 @@ Status JobRunner::Publish(const Job& job, const WorkerOutcome& outcome, const fs
     if (*published) {
       const std::int64_t took = NowMs() - job.started_ms.value_or(job.created_ms);
       Log(LogLevel::kInfo, "job successful", {{"job_id", job.id}, {"dur_ms", took}});
-      return Done{};
+      return Ok{};
     }
     for (const Artifact& artifact : *artifacts) objects.push_back(artifact.sha256);
   }

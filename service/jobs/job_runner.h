@@ -5,8 +5,8 @@
 #include <stop_token>
 #include <string>
 
-#include "core/base/progress.h"
 #include "core/base/result.h"
+#include "core/base/run_control.h"
 #include "service/jobs/job_store.h"
 #include "service/jobs/object_collector.h"
 #include "service/jobs/object_store.h"

@@ -58,7 +58,7 @@ JobService::~JobService() = default;
 Status JobService::CheckDisk() {
   Result<std::int64_t> room = FreeBytes(directory_.root);
   if (!room) return std::move(room.error());
-  if (*room >= options_.min_free_bytes) return Done{};
+  if (*room >= options_.min_free_bytes) return Ok{};
   return Error{ErrorCode::kResourceExhausted,
                "the disk has less than " + std::to_string(options_.min_free_bytes) +
                    " bytes left; try later, or dismiss finished jobs",
@@ -74,7 +74,7 @@ Status JobService::CheckRoom() {
   if (!disk) return disk;
   Result<std::int64_t> waiting = jobs_->CountWaiting();
   if (!waiting) return std::move(waiting.error());
-  if (*waiting < options_.max_waiting) return Done{};
+  if (*waiting < options_.max_waiting) return Ok{};
   return Error{ErrorCode::kResourceExhausted,
                std::to_string(*waiting) + " jobs are waiting, as many as may; try again later",
                "queue-full"};
@@ -88,7 +88,7 @@ Status JobService::CheckReady() {
 }
 
 Status JobService::Probe(const SpoolFile& upload, const Submission& submission) {
-  if (upload.bytes() > options_.probe.max_bytes) return Done{};
+  if (upload.bytes() > options_.probe.max_bytes) return Ok{};
   const fs::path directory = directory_.Work() / ("probe-" + std::to_string(next_probe_++));
   const fs::path input = fs::path("in") / submission.filename;
   std::error_code failure;
@@ -98,7 +98,7 @@ Status JobService::Probe(const SpoolFile& upload, const Submission& submission) 
   if (!failure) fs::create_hard_link(upload.path(), directory / input, failure);
   const RunnerOptions& runner = options_.runner;
   const WorkerTask task{input.string(), "", submission.parameters, runner.max_posts, 1};
-  Status readable = Done{};
+  Status readable = Ok{};
   if (!failure && WriteTaskFile(directory, task)) {
     probes_.acquire();
     WorkerOutcome outcome =

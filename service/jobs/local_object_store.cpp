@@ -53,7 +53,7 @@ class LocalObjectStore : public ObjectStore {
     UniqueFd copy(::open(temp.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0400));
     if (!copy) return StorageError("make an object");
     Result<StoredObject> object = CopyAndHash(source->get(), copy.get());
-    Status placed = Done{};
+    Status placed = Ok{};
     if (!object) {
       placed = std::move(object.error());
     } else if (::fsync(copy.get()) != 0) {
@@ -88,7 +88,7 @@ class LocalObjectStore : public ObjectStore {
     if (copied->sha256 != sha256) {
       return Error{ErrorCode::kIo, "the stored upload is damaged; send it again", "input-corrupt"};
     }
-    return Done{};
+    return Ok{};
   }
 
   Status Remove(const std::string& sha256) override {
@@ -96,7 +96,7 @@ class LocalObjectStore : public ObjectStore {
     if (::unlink(PathOf(sha256).c_str()) != 0 && errno != ENOENT) {
       return StorageError("remove an object");
     }
-    return Done{};
+    return Ok{};
   }
 
   Result<std::vector<std::string>> List() override {
@@ -125,7 +125,7 @@ class LocalObjectStore : public ObjectStore {
     }
     if (::rename(temp.c_str(), target.c_str()) != 0) return StorageError("place an object");
     if (!SyncDirectory(target.parent_path())) return StorageError("sync a folder");
-    return Done{};
+    return Ok{};
   }
 
   fs::path root_;

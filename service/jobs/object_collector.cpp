@@ -11,7 +11,7 @@ Status ObjectCollector::RemoveUnreferenced(const std::vector<std::string>& names
     Status removed = objects_.Remove(name);
     if (!removed) return removed;
   }
-  return Done{};
+  return Ok{};
 }
 
 Status ObjectCollector::RemoveAllUnreferenced() {

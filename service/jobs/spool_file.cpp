@@ -33,7 +33,7 @@ Status SpoolFile::Write(std::string_view bytes) {
     beginning_ += bytes.substr(0, kBeginningBytes - beginning_.size());
   }
   bytes_ += static_cast<std::int64_t>(bytes.size());
-  return Done{};
+  return Ok{};
 }
 
 }  // namespace farhorizon

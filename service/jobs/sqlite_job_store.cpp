@@ -74,7 +74,7 @@ Status SqliteJobStore::Open(const std::filesystem::path& path) {
                       "it may be damaged: restore it from a backup, or move the data directory "
                       "away to start afresh");
     }
-    return Done{};
+    return Ok{};
   });
 }
 
@@ -293,7 +293,7 @@ Status SqliteJobStore::Ping() {
   return Guarded([&]() -> Status {
     Transaction transaction(database_);
     transaction.Commit();
-    return Done{};
+    return Ok{};
   });
 }
 

@@ -52,10 +52,10 @@ Status Run(bool probe_only, StageTimer& timer) {
   if (probe_only) {
     Result<Dem> dem = ReadDem(task->input, {options->max_posts, options->crs, options->nodata});
     if (!dem) return std::move(dem.error());
-    return Done{};
+    return Ok{};
   }
   return BuildArtifacts(task->input, task->output, *options,
-                        Watch{timer.Listen(SendProgress()), {}});
+                        RunControl{timer.Listen(SendProgress()), {}});
 }
 
 }  // namespace

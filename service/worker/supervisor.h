@@ -5,8 +5,8 @@
 #include <stop_token>
 #include <string>
 
-#include "core/base/progress.h"
 #include "core/base/result.h"
+#include "core/base/run_control.h"
 #include "service/worker/child_process.h"
 
 namespace farhorizon {

@@ -79,7 +79,7 @@ Status WriteTaskFile(const std::filesystem::path& directory, const WorkerTask& t
   file << WriteTask(task);
   file.close();
   if (!file) return Error{ErrorCode::kIo, "write the worker's task", "storage"};
-  return Done{};
+  return Ok{};
 }
 
 Result<WorkerTask> ReadTaskFile() {

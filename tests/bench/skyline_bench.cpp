@@ -1,5 +1,6 @@
-// One direction of the skyline: from the interval tree of the horizon edges' directions, beside the envelope of
-// all horizon edges and that of all edges of the terrain. Medians over directions all around.
+// One direction of the skyline: from the interval tree of the horizon edges' directions, beside the
+// envelope of all horizon edges and that of all edges of the terrain. Medians over directions all
+// around.
 //
 //   skyline_bench DEM [DIRECTIONS]
 #include <algorithm>

@@ -1,5 +1,5 @@
-// The time and memory of each stage of the adaptive engine on square cuts of a DEM, side by side with
-// what sorting the heights and reading every edge once takes; medians, and how they grow.
+// The time and memory of each stage of the adaptive engine on square cuts of a DEM, side by side
+// with what sorting the heights and reading every edge once takes; medians, and how they grow.
 //
 //   stages_bench DEM [REPETITIONS]
 #include <algorithm>

@@ -1,4 +1,5 @@
-// `farhorizon horizon` as it is typed: the program itself, its files, its exit status and what it says.
+// `farhorizon horizon` as it is typed: the program itself, its files, its exit status and what it
+// says.
 #include <filesystem>
 #include <set>
 #include <string>

@@ -42,8 +42,8 @@ class SkylineE2e : public testing::Test {
   TempDir folder_;
 };
 
-/// Whether [[from, to], ...], each standing for its opposite too, hold the azimuth, to a tenth of a degree:
-/// they are measured at the edge, and the azimuth at the DEM's middle.
+/// Whether [[from, to], ...], each standing for its opposite too, hold the azimuth, to a tenth of a
+/// degree: they are measured at the edge, and the azimuth at the DEM's middle.
 bool Hold(const json& azimuths, double azimuth) {
   for (const json& interval : azimuths) {
     for (int turn = -2; turn <= 4; ++turn) {

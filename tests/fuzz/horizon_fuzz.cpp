@@ -1,6 +1,5 @@
-// libFuzzer's target: the engines against each other, the kinetic one's invariants and, on tiny grids, the
-// definition.
-// An offence is shrunk, drawn and ends the run; libFuzzer keeps the bytes.
+// libFuzzer's target: the engines against each other, the kinetic one's invariants and, on tiny
+// grids, the definition. An offence is shrunk, drawn and ends the run; libFuzzer keeps the bytes.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>

@@ -34,13 +34,13 @@ Form Read(std::string_view body, std::size_t piece) {
   farhorizon::MultipartParser parser("XX",
                                      {[&](const farhorizon::PartHead& head) -> farhorizon::Status {
                                         form.parts.push_back({head.name, head.filename, ""});
-                                        return farhorizon::Done{};
+                                        return farhorizon::Ok{};
                                       },
                                       [&](std::string_view data) -> farhorizon::Status {
                                         form.parts.back().data += data;
-                                        return farhorizon::Done{};
+                                        return farhorizon::Ok{};
                                       }});
-  farhorizon::Status status = farhorizon::Done{};
+  farhorizon::Status status = farhorizon::Ok{};
   for (; status && !body.empty(); body.remove_prefix(std::min(piece, body.size()))) {
     status = parser.Feed(body.substr(0, piece));
   }

@@ -1,7 +1,7 @@
 // libFuzzer's target: the reader of request heads. An accepted head keeps the rules of HttpRequest,
-// is read alike after it is written again, and is framed alike by another reader, Beast's.
-// Bytes are ASCII characters, or from 0x80 on the words of kWords: chance alone seldom writes a head
-// that is accepted.
+// is read alike after it is written again, and is framed alike by another reader, Beast's. Bytes
+// are ASCII characters, or from 0x80 on the words of kWords: chance alone seldom writes a head that
+// is accepted.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>

@@ -1,10 +1,10 @@
-// Definition D2 taken at its word.
-// The lines that touch ab are pairs of a position t along it and a direction. Each other segment f
-// blocks at t the arc of directions towards its part above p(t). The ends of the arcs move with t;
-// their order can change only at roots of polynomials of degree at most two: where p(t) and two of
-// them are in line, where p(t) has the height of an end of f, where it passes f in plan. Between two
-// neighbouring roots the arcs leave a direction free everywhere or nowhere, so one sample decides.
-// A ring of arcs that hides everything at a sample does so up to the nearest root of its own
+// Definition D2 taken at its word. The lines that touch ab are pairs of a position t along it and a
+// direction. Each other segment f blocks at t the arc of directions towards its part above p(t).
+// The ends of the arcs move with t; their order can change only at roots of polynomials of degree
+// at most two: where p(t) and two of them are in line, where p(t) has the height of an end of f,
+// where it passes f in plan. Between two neighbouring roots the arcs leave a direction free
+// everywhere or nowhere, so one sample decides. A ring of arcs that hides everything at a sample
+// does so up to the nearest root of its own
 // polynomials: all the cells up to there need no sample of theirs.
 
 #include "tests/oracles/horizon_brute_force.h"

@@ -9,7 +9,8 @@
 
 namespace farhorizon {
 
-/// Any triangulated surface; indices: n_triangles x 3 into `points`. No two triangles overlap in plan.
+/// Any triangulated surface; indices: n_triangles x 3 into `points`. No two triangles overlap in
+/// plan.
 struct OracleMesh {
   std::vector<Point3i> points;
   std::vector<Triangle> triangles;
@@ -24,23 +25,24 @@ std::vector<Edge> CreasesOf(const OracleMesh& mesh);
 /// Every edge, by rising (a, b).
 std::vector<Edge> EdgesOf(const OracleMesh& mesh);
 
-/// The horizon edges of `mesh` by definition D2: creases e for which {l : g_e(l) = H(l)} has interior
-/// points among the plan lines. By rising (a, b). Exact; slow.
+/// The horizon edges of `mesh` by definition D2: creases e for which {l : g_e(l) = H(l)} has
+/// interior points among the plan lines. By rising (a, b). Exact; slow.
 std::vector<Edge> HorizonByBruteForce(const OracleMesh& mesh);
 std::vector<Edge> HorizonByBruteForce(const Terrain& terrain);
 
-/// Lines of sight: through the point t of the way along the segment, in the directions of `gap` but for
-/// finitely many of them.
+/// Lines of sight: through the point t of the way along the segment, in the directions of `gap` but
+/// for finitely many of them.
 struct OracleLineOfSight {
   oracle::DyadicNumber t;
   oracle::FreeGap gap;
 };
 
-/// A sample of the lines of sight that touch `segment` and meet none of `obstacles` above it (kPass),
-/// or at or above it (kBlock); nullopt where they have no interior points among the plan lines. Exact.
+/// A sample of the lines of sight that touch `segment` and meet none of `obstacles` above it
+/// (kPass), or at or above it (kBlock); nullopt where they have no interior points among the plan
+/// lines. Exact.
 ///
-/// Requires: neither the segment nor an obstacle is a point in plan; the extent of all in plan times
-/// that in height is below 2^60.
+/// Requires: neither the segment nor an obstacle is a point in plan; the extent of all in plan
+/// times that in height is below 2^60.
 std::optional<OracleLineOfSight> LineOfSightByBruteForce(const Segment& segment,
                                                          const std::vector<Segment>& obstacles,
                                                          Ties ties);

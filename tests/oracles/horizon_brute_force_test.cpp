@@ -33,8 +33,8 @@ std::int64_t CountAt(const std::vector<Edge>& edges, VertexId post) {
 }
 
 /// The line of sight meets nothing of `obstacles` above the point it comes from (kPass), or at or
-/// above it (kBlock), in one of some directions of its gap: an obstacle in line with the point blocks
-/// one direction without an arc, so not every direction need do.
+/// above it (kBlock), in one of some directions of its gap: an obstacle in line with the point
+/// blocks one direction without an arc, so not every direction need do.
 bool LineOfSightHolds(const OracleLineOfSight& sight, const Segment& segment,
                       const std::vector<Segment>& obstacles, Ties ties) {
   const Wide denominator = Wide(1) << static_cast<unsigned>(sight.t.exponent);
@@ -95,8 +95,9 @@ std::vector<std::array<std::int32_t, 6>> Sorted(const std::vector<Segment>& segm
   return rows;
 }
 
-// O1. A line that crosses a side of the square enters it, and leaves it or ends at a corner: on the way
-// it crosses a slanted edge above the ground. So the sides are hidden, the slanted edges are not.
+// O1. A line that crosses a side of the square enters it, and leaves it or ends at a corner: on the
+// way it crosses a slanted edge above the ground. So the sides are hidden, the slanted edges are
+// not.
 TEST(BruteForce, APyramidShowsItsFourSlantedEdges) {
   EXPECT_THAT(HorizonOf(AsciiDem(".0.\n010\n.0.")),
               testing::ElementsAre(Edge{1, 4}, Edge{3, 4}, Edge{4, 5}, Edge{4, 7}));
@@ -119,9 +120,10 @@ TEST(BruteForce, APeakInACraterOpenToOppositeSidesShowsFourOfItsSixEdges) {
   EXPECT_EQ(CountAt(HorizonOf(Crater(true, false, true)), 24), 4);
 }
 
-// O4. Rim, slopes, and the boundary edges at the north-east and the south-west corner: a line that cuts
-// one of these corners off stays on its flat triangle, at height 0. At the other two corners it would
-// cross the slanted edge that ends there. The plateau's diagonal 5-10 attains H too, but is no crease.
+// O4. Rim, slopes, and the boundary edges at the north-east and the south-west corner: a line that
+// cuts one of these corners off stays on its flat triangle, at height 0. At the other two corners
+// it would cross the slanted edge that ends there. The plateau's diagonal 5-10 attains H too, but
+// is no crease.
 TEST(BruteForce, APlateauShowsItsRimItsSlopesAndTwoCornersOfTheMap) {
   EXPECT_THAT(
       HorizonOf(AsciiDem("0000\n0550\n0550\n0000")),

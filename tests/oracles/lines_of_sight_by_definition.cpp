@@ -1,5 +1,5 @@
-// All lines of sight of a segment, asked one by one: complete in direction for one point, complete along
-// the segment for one direction.
+// All lines of sight of a segment, asked one by one: complete in direction for one point, complete
+// along the segment for one direction.
 #include "tests/oracles/lines_of_sight_by_definition.h"
 
 #include <algorithm>
@@ -38,7 +38,8 @@ std::int64_t Offset(Point3i p, std::int64_t dx, std::int64_t dy) { return dx * p
 bool IsLineOfSight(const Segment& segment, const DyadicNumber& t, const Direction& direction,
                    const std::vector<Segment>& obstacles) {
   const Wide whole = Wide(1) << static_cast<unsigned>(t.exponent);
-  // Coordinates below 2^5, heights below 2^6: sides below 2^(25 + 2 * 14 + 6), products of two and more.
+  // Coordinates below 2^5, heights below 2^6: sides below 2^(25 + 2 * 14 + 6), products of two and
+  // more.
   const Wide small = Wide(1) << 25;
   const bool narrow = t.exponent <= 14 && direction[0] < small && direction[0] > -small &&
                       direction[1] < small && direction[1] > -small &&

@@ -41,7 +41,8 @@ struct SightProblem {
   std::int64_t largest = 0;  ///< no coefficient of a vector or a height is larger
 };
 
-/// One obstacle's part in hiding p(t): the arc of directions from `Start` to `End`, counter-clockwise.
+/// One obstacle's part in hiding p(t): the arc of directions from `Start` to `End`,
+/// counter-clockwise.
 struct CoverLink {
   std::size_t obstacle = 0;
   bool over = false;     ///< it passes over p(t) itself and hides every direction
@@ -49,8 +50,8 @@ struct CoverLink {
   bool swapped = false;  ///< its arc runs from the higher end to the lower
 };
 
-/// Directions counter-clockwise from (from_x, from_y) to (to_x, to_y), less than or just 180 degrees,
-/// ends excluded: lines that no obstacle's arc blocks.
+/// Directions counter-clockwise from (from_x, from_y) to (to_x, to_y), less than or just 180
+/// degrees, ends excluded: lines that no obstacle's arc blocks.
 struct FreeGap {
   Wide from_x;
   Wide from_y;

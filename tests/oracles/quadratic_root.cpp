@@ -6,8 +6,8 @@
 namespace farhorizon::oracle {
 namespace {
 
-// The quotient of two correctly rounded numbers, a square root and a sum of equal signs: a few units
-// in the last of 64 bits for numbers in [0, 1].
+// The quotient of two correctly rounded numbers, a square root and a sum of equal signs: a few
+// units in the last of 64 bits for numbers in [0, 1].
 constexpr long double kNearlyError = 0x1p-50L;
 
 int SignOf(const Wide& x) { return x < 0 ? -1 : (x > 0 ? 1 : 0); }

@@ -21,8 +21,9 @@ struct SeenStretch {
   friend bool operator==(const SeenStretch&, const SeenStretch&) = default;
 };
 
-/// What UpperEnvelope says, plainly by its definition: between any two neighbouring places at which a
-/// segment ends or two cross, in height or in depth, the best segment at the middle. Exact. Cost: O(n^3).
+/// What UpperEnvelope says, plainly by its definition: between any two neighbouring places at which
+/// a segment ends or two cross, in height or in depth, the best segment at the middle. Exact. Cost:
+/// O(n^3).
 std::vector<SeenStretch> SkylineByDefinition(std::span<const Segment> segments,
                                              const ViewDirection& view);
 

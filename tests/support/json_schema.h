@@ -84,8 +84,8 @@ class SchemaCheck {
   std::vector<std::string> offences_;
 };
 
-/// Where `value` breaks `schema`, as "path: why"; empty where it does not. A property that the schema does not
-/// name is an offence too: what is answered has to be written.
+/// Where `value` breaks `schema`, as "path: why"; empty where it does not. A property that the
+/// schema does not name is an offence too: what is answered has to be written.
 inline std::vector<std::string> SchemaOffences(const nlohmann::json& value,
                                                const nlohmann::json& schema) {
   SchemaCheck check;

@@ -10,8 +10,8 @@
 
 namespace farhorizon {
 
-/// A plan line through (x, y) along (dx, dy): all rational with small numbers, so that which edges it
-/// crosses is decided exactly.
+/// A plan line through (x, y) along (dx, dy): all rational with small numbers, so that which edges
+/// it crosses is decided exactly.
 struct RationalLine {
   std::int64_t x2;  ///< twice x
   std::int64_t y2;  ///< twice y

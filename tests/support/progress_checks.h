@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/base/progress.h"
+#include "core/base/run_control.h"
 #include "core/pipeline/progress_plan.h"
 
 namespace farhorizon {

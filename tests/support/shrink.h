@@ -8,8 +8,8 @@
 
 namespace farhorizon {
 
-/// The smallest DEM to be had from `dem` by dropping rows and columns, taking posts out and lowering
-/// heights, such that `fails` still holds. Requires: fails(dem).
+/// The smallest DEM to be had from `dem` by dropping rows and columns, taking posts out and
+/// lowering heights, such that `fails` still holds. Requires: fails(dem).
 /// Cost: some thousand calls of `fails` for 7 x 7 posts.
 Dem Shrink(Dem dem, const std::function<bool(const Dem&)>& fails);
 

@@ -22,7 +22,8 @@ struct NamedTerrain {
   int horizon_edges = 0;  ///< -1: known only in part
 };
 
-/// The oracles O1 to O7 that fit a grid; see the tests of the brute force for where the counts are from.
+/// The oracles O1 to O7 that fit a grid; see the tests of the brute force for where the counts are
+/// from.
 std::vector<NamedTerrain> NamedTerrains();
 
 Dem Crater(bool west, bool south, bool east);  ///< O2, O3: notches of height 2 in the rim
@@ -39,20 +40,21 @@ struct RandomTerrain {
 };
 Dem RandomDem(const RandomTerrain& kind, std::mt19937& random);
 
-/// A random kind of random terrain: sizes min_side ... max_side, low and high relief, with and without
-/// holes, plateaus and planes.
+/// A random kind of random terrain: sizes min_side ... max_side, low and high relief, with and
+/// without holes, plateaus and planes.
 Dem AnyRandomDem(std::int32_t min_side, std::int32_t max_side, std::mt19937& random);
 
-/// Mountains by midpoint displacement: n x n posts, heights of about 0 ... relief; the roughness halves
-/// with the distance between posts (H = 1) times roughness_percent / 100.
+/// Mountains by midpoint displacement: n x n posts, heights of about 0 ... relief; the roughness
+/// halves with the distance between posts (H = 1) times roughness_percent / 100.
 Dem FractalDem(std::int32_t n, std::int32_t relief, int roughness_percent, std::uint32_t seed);
 
-/// Ground of a kind that is found outdoors, min_side ... max_side posts a side: mountains smooth and rough,
-/// low and high; ridges; terraces, with their ties; lakes of no data; a coast; cones. No white noise.
+/// Ground of a kind that is found outdoors, min_side ... max_side posts a side: mountains smooth
+/// and rough, low and high; ridges; terraces, with their ties; lakes of no data; a coast; cones. No
+/// white noise.
 Dem AnyLandscape(std::int32_t min_side, std::int32_t max_side, std::mt19937& random);
 
-/// A map of the plan that takes the triangulated grid to itself: (x, y) -> (xx x + xy y, yx x + yy y).
-/// There are twelve, products of kTurnSixth and kTranspose.
+/// A map of the plan that takes the triangulated grid to itself: (x, y) -> (xx x + xy y, yx x + yy
+/// y). There are twelve, products of kTurnSixth and kTranspose.
 struct GridMap {
   std::int32_t xx = 1;
   std::int32_t xy = 0;

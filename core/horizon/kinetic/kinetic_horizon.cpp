@@ -9,9 +9,9 @@
 namespace farhorizon {
 namespace {
 
-Result<KineticHorizon> Find(const Terrain& terrain, const Watch& watch, std::int64_t budget,
+Result<KineticHorizon> Find(const Terrain& terrain, const RunControl& control, std::int64_t budget,
                             bool checks) {
-  kinetic::KineticSweep sweep(terrain, watch, budget, checks);
+  kinetic::KineticSweep sweep(terrain, control, budget, checks);
   Status run = sweep.Run();
   if (!run) return std::move(run.error());
   return sweep.Take();
@@ -25,10 +25,10 @@ std::int64_t DefaultKineticWorkBudget(std::int64_t terrain_edges) {
   return std::max(kLeast, kPerEdge * terrain_edges);
 }
 
-Result<KineticHorizon> FindHorizonKinetic(const Terrain& terrain, const Watch& watch,
+Result<KineticHorizon> FindHorizonKinetic(const Terrain& terrain, const RunControl& control,
                                           std::optional<std::int64_t> work_budget) {
-  return Find(terrain, watch, work_budget.value_or(DefaultKineticWorkBudget(terrain.CountEdges())),
-              false);
+  return Find(terrain, control,
+              work_budget.value_or(DefaultKineticWorkBudget(terrain.CountEdges())), false);
 }
 
 Result<KineticHorizon> FindHorizonKineticChecked(const Terrain& terrain) {

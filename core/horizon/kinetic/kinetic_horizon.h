@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "core/base/progress.h"
 #include "core/base/result.h"
+#include "core/base/run_control.h"
 #include "core/terrain/terrain.h"
 
 namespace farhorizon {
@@ -49,7 +49,7 @@ struct KineticHorizon {
 /// log2(range of heights in quanta) is beyond 118: remedy, the adaptive engine; kResourceExhausted,
 /// kind work-budget, where the budget is spent, or more than kMostKineticHulls are disjoint: the
 /// same remedy.
-Result<KineticHorizon> FindHorizonKinetic(const Terrain& terrain, const Watch& watch,
+Result<KineticHorizon> FindHorizonKinetic(const Terrain& terrain, const RunControl& control,
                                           std::optional<std::int64_t> work_budget = std::nullopt);
 
 /// The same under the default budget, with all invariants of the scene (kinetic/scene.h) checked

@@ -30,9 +30,9 @@ Error TooLarge() {
 
 }  // namespace
 
-KineticSweep::KineticSweep(const Terrain& terrain, const Watch& watch, std::int64_t work_budget,
-                           bool checks)
-    : terrain_(terrain), watch_(watch), work_budget_(work_budget), checks_(checks) {
+KineticSweep::KineticSweep(const Terrain& terrain, const RunControl& control,
+                           std::int64_t work_budget, bool checks)
+    : terrain_(terrain), control_(control), work_budget_(work_budget), checks_(checks) {
   const auto posts = static_cast<std::size_t>(terrain.post_count());
   cluster_.assign(posts, -1);
   arriving_.resize(posts);
@@ -72,13 +72,13 @@ Error KineticSweep::Stopped() const {
 Status KineticSweep::Run(std::int64_t last) {
   if (!Fits()) return TooLarge();
   if (!SinkPast(last)) return Stopped();
-  return Done{};
+  return Ok{};
 }
 
-// Down to depth `last`, its own events included. False where the watch said stop or the budget was
+// Down to depth `last`, its own events included. False where a stop was requested or the budget was
 // spent.
 bool KineticSweep::SinkPast(std::int64_t last) {
-  watch_.Report(Stage::kKineticSweep, 0);
+  control_.Report(Stage::kKineticSweep, 0);
   std::size_t next = 0;
   while (next < order_.size() && DepthOf(order_[next]) <= last) {
     const std::int64_t s = DepthOf(order_[next]);
@@ -99,7 +99,7 @@ bool KineticSweep::SinkPast(std::int64_t last) {
     scene_.Advance(SweepDepth::At(last));
     RestoreInvariants();
   }
-  watch_.Report(Stage::kKineticSweep, 1);
+  control_.Report(Stage::kKineticSweep, 1);
   return true;
 }
 
@@ -107,7 +107,7 @@ bool KineticSweep::SinkPast(std::int64_t last) {
 void KineticSweep::Report(double done) {
   if (done < reported_ + 0.01) return;
   reported_ = done;
-  watch_.Report(Stage::kKineticSweep, done);
+  control_.Report(Stage::kKineticSweep, done);
 }
 
 KineticHorizon KineticSweep::Take() {
@@ -148,7 +148,7 @@ void KineticSweep::RestoreInvariants() {
 // Counts a stop of the plane: all hulls may be changed there.
 bool KineticSweep::MayGoOn() {
   events_.work += static_cast<std::int64_t>(scene_.hulls().clusters().size()) + 1;
-  return !OverBudget() && !watch_.StopRequested();
+  return !OverBudget() && !control_.StopRequested();
 }
 
 void KineticSweep::FindHorizontalEdges(std::size_t next, std::size_t end, std::int64_t s) {

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/base/progress.h"
 #include "core/base/result.h"
+#include "core/base/run_control.h"
 #include "core/horizon/kinetic/kinetic_horizon.h"
 #include "core/horizon/kinetic/scene.h"
 #include "core/terrain/terrain.h"
@@ -17,8 +17,9 @@ namespace farhorizon::kinetic {
 class KineticSweep {
  public:
   /// work_budget: most EventCounts::work to be done. checks: whether all invariants of the scene
-  /// are checked after every step. Requires: `terrain` and `watch` outlive it.
-  KineticSweep(const Terrain& terrain, const Watch& watch, std::int64_t work_budget, bool checks);
+  /// are checked after every step. Requires: `terrain` and `control` outlive it.
+  KineticSweep(const Terrain& terrain, const RunControl& control, std::int64_t work_budget,
+               bool checks);
 
   /// Goes down to depth `last`, its own events included; to the bottom by default. Call it once.
   /// Errors: those of FindHorizonKinetic.
@@ -50,7 +51,7 @@ class KineticSweep {
   void Continue(VertexId v, std::int64_t s);
 
   const Terrain& terrain_;
-  const Watch& watch_;
+  const RunControl& control_;
   double reported_ = 0;
   std::int64_t work_budget_;
   bool checks_;

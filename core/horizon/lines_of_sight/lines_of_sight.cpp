@@ -44,8 +44,8 @@ LinesOfSight InDoubles(const VisibleRegion& region, const TargetSegment& edge, b
 }  // namespace
 
 Result<std::vector<LinesOfSight>> FindLinesOfSight(const Terrain& terrain, const Horizon& horizon,
-                                                   int threads, const Watch& watch) {
-  watch.Report(Stage::kLinesOfSight, 0);
+                                                   int threads, const RunControl& control) {
+  control.Report(Stage::kLinesOfSight, 0);
   SegmentIndex index(terrain.dem().columns, terrain.dem().rows);
   for (const HorizonEdge& e : horizon.edges) {
     index.Insert({terrain.Point(e.edge.a), terrain.Point(e.edge.b)});
@@ -66,7 +66,7 @@ Result<std::vector<LinesOfSight>> FindLinesOfSight(const Terrain& terrain, const
   const auto find_all = [&](std::size_t begin, std::size_t end, std::size_t /*thread*/) {
     for (std::size_t i = begin; i < end; ++i) find(i);
   };
-  if (!ParallelForBatches(lines.size(), kBatch, threads, Stage::kLinesOfSight, watch, find_all)) {
+  if (!ParallelForBatches(lines.size(), kBatch, threads, Stage::kLinesOfSight, control, find_all)) {
     return Error{ErrorCode::kCancelled, "stopped while finding lines of sight"};
   }
   return lines;

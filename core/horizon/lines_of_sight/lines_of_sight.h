@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "core/base/progress.h"
 #include "core/base/result.h"
+#include "core/base/run_control.h"
 #include "core/geometry/plan_motion.h"
 #include "core/horizon/horizon.h"
 
@@ -32,8 +32,8 @@ using LinesOfSight = std::vector<LineOfSightCell>;
 /// `threads`.
 ///
 /// Requires: `horizon` is FindHorizon's of `terrain`.
-/// Errors: kCancelled when the watch says stop. Cost: a few times FindHorizon's.
+/// Errors: kCancelled when a stop is requested. Cost: a few times FindHorizon's.
 Result<std::vector<LinesOfSight>> FindLinesOfSight(const Terrain& terrain, const Horizon& horizon,
-                                                   int threads, const Watch& watch);
+                                                   int threads, const RunControl& control);
 
 }  // namespace farhorizon

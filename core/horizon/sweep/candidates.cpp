@@ -192,10 +192,10 @@ Candidates Joined(const std::vector<Candidates>& by_checkpoint) {
 }  // namespace
 
 Result<Candidates> FindCandidates(const Terrain& terrain, const HullSweep& sweep, int threads,
-                                  const Watch& watch) {
+                                  const RunControl& control) {
   constexpr std::size_t kRows = 32;
   constexpr double kSurvivors = 0.15;  // their share of the stage's time
-  watch.Report(Stage::kCandidates, 0);
+  control.Report(Stage::kCandidates, 0);
   const CandidateSearch search(terrain, sweep);
   const auto rows = static_cast<std::size_t>(terrain.dem().rows);
   std::vector<std::vector<std::vector<Survivor>>> bands((rows + kRows - 1) / kRows);
@@ -213,10 +213,10 @@ Result<Candidates> FindCandidates(const Terrain& terrain, const HullSweep& sweep
       by_checkpoint[i] = search.CandidatesOf(i, survivors);
     }
   };
-  if (!ParallelForBatches(rows, kRows, threads, Stage::kCandidates, watch.Between(0, kSurvivors),
+  if (!ParallelForBatches(rows, kRows, threads, Stage::kCandidates, control.Between(0, kSurvivors),
                           find_survivors) ||
       !ParallelForBatches(by_checkpoint.size(), 1, threads, Stage::kCandidates,
-                          watch.Between(kSurvivors, 1), find_candidates)) {
+                          control.Between(kSurvivors, 1), find_candidates)) {
     return Error{ErrorCode::kCancelled, "stopped while looking for candidates"};
   }
   return Joined(by_checkpoint);

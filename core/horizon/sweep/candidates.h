@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "core/base/progress.h"
 #include "core/base/result.h"
+#include "core/base/run_control.h"
 #include "core/geometry/segment.h"
 #include "core/horizon/sweep/hull_sweep.h"
 #include "core/terrain/terrain.h"
@@ -41,6 +41,6 @@ struct Candidates {
 /// for any number of threads. Errors: kCancelled.
 /// Cost: O(n) and, for each edge that the first two culls leave, the number of hulls.
 Result<Candidates> FindCandidates(const Terrain& terrain, const HullSweep& sweep, int threads,
-                                  const Watch& watch);
+                                  const RunControl& control);
 
 }  // namespace farhorizon

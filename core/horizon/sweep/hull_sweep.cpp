@@ -193,24 +193,25 @@ class Sweeper {
 
 }  // namespace
 
-Result<HullSweep> SweepHulls(const Terrain& terrain, int threads, const Watch& watch) {
+Result<HullSweep> SweepHulls(const Terrain& terrain, int threads, const RunControl& control) {
   // Any values are sound. So few checkpoints take little memory beside the terrain, and they keep
   // many threads busy; the vertex so far ahead is in the cache when its turn comes.
   constexpr std::size_t kCheckpoints = 64;
   constexpr std::size_t kAhead = 16;
   constexpr double kOrder = 0.1;  // the share of the stage's time that finding the order takes
   const Error stopped{ErrorCode::kCancelled, "stopped during the sweep"};
-  watch.Report(Stage::kSweep, 0);
-  const std::optional<SweepOrder> order = OrderOfSweep(terrain, threads, watch.Between(0, kOrder));
+  control.Report(Stage::kSweep, 0);
+  const std::optional<SweepOrder> order =
+      OrderOfSweep(terrain, threads, control.Between(0, kOrder));
   if (!order) return stopped;
-  const Watch inserting = watch.Between(kOrder, 1);
+  const RunControl inserting = control.Between(kOrder, 1);
   const std::vector<VertexId>& vertices = order->vertices;
   const std::size_t stride = (vertices.size() + kCheckpoints - 1) / kCheckpoints;
   HullSweep sweep;
   Sweeper sweeper(terrain, *order, sweep);
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     if (i % stride == 0) {
-      if (watch.StopRequested()) return stopped;
+      if (control.StopRequested()) return stopped;
       inserting.Report(Stage::kSweep,
                        static_cast<double>(i) / static_cast<double>(vertices.size()));
       sweep.checkpoints.push_back({vertices[i], sweep.changes.size(), sweeper.scene()});
@@ -218,7 +219,7 @@ Result<HullSweep> SweepHulls(const Terrain& terrain, int threads, const Watch& w
     if (i + kAhead < vertices.size()) sweeper.Prefetch(vertices[i + kAhead]);
     sweeper.Insert(vertices[i]);
   }
-  watch.Report(Stage::kSweep, 1);
+  control.Report(Stage::kSweep, 1);
   return sweep;
 }
 

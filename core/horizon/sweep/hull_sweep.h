@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/base/progress.h"
 #include "core/base/result.h"
+#include "core/base/run_control.h"
 #include "core/horizon/horizon.h"
 #include "core/horizon/sweep/hull_scene.h"
 #include "core/terrain/terrain.h"
@@ -38,6 +38,6 @@ struct HullSweep {
 /// The same for any number of threads, which only sort the vertices.
 /// Cost: O(n log n) and, for each vertex that extends a hull, the size of the hull and the hulls
 /// nearby. Errors: kCancelled.
-Result<HullSweep> SweepHulls(const Terrain& terrain, int threads, const Watch& watch);
+Result<HullSweep> SweepHulls(const Terrain& terrain, int threads, const RunControl& control);
 
 }  // namespace farhorizon

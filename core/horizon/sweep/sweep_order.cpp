@@ -66,7 +66,8 @@ std::vector<VertexId> FromSummitDown(const std::vector<std::int32_t>& heights,
 
 }  // namespace
 
-std::optional<SweepOrder> OrderOfSweep(const Terrain& terrain, int threads, const Watch& watch) {
+std::optional<SweepOrder> OrderOfSweep(const Terrain& terrain, int threads,
+                                       const RunControl& control) {
   const auto columns = static_cast<std::size_t>(terrain.dem().columns);
   SweepOrder order;
   for (std::int32_t i = 0; i < 9; ++i) {
@@ -80,7 +81,7 @@ std::optional<SweepOrder> OrderOfSweep(const Terrain& terrain, int threads, cons
   };
   constexpr std::size_t kRows = 32;
   if (!ParallelForBatches(static_cast<std::size_t>(terrain.dem().rows), kRows, threads,
-                          Stage::kSweep, watch, find_neighbours)) {
+                          Stage::kSweep, control, find_neighbours)) {
     return std::nullopt;
   }
   order.vertices = FromSummitDown(terrain.dem().heights, order.neighbour_orders);

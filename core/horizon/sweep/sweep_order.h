@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/base/progress.h"
+#include "core/base/run_control.h"
 #include "core/terrain/terrain.h"
 
 namespace farhorizon {
@@ -27,6 +27,7 @@ struct SweepOrder {
 
 /// nullopt where a stop was requested. The same for any number of threads.
 /// Cost: O(n); O(n log n) where the heights take more than 4 n values.
-std::optional<SweepOrder> OrderOfSweep(const Terrain& terrain, int threads, const Watch& watch);
+std::optional<SweepOrder> OrderOfSweep(const Terrain& terrain, int threads,
+                                       const RunControl& control);
 
 }  // namespace farhorizon

@@ -13,9 +13,10 @@
 
 namespace farhorizon {
 
-Result<SweepTrace> TraceSweep(const Terrain& terrain, std::int32_t height, const Watch& watch) {
+Result<SweepTrace> TraceSweep(const Terrain& terrain, std::int32_t height,
+                              const RunControl& control) {
   const std::int64_t budget = DefaultKineticWorkBudget(terrain.CountEdges());
-  kinetic::KineticSweep sweep(terrain, watch, budget, false);
+  kinetic::KineticSweep sweep(terrain, control, budget, false);
   if (height > sweep.summit() || height < sweep.lowest()) {
     return Error{ErrorCode::kInvalidArgument, "the terrain has no slice at this height",
                  "no-such-level"};
@@ -23,9 +24,9 @@ Result<SweepTrace> TraceSweep(const Terrain& terrain, std::int32_t height, const
   const std::int64_t s = std::int64_t{sweep.summit()} - height;
   Status run = sweep.Run(s);
   if (!run) return std::move(run.error());
-  Result<HullSweep> hulls = SweepHulls(terrain, 1, watch);
+  Result<HullSweep> hulls = SweepHulls(terrain, 1, control);
   if (!hulls) return std::move(hulls.error());
-  Result<Candidates> culled = FindCandidates(terrain, *hulls, 1, watch);
+  Result<Candidates> culled = FindCandidates(terrain, *hulls, 1, control);
   if (!culled) return std::move(culled.error());
   SweepTrace trace;
   trace.height = height;

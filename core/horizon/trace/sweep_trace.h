@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/base/progress.h"
 #include "core/base/result.h"
+#include "core/base/run_control.h"
 #include "core/horizon/trace/contours.h"
 #include "core/terrain/terrain.h"
 
@@ -37,6 +37,7 @@ struct SweepTrace {
 /// Errors: kInvalidArgument, kind no-such-level, where the height is above the summit or below the
 /// lowest ground; those of FindHorizonKinetic.
 /// Cost: that of both sweeps; some hundred bytes for each two hulls.
-Result<SweepTrace> TraceSweep(const Terrain& terrain, std::int32_t height, const Watch& watch);
+Result<SweepTrace> TraceSweep(const Terrain& terrain, std::int32_t height,
+                              const RunControl& control);
 
 }  // namespace farhorizon

@@ -40,7 +40,7 @@ Status VerifyManifest(const fs::path& directory, Claims& claims) {
                        fs::file_size(path, failure) == entry.bytes && !failure;
     claims.Add(holds, "manifest.json: " + entry.name + " has the bytes and the SHA-256 it names");
   }
-  return Done{};
+  return Ok{};
 }
 
 void VerifyDem(const DemReport& claimed, const DemReport& found, Claims& claims) {
@@ -58,17 +58,17 @@ void VerifyDem(const DemReport& claimed, const DemReport& found, Claims& claims)
 
 void VerifyLevels(const LevelContext& context, const fs::path& directory, const Report& report,
                   const std::optional<PublishedEdges>& published, Claims& claims) {
-  const Watch& watch = context.watch;
+  const RunControl& control = context.control;
   std::vector<int> kept;
   if (published) kept.assign(published->edges.size(), -1);
   double finer_error_m = 0;
   for (std::size_t level = 0; level < report.levels.size(); ++level) {
-    const Watch level_watch = LevelWatch(watch, level, report.levels.size());
-    LevelWatch(watch.Between(kVerifiedWithSights, 1), level, report.levels.size())
+    const RunControl level_control = LevelControl(control, level, report.levels.size());
+    LevelControl(control.Between(kVerifiedWithSights, 1), level, report.levels.size())
         .Report(Stage::kVerify, 0);
     const LevelReport& claimed = report.levels[level];
     const std::vector<Edge> edges =
-        VerifyLevel(context.With(level_watch), directory, claimed, claims);
+        VerifyLevel(context.With(level_control), directory, claimed, claims);
     claims.Add(
         claimed.geometric_error_m >= finer_error_m,
         "lod" + std::to_string(level) + " has no smaller geometric error than a finer level");
@@ -120,10 +120,10 @@ void VerifyTileset(const TerrainInput& input, const fs::path& directory, const R
 
 // With the report's budget, which alone decides what is left undecided.
 Result<Horizon> FindAsClaimed(const TerrainInput& input, const Report& report, int threads,
-                              const Watch& watch) {
+                              const RunControl& control) {
   HorizonOptions options{.threads = threads, .approximate = report.statistics.undecided > 0};
   if (report.statistics.work_budget > 0) options.work_budget = report.statistics.work_budget;
-  return FindHorizon(input.terrain(), options, watch);
+  return FindHorizon(input.terrain(), options, control);
 }
 
 // True where the report says that some level has bytes of this kind: the format was asked for.
@@ -135,9 +135,10 @@ bool Has(const std::vector<LevelReport>& levels, std::int64_t LevelReport::*byte
 }  // namespace
 
 Result<std::vector<ClaimCheck>> VerifyArtifacts(const fs::path& dem, const fs::path& directory,
-                                                const BuildOptions& options, const Watch& watch) {
+                                                const BuildOptions& options,
+                                                const RunControl& control) {
   Claims claims;
-  watch.Report(Stage::kRead, 0);
+  control.Report(Stage::kRead, 0);
   Status manifest = VerifyManifest(directory, claims);
   if (!manifest) return std::move(manifest.error());
   Result<std::string> text = ReadFile(directory / "report.json");
@@ -146,19 +147,19 @@ Result<std::vector<ClaimCheck>> VerifyArtifacts(const fs::path& dem, const fs::p
   if (!report) return std::move(report.error());
   Result<std::unique_ptr<TerrainInput>> input = TerrainInput::Open(dem, options);
   if (!input) return std::move(input.error());
-  watch.Report(Stage::kRead, 1);
+  control.Report(Stage::kRead, 1);
   VerifyDem(report->dem, (*input)->report(), claims);
   if (report->dem.columns != (*input)->dem().columns || report->dem.rows != (*input)->dem().rows) {
     return std::move(claims).Take();
   }
-  Result<Horizon> horizon = FindAsClaimed(**input, *report, options.threads, watch);
+  Result<Horizon> horizon = FindAsClaimed(**input, *report, options.threads, control);
   if (!horizon) return std::move(horizon.error());
   claims.Same("undecided edges", report->statistics.undecided, horizon->statistics.undecided);
   claims.Same("terrain edges", report->statistics.terrain_edges, (*input)->terrain().CountEdges());
   claims.Same("horizon edges", report->horizon_edges,
               static_cast<std::int64_t>(horizon->edges.size()));
 
-  watch.Report(Stage::kVerify, 0);
+  control.Report(Stage::kVerify, 0);
   std::optional<PublishedEdges> published;
   if (fs::exists(directory / "horizon.geojson")) {
     Result<std::string> geojson = ReadFile(directory / "horizon.geojson");
@@ -172,23 +173,23 @@ Result<std::vector<ClaimCheck>> VerifyArtifacts(const fs::path& dem, const fs::p
     claims.Same("horizon.geojson edges that are undecided", report->statistics.undecided,
                 published->undecided);
     Result<std::vector<ClaimCheck>> edges =
-        VerifyEdges(**input, *horizon, *features, options.threads, watch);
+        VerifyEdges(**input, *horizon, *features, options.threads, control);
     if (!edges) return std::move(edges.error());
     claims.Append(*std::move(edges));
   } else {  // no edge's lines of sight are there to be compared
-    watch.Report(Stage::kLinesOfSight, 1);
-    watch.Report(Stage::kEdgeMeasures, 1);
+    control.Report(Stage::kLinesOfSight, 1);
+    control.Report(Stage::kEdgeMeasures, 1);
   }
-  watch.Report(Stage::kVerify, kVerifiedWithSights);
+  control.Report(Stage::kVerify, kVerifiedWithSights);
   Result<PostNormals> normals = FindPostNormals((*input)->terrain(), (*input)->georeference());
   if (!normals) return std::move(normals.error());
   const LevelContext context{(*input)->terrain(), *horizon, (*input)->georeference(), *normals,
-                             watch};
+                             control};
   VerifyLevels(context, directory, *report, published, claims);
   if (Has(report->levels, &LevelReport::glb_bytes)) {
     VerifyTileset(**input, directory, *report, claims);
   }
-  watch.Report(Stage::kVerify, 1);
+  control.Report(Stage::kVerify, 1);
   return std::move(claims).Take();
 }
 

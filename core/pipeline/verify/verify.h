@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "core/base/progress.h"
 #include "core/base/result.h"
+#include "core/base/run_control.h"
 #include "core/pipeline/build_options.h"
 
 namespace farhorizon {
@@ -26,6 +26,7 @@ struct ClaimCheck {
 ///   not hold is no error.
 Result<std::vector<ClaimCheck>> VerifyArtifacts(const std::filesystem::path& dem,
                                                 const std::filesystem::path& directory,
-                                                const BuildOptions& options, const Watch& watch);
+                                                const BuildOptions& options,
+                                                const RunControl& control);
 
 }  // namespace farhorizon

@@ -142,7 +142,7 @@ VisibilityCounts CountVisibility(const PublishedSet& set,
 
 Result<std::vector<ClaimCheck>> VerifyEdges(const TerrainInput& input, const Horizon& horizon,
                                             const std::vector<HorizonFeature>& features,
-                                            int threads, const Watch& watch) {
+                                            int threads, const RunControl& control) {
   Claims claims;
   const Terrain& terrain = input.terrain();
   const Dem& dem = terrain.dem();
@@ -155,9 +155,9 @@ Result<std::vector<ClaimCheck>> VerifyEdges(const TerrainInput& input, const Hor
   claims.Add(in_order, "horizon.geojson has the horizon edges by rising posts, each once");
   if (!in_order) return std::move(claims).Take();
   Result<std::vector<EdgeMeasures>> found =
-      MeasureEdges(terrain, horizon, input.georeference(), threads, watch);
+      MeasureEdges(terrain, horizon, input.georeference(), threads, control);
   if (!found) return std::move(found.error());
-  watch.Report(Stage::kVerify, kVerifiedBeforeSights);
+  control.Report(Stage::kVerify, kVerifiedBeforeSights);
   std::vector<std::array<double, 2>> middles;
   middles.reserve(features.size());
   for (const HorizonFeature& f : features) {

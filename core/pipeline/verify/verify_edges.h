@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "core/base/progress.h"
 #include "core/base/result.h"
+#include "core/base/run_control.h"
 #include "core/horizon/horizon.h"
 #include "core/io/horizon_features.h"
 #include "core/pipeline/terrain_input.h"
@@ -11,7 +11,8 @@
 
 namespace farhorizon {
 
-/// The share of Stage::kVerify that is done before VerifyEdges, and with it; the rest is the levels'.
+/// The share of Stage::kVerify that is done before VerifyEdges, and with it; the rest is the
+/// levels'.
 inline constexpr double kVerifiedBeforeSights = 0.9;
 inline constexpr double kVerifiedWithSights = 0.95;
 
@@ -24,6 +25,6 @@ inline constexpr double kVerifiedWithSights = 0.95;
 /// Errors: those of MeasureEdges. Cost: that of MeasureEdges, and 2000 times the number of edges.
 Result<std::vector<ClaimCheck>> VerifyEdges(const TerrainInput& input, const Horizon& horizon,
                                             const std::vector<HorizonFeature>& features,
-                                            int threads, const Watch& watch);
+                                            int threads, const RunControl& control);
 
 }  // namespace farhorizon

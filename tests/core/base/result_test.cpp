@@ -47,7 +47,7 @@ TEST(ErrorCode, IsKnownByItsName) {
 
 TEST(Error, WithinPutsTheStepInFront) {
   Error error{ErrorCode::kIo, "file is empty", "truncated"};
-  const Error outer = std::move(error).Within("read DEM");
+  const Error outer = std::move(error).WithContext("read DEM");
   EXPECT_EQ(outer.message, "read DEM: file is empty");
   EXPECT_EQ(outer.kind, "truncated");
 }

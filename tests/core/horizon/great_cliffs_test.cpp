@@ -37,8 +37,8 @@ Dem CliffDem(std::int32_t columns, std::int32_t rows, const CliffHeights& height
 // What FindHorizon decides, whether or not all witnesses are exact.
 Horizon DecideAll(const Terrain& terrain) {
   const Candidates candidates = *FindCandidates(terrain, *SweepHulls(terrain, 1, {}), 1, {});
-  const Watch watch;
-  CandidateDecider decider(terrain, candidates, watch);
+  const RunControl control;
+  CandidateDecider decider(terrain, candidates, control);
   decider.DecideAll(1, std::numeric_limits<std::int64_t>::max());
   Horizon horizon;
   decider.AppendEdges(horizon);

@@ -77,7 +77,7 @@ class RealRuns : public testing::Test {
     options_.crs = "EPSG:4326";
     options_.levels = 3;
   }
-  [[nodiscard]] Watch Recording() {
+  [[nodiscard]] RunControl Recording() {
     reports_.clear();
     return {RecordInto(reports_), {}, {}};
   }

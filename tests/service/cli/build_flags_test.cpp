@@ -75,7 +75,7 @@ TEST(RunOnDem, DoesNoWorkWithInvalidFlags) {
   Status done =
       RunOnDem(Parsed("a.tif --levels 99"), Workflow::kBuild, [&](const DemRun&) -> Status {
         worked = true;
-        return Done{};
+        return Ok{};
       });
   EXPECT_FALSE(done);
   EXPECT_FALSE(worked);

@@ -9,7 +9,7 @@ namespace {
 
 class Faulty : public Exchange {
  public:
-  Status Take(std::string_view) override { return Done{}; }
+  Status Take(std::string_view) override { return Ok{}; }
   HttpResponse Finish() override { throw std::runtime_error("secret"); }
 };
 

@@ -20,11 +20,11 @@ Parsed Parse(const std::string& body, std::size_t size) {
   MultipartParser parser("XX", {[&](const PartHead& head) -> Status {
                                   present = &parsed.parts[head.name];
                                   if (head.filename) parsed.filename = head.filename;
-                                  return Done{};
+                                  return Ok{};
                                 },
                                 [&](std::string_view data) -> Status {
                                   present->append(data);
-                                  return Done{};
+                                  return Ok{};
                                 }});
   for (std::size_t at = 0; at < body.size(); at += size) {
     if (!parser.Feed(std::string_view(body).substr(at, size))) return parsed;

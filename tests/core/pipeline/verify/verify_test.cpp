@@ -33,14 +33,14 @@ class Built : public ::testing::Test {
     SpillFile(folder_ / "hills.asc", text);
     options_.crs = "EPSG:32610";
     options_.levels = 2;
-    Status built = BuildArtifacts(folder_ / "hills.asc", folder_ / "out", options_, watch_);
+    Status built = BuildArtifacts(folder_ / "hills.asc", folder_ / "out", options_, control_);
     ASSERT_TRUE(built) << built.error().message;
   }
 
   // The claims that do not hold.
   std::vector<std::string> False() {
     Result<std::vector<ClaimCheck>> claims =
-        VerifyArtifacts(folder_ / "hills.asc", folder_ / "out", options_, watch_);
+        VerifyArtifacts(folder_ / "hills.asc", folder_ / "out", options_, control_);
     if (!claims) throw std::runtime_error(claims.error().message);
     std::vector<std::string> lines;
     for (const ClaimCheck& check : *claims) {
@@ -72,7 +72,7 @@ class Built : public ::testing::Test {
 
   TempDir folder_;
   BuildOptions options_;
-  Watch watch_;
+  RunControl control_;
 };
 
 using Verify = Built;
@@ -179,7 +179,7 @@ class BuiltApproximately : public Built {
     options_.levels = 1;
     options_.work_budget = 20'000;
     options_.approximate = true;
-    Status built = BuildArtifacts(folder_ / "hills.asc", folder_ / "out", options_, watch_);
+    Status built = BuildArtifacts(folder_ / "hills.asc", folder_ / "out", options_, control_);
     ASSERT_TRUE(built) << built.error().message;
   }
 };
@@ -204,7 +204,7 @@ TEST_F(VerifyApproximate, AReportThatHidesADoubtIsFound) {
 
 TEST_F(VerifyApproximate, ItIsAnErrorWhereItMayNotBeApproximate) {
   options_.approximate = false;
-  Status built = BuildArtifacts(folder_ / "hills.asc", folder_ / "other", options_, watch_);
+  Status built = BuildArtifacts(folder_ / "hills.asc", folder_ / "other", options_, control_);
   ASSERT_FALSE(built);
   EXPECT_EQ(built.error().kind, "work-budget");
   EXPECT_FALSE(std::filesystem::exists(folder_ / "other" / "report.json"));

@@ -12,25 +12,25 @@ namespace farhorizon {
 /// Takes how far long work is: a stage and the share of it that is done, in [0, 1]. That share
 /// never falls within a stage; stages may alternate.
 /// Called from the thread that does the work, at most some hundred times a stage. It is copied
-/// (Watch::Between): what it remembers from call to call must be shared by its copies.
+/// (RunControl::Between): what it remembers from call to call must be shared by its copies.
 using Progress = std::function<void(Stage stage, double done)>;
 
 /// Takes a sentence that the caller should know although the work goes on. Called as Progress is.
-using Notice = std::function<void(const std::string& text)>;
+using WarningHandler = std::function<void(const std::string& text)>;
 
 /// How a caller watches long work and stops it. All may be left empty.
-struct Watch {
+struct RunControl {
   Progress progress = {};
   std::stop_token stop = {};
-  Notice notice = {};
+  WarningHandler on_warning = {};
 
   void Report(Stage stage, double done) const {
     if (progress) progress(stage, done);
   }
-  /// The watch for work that is only a piece of each stage that it reports: its 0 is `from` of the
-  /// stage, its 1 is `to`.
-  [[nodiscard]] Watch Between(double from, double to) const {
-    Watch piece = *this;
+  /// The control for work that is only a piece of each stage that it reports: its 0 is `from` of
+  /// the stage, its 1 is `to`.
+  [[nodiscard]] RunControl Between(double from, double to) const {
+    RunControl piece = *this;
     if (progress) {
       piece.progress = [whole = progress, from, to](Stage stage, double done) {
         whole(stage, std::lerp(from, to, done));
@@ -38,8 +38,8 @@ struct Watch {
     }
     return piece;
   }
-  void Tell(const std::string& text) const {
-    if (notice) notice(text);
+  void Warn(const std::string& text) const {
+    if (on_warning) on_warning(text);
   }
   [[nodiscard]] bool StopRequested() const { return stop.stop_requested(); }
 };

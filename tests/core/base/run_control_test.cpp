@@ -1,4 +1,4 @@
-#include "core/base/progress.h"
+#include "core/base/run_control.h"
 
 #include <algorithm>
 #include <stop_token>
@@ -10,17 +10,17 @@
 namespace farhorizon {
 namespace {
 
-TEST(Watch, APieceReportsToItsPieceOfTheWhole) {
+TEST(RunControl, APieceReportsToItsPieceOfTheWhole) {
   std::vector<double> reported;
-  Watch watch;
-  watch.progress = [&reported](Stage stage, double done) {
+  RunControl control;
+  control.progress = [&reported](Stage stage, double done) {
     EXPECT_EQ(stage, Stage::kMeasure);
     reported.push_back(done);
   };
   const int pieces = 7;
   for (int i = 0; i < pieces; ++i) {
-    const Watch piece =
-        watch.Between(i / static_cast<double>(pieces), (i + 1) / static_cast<double>(pieces));
+    const RunControl piece =
+        control.Between(i / static_cast<double>(pieces), (i + 1) / static_cast<double>(pieces));
     for (const double done : {0.0, 0.3, 1.0}) piece.Report(Stage::kMeasure, done);
   }
   ASSERT_EQ(reported.size(), 21U);
@@ -28,17 +28,18 @@ TEST(Watch, APieceReportsToItsPieceOfTheWhole) {
   EXPECT_EQ(reported.back(), 1);
   EXPECT_TRUE(std::is_sorted(reported.begin(), reported.end()));
   reported.clear();
-  watch.Between(0.5, 1).Between(0, 0.5).Report(Stage::kMeasure, 1);
+  control.Between(0.5, 1).Between(0, 0.5).Report(Stage::kMeasure, 1);
   EXPECT_EQ(reported, std::vector<double>{0.75}) << "of a piece of a piece";
 }
 
-TEST(Watch, APieceTellsAndStopsAsTheWholeDoes) {
+TEST(RunControl, APieceTellsAndStopsAsTheWholeDoes) {
   std::string told;
   std::stop_source source;
-  const Watch watch{{}, source.get_token(), [&told](const std::string& text) { told = text; }};
-  const Watch piece = watch.Between(0.2, 0.4);
+  const RunControl control{
+      {}, source.get_token(), [&told](const std::string& text) { told = text; }};
+  const RunControl piece = control.Between(0.2, 0.4);
   piece.Report(Stage::kRead, 1);  // nobody listens
-  piece.Tell("something");
+  piece.Warn("something");
   EXPECT_EQ(told, "something");
   EXPECT_FALSE(piece.StopRequested());
   source.request_stop();
