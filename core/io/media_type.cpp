@@ -14,11 +14,6 @@ std::string MediaTypeOf(const std::string& name) {
       {".json", "application/json"},
       {".fgb", "application/vnd.flatgeobuf"},
       {".gpkg", "application/geopackage+sqlite3"},
-      {".terrain", "application/vnd.quantized-mesh"},
-      {".html", "text/html; charset=utf-8"},
-      {".js", "text/javascript; charset=utf-8"},
-      {".css", "text/css; charset=utf-8"},
-      {".png", "image/png"},
       {".svg", "image/svg+xml"},
       {".tif", "image/tiff; application=geotiff"},
       {".tiff", "image/tiff; application=geotiff"}};

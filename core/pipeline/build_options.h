@@ -17,7 +17,6 @@ struct BuildOptions {
   std::optional<double> max_error_m;  ///< of level 0; unset: an eighth of the cell size
   double silhouette_error_m = 0;      ///< of level 0
   std::vector<std::string> formats = {"3dtiles", "drc", "geojson"};
-  double skirt_m = 0;
   std::optional<std::string> crs;
   std::optional<std::string> vertical_datum;
   std::optional<double> nodata;
