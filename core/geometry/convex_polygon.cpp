@@ -163,16 +163,19 @@ ConvexPolygon::Silhouette ConvexPolygon::SilhouetteFrom(Point2i eye) const {
 void ConvexPolygon::ForEachRow(
     const std::function<void(std::int32_t, std::int32_t, std::int32_t)>& visit) const {
   std::vector<RowSpan> spans(static_cast<std::size_t>(most_.y - least_.y) + 1);
+  const auto span_of = [&](std::int32_t row) -> RowSpan& {
+    return spans[static_cast<std::size_t>(row - least_.y)];
+  };
   for (std::size_t i = 0; i < corners_.size(); ++i) {
-    const Point2i a = corners_[i];
-    const Point2i b = corners_[(i + 1) % corners_.size()];
-    const auto [first, last] = std::minmax(a.y, b.y);
-    for (std::int32_t row = first; row <= last; ++row) {
-      spans[static_cast<std::size_t>(row - least_.y)].Include(a, b, row);
-    }
+    Point2i a = corners_[i];
+    Point2i b = corners_[(i + 1) % corners_.size()];
+    if (a.y > b.y) std::swap(a, b);
+    span_of(a.y).IncludePost(a.x);
+    span_of(b.y).IncludePost(b.x);
+    for (std::int32_t row = a.y + 1; row < b.y; ++row) span_of(row).IncludeCrossing(a, b, row);
   }
   for (std::int32_t row = least_.y; row <= most_.y; ++row) {
-    const RowSpan& span = spans[static_cast<std::size_t>(row - least_.y)];
+    const RowSpan& span = span_of(row);
     if (!span.IsEmpty()) {
       visit(row, static_cast<std::int32_t>(span.first), static_cast<std::int32_t>(span.last));
     }

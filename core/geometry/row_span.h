@@ -19,24 +19,20 @@ struct RowSpan {
 
   [[nodiscard]] bool IsEmpty() const { return first > last; }
 
-  /// Widens the span by the crossing of the row with the polygon's side from a to b. A crossing
-  /// between two posts is rounded up for `first` and down for `last`. So, when all sides have been
-  /// included, the span has the posts inside the polygon and no others.
-  void Include(Point2i a, Point2i b, std::int64_t row) {
-    if (a.y > b.y) std::swap(a, b);
-    if (row < a.y || row > b.y) return;
-    if (row == a.y) Include(a.x, a.x);
-    if (row == b.y) Include(b.x, b.x);
-    if (row == a.y || row == b.y) return;
-    const std::int64_t run = std::int64_t{b.x - a.x} * (row - a.y);
-    const std::int64_t rise = b.y - a.y;
-    Include(a.x - FloorDivide(-run, rise), a.x + FloorDivide(run, rise));
+  void IncludePost(std::int64_t column) {
+    first = std::min(first, column);
+    last = std::max(last, column);
   }
 
- private:
-  void Include(std::int64_t at_least, std::int64_t at_most) {
-    first = std::min(first, at_least);
-    last = std::max(last, at_most);
+  /// Widens the span by the crossing of the row with the side from a to b. A crossing between two
+  /// posts is rounded up for `first` and down for `last`. So, when all sides and corners on the row
+  /// have been included, the span has the posts inside the polygon and no others.
+  /// Requires: a.y < row < b.y.
+  void IncludeCrossing(Point2i a, Point2i b, std::int64_t row) {
+    const std::int64_t run = std::int64_t{b.x - a.x} * (row - a.y);
+    const std::int64_t rise = b.y - a.y;
+    first = std::min(first, a.x - FloorDivide(-run, rise));
+    last = std::max(last, a.x + FloorDivide(run, rise));
   }
 };
 
@@ -44,9 +40,12 @@ struct RowSpan {
 inline RowSpan SpanOfRow(const std::array<Point3i, 3>& triangle, std::int64_t row) {
   RowSpan span;
   for (std::size_t k = 0; k < 3; ++k) {
-    const Point3i& a = triangle[k];
-    const Point3i& b = triangle[(k + 1) % 3];
-    span.Include({a.x, a.y}, {b.x, b.y}, row);
+    Point2i a{triangle[k].x, triangle[k].y};
+    Point2i b{triangle[(k + 1) % 3].x, triangle[(k + 1) % 3].y};
+    if (a.y > b.y) std::swap(a, b);
+    if (a.y == row) span.IncludePost(a.x);
+    if (b.y == row) span.IncludePost(b.x);
+    if (a.y < row && row < b.y) span.IncludeCrossing(a, b, row);
   }
   return span;
 }
