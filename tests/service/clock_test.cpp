@@ -1,5 +1,8 @@
 #include "service/clock.h"
 
+#include <chrono>
+#include <memory>
+#include <stop_token>
 #include <thread>
 
 #include <gtest/gtest.h>
