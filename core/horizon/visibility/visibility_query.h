@@ -13,6 +13,8 @@
 
 namespace farhorizon {
 
+class SegmentIndex;
+
 /// A member of an OccluderSet.
 using OccluderId = std::int32_t;
 
@@ -53,5 +55,9 @@ struct Visibility {
   bool gave_up = false;  ///< the decision limit ended the search: an empty `witness` proves nothing
   PredicateCounts counts = {};  ///< the decisions that the search took
 };
+
+/// Answers a query about the members of an index: OccluderSet::FindLineOfSight, which says what
+/// the answer is.
+Visibility FindLineOfSight(const SegmentIndex& segments, const VisibilityQuery& query);
 
 }  // namespace farhorizon
