@@ -1,6 +1,7 @@
 #include "core/exact/int128.h"
 
 namespace farhorizon {
+
 namespace {
 
 __extension__ typedef unsigned __int128 Uint128;  // NOLINT(modernize-use-using)

@@ -10,6 +10,7 @@
 #include "core/base/result.h"
 
 namespace farhorizon {
+
 namespace {
 
 // n / 2^bits.

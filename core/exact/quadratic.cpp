@@ -14,6 +14,7 @@
 #include "core/base/result.h"
 
 namespace farhorizon {
+
 namespace {
 
 // After so many halvings Compare asks, once, whether roots that are still together are one number.

@@ -17,6 +17,7 @@
 #include "core/geo/crs_text.h"
 
 namespace farhorizon {
+
 namespace {
 
 struct Free {

@@ -6,6 +6,7 @@
 #include <string_view>
 
 namespace farhorizon {
+
 namespace {
 
 constexpr std::size_t kMaxBytes = std::size_t{64} * 1024;

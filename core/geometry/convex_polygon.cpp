@@ -9,6 +9,7 @@
 #include "core/geometry/row_span.h"
 
 namespace farhorizon {
+
 namespace {
 
 bool OnSegment(Point2i a, Point2i b, Point2i p) {

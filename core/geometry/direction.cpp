@@ -10,6 +10,7 @@
 #include "core/base/result.h"
 
 namespace farhorizon {
+
 namespace {
 
 constexpr Int128 kNarrow = Int128{1} << 62;

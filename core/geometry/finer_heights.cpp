@@ -3,6 +3,7 @@
 #include <algorithm>
 
 namespace farhorizon {
+
 namespace {
 
 // Heights of an occluder set are below this in size.

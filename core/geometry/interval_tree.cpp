@@ -7,6 +7,7 @@
 #include <utility>
 
 namespace farhorizon {
+
 namespace {
 
 // The median of all ends: at most half of the intervals are wholly below it, as many above.

@@ -19,6 +19,7 @@
 #include "core/horizon/sweep/hull_sweep.h"
 
 namespace farhorizon {
+
 namespace {
 
 Error TooNarrow(const Terrain& terrain, Edge edge) {

@@ -7,6 +7,7 @@
 #include "core/horizon/visibility/occluder_set.h"
 
 namespace farhorizon {
+
 namespace {
 
 constexpr std::size_t kSegmentsBetweenChecks = 256;

@@ -15,6 +15,7 @@
 #include "core/geometry/grid_lines.h"
 
 namespace farhorizon {
+
 namespace {
 
 // The line through (x, y) / 2^bits in the direction (dc, dr), at the height z / 2^bits.

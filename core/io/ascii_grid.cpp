@@ -10,6 +10,7 @@
 #include <string_view>
 
 namespace farhorizon {
+
 namespace {
 
 constexpr std::array<std::string_view, 10> kHeaderWords = {

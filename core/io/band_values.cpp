@@ -12,6 +12,7 @@
 #include <ogr_srs_api.h>
 
 namespace farhorizon {
+
 namespace {
 
 constexpr double kFoot = 0.3048;

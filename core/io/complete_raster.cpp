@@ -9,6 +9,7 @@
 #include "core/io/ascii_grid.h"
 
 namespace farhorizon {
+
 namespace {
 
 // GDAL fills blocks that a TIFF leaves out with nodata, or with zeros where the band has none. In a

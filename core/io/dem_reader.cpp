@@ -21,6 +21,7 @@
 #include "core/io/height_quantum.h"
 
 namespace farhorizon {
+
 namespace {
 
 constexpr int kMaxSide = 32768;  // Dem's bound

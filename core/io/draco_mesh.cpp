@@ -14,6 +14,7 @@
 #include <draco/mesh/mesh.h>
 
 namespace farhorizon {
+
 namespace {
 
 constexpr int kPositionId = 0;

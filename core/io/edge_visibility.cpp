@@ -13,6 +13,7 @@
 #include "core/base/result.h"
 
 namespace farhorizon {
+
 namespace {
 
 using VertexPair = std::pair<std::uint32_t, std::uint32_t>;

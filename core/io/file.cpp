@@ -16,6 +16,7 @@
 #include "core/io/unique_fd.h"
 
 namespace farhorizon {
+
 namespace {
 
 constexpr std::size_t kPieceBytes = std::size_t{1} << 16U;

@@ -13,6 +13,7 @@
 #include <ogrsf_frmts.h>
 
 namespace farhorizon {
+
 namespace {
 
 // GTIFF_REPORT_COMPD_CS: reports a vertical datum in the file, which decides what heights mean.

@@ -13,6 +13,7 @@
 #include "core/io/edge_visibility.h"
 
 namespace farhorizon {
+
 namespace {
 
 using Json = nlohmann::ordered_json;

@@ -11,6 +11,7 @@
 #include "core/terrain/dem.h"
 
 namespace farhorizon {
+
 namespace {
 
 constexpr std::int64_t kLimit = std::int64_t{1} << 30;  // Dem's bound on heights

@@ -10,6 +10,7 @@
 #include "core/io/geojson_text.h"
 
 namespace farhorizon {
+
 namespace {
 
 // Decimals of angular_share and line_measure_m.

@@ -13,6 +13,7 @@
 #include "core/io/gdal_session.h"
 
 namespace farhorizon {
+
 namespace {
 
 struct CloseDataset {

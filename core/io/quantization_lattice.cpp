@@ -9,6 +9,7 @@
 #include "core/base/result.h"
 
 namespace farhorizon {
+
 namespace {
 
 constexpr int kFloatBits = 24;

@@ -3,6 +3,7 @@
 #include "core/io/geojson_text.h"
 
 namespace farhorizon {
+
 namespace {
 
 std::string Metres(const std::array<double, 2>& pair) {

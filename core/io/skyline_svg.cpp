@@ -14,6 +14,7 @@
 #include "core/io/svg_text.h"
 
 namespace farhorizon {
+
 namespace {
 
 constexpr double kWidth = 1200;  // of the plot, in pixels

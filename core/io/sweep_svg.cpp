@@ -9,6 +9,7 @@
 #include "core/io/svg_text.h"
 
 namespace farhorizon {
+
 namespace {
 
 constexpr double kPicture = 1000;  // pixels, the longer side

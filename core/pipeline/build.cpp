@@ -20,6 +20,7 @@
 #include "core/pipeline/version.h"
 
 namespace farhorizon {
+
 namespace {
 
 namespace fs = std::filesystem;

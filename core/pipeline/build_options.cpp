@@ -9,6 +9,7 @@
 #include <sstream>
 
 namespace farhorizon {
+
 namespace {
 
 Error Invalid(const std::string& name, const std::string& value, const std::string& expected) {

@@ -13,6 +13,7 @@
 #include "core/horizon/lines_of_sight/skyline_drop.h"
 
 namespace farhorizon {
+
 namespace {
 
 constexpr double kDegrees = 180 / std::numbers::pi;

@@ -10,6 +10,7 @@
 #include "core/geometry/row_span.h"
 
 namespace farhorizon {
+
 namespace {
 
 // A triangle's corners in the grid and in the local frame.

@@ -7,6 +7,7 @@
 #include <utility>
 
 namespace farhorizon {
+
 namespace {
 
 MapPoint MapPointAt(const Dem& dem, double column, double row, double height_m) {

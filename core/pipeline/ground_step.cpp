@@ -4,6 +4,7 @@
 #include <numbers>
 
 namespace farhorizon {
+
 namespace {
 
 constexpr double kDegreesPerRadian = 180 / std::numbers::pi;

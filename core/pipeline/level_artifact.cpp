@@ -11,6 +11,7 @@
 #include "core/pipeline/geometric_error.h"
 
 namespace farhorizon {
+
 namespace {
 
 std::vector<VertexId> PostsOf(const PostMesh& mesh) {

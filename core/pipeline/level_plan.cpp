@@ -11,6 +11,7 @@
 #include "core/pipeline/level_artifact.h"
 
 namespace farhorizon {
+
 namespace {
 
 constexpr double kEarthRadiusM = 6371000;  // mean; any value within a percent serves

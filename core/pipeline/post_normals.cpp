@@ -11,6 +11,7 @@
 #include "core/io/draco_mesh.h"
 
 namespace farhorizon {
+
 namespace {
 
 // A row of posts in the local frame; those without data are at the origin.

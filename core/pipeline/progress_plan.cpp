@@ -4,6 +4,7 @@
 #include <cstddef>
 
 namespace farhorizon {
+
 namespace {
 
 // Shares of wall time on one thread: means of three DEMs, the Jacksboro fault of tests/data, the

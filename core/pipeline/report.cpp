@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 namespace farhorizon {
+
 namespace {
 
 using Json = nlohmann::ordered_json;

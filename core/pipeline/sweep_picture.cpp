@@ -11,6 +11,7 @@
 #include "core/pipeline/terrain_input.h"
 
 namespace farhorizon {
+
 namespace {
 
 std::string Metres(double value) {

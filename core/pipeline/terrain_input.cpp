@@ -12,6 +12,7 @@
 #include "core/io/file.h"
 
 namespace farhorizon {
+
 namespace {
 
 constexpr double kRadiansPerDegree = std::numbers::pi / 180;

@@ -20,6 +20,7 @@
 #include "core/pipeline/terrain_input.h"
 
 namespace farhorizon {
+
 namespace {
 
 // From points of the grid to the viewer's frame on the ground, whose origin is the DEM's middle.

@@ -18,6 +18,7 @@
 #include "core/geometry/plan.h"
 
 namespace farhorizon {
+
 namespace {
 
 class Walk {

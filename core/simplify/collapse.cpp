@@ -6,6 +6,7 @@
 #include <algorithm>
 
 namespace farhorizon {
+
 namespace {
 
 // No vertex gets more triangles than these. Any count is sound; rating a collapse costs about the

@@ -10,6 +10,7 @@
 #include <numbers>
 
 namespace farhorizon {
+
 namespace {
 
 // The result is a sample, so any counts are sound: twice the directions or lines, twice the time.

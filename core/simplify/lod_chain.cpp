@@ -13,6 +13,7 @@
 #include "core/simplify/skyline_guard.h"
 
 namespace farhorizon {
+
 namespace {
 
 // No triangle of a level may be steeper than the DEM's steepest. So the error in height that comes

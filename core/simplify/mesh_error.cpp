@@ -17,6 +17,7 @@
 #include "core/simplify/vertical_error.h"
 
 namespace farhorizon {
+
 namespace {
 
 // Columns or rows. A vertex further from its post may be nearer to another one.

@@ -12,6 +12,7 @@
 #include "core/base/result.h"
 
 namespace farhorizon {
+
 namespace {
 
 // A certificate has at most so many ridges, the nearest. Any count is sound: a proof with fewer

@@ -13,6 +13,7 @@
 #include "core/simplify/skyline_guard.h"
 
 namespace farhorizon {
+
 namespace {
 
 constexpr std::size_t kEdgesBetweenChecks = 64;

@@ -12,6 +12,7 @@
 #include "core/geometry/union_find.h"
 
 namespace farhorizon {
+
 namespace {
 
 // Any counts are sound, as every segment is a virtual occluder. With more heights there is one

@@ -12,6 +12,7 @@
 #include <utility>
 
 namespace farhorizon {
+
 namespace {
 
 using Indices = std::array<std::int32_t, 3>;

@@ -9,6 +9,7 @@
 #include "core/geometry/plan.h"
 
 namespace farhorizon {
+
 namespace {
 
 struct Offset {

@@ -7,6 +7,7 @@
 #include "core/horizon/kinetic/kinetic_sweep.h"
 
 namespace farhorizon {
+
 namespace {
 
 Result<KineticHorizon> Find(const Terrain& terrain, const RunControl& control, std::int64_t budget,

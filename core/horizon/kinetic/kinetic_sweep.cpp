@@ -19,6 +19,7 @@
 #include "core/horizon/kinetic/hull_location.h"
 
 namespace farhorizon::kinetic {
+
 namespace {
 
 Error TooLarge() {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 namespace farhorizon::kinetic {
+
 namespace {
 
 // x_a y_b - x_b y_a.

@@ -10,6 +10,7 @@
 #include "core/base/result.h"
 
 namespace farhorizon::kinetic {
+
 namespace {
 
 // A closed interval that contains the exact value.

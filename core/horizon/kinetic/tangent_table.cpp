@@ -9,6 +9,7 @@
 #include "core/base/result.h"
 
 namespace farhorizon::kinetic {
+
 namespace {
 
 constexpr std::array<PointId, 2> kNotMade{-1, -1};

@@ -13,6 +13,7 @@
 #include "core/geometry/grid_lines.h"
 
 namespace farhorizon {
+
 namespace {
 
 // A line that passes a post nearer than this, in posts, counts as through it.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 namespace farhorizon {
+
 namespace {
 
 // Twice the cross product of the vector from the line to p with its direction, up to sign: 0 on the

@@ -13,6 +13,7 @@
 #include "core/geometry/interval_set.h"
 
 namespace farhorizon {
+
 namespace {
 
 // The angle of a moving vector at t from `along`, 0 to pi, and a bound on its error.

@@ -8,6 +8,7 @@
 #include "core/horizon/visibility/segment_index.h"
 
 namespace farhorizon {
+
 namespace {
 
 PlanMotion MotionOf(const BoundaryCurve& curve, const TargetSegment& edge, bool from_high) {

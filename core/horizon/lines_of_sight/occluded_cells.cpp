@@ -21,6 +21,7 @@
 #include <utility>
 
 namespace farhorizon {
+
 namespace {
 
 using Kind = BoundaryCurve::Kind;

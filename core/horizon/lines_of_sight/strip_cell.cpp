@@ -9,6 +9,7 @@
 #include <cmath>
 
 namespace farhorizon {
+
 namespace {
 
 using Kind = BoundaryCurve::Kind;

@@ -18,6 +18,7 @@
 #include <limits>
 
 namespace farhorizon {
+
 namespace {
 
 using Kind = BoundaryCurve::Kind;

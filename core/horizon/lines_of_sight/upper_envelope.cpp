@@ -10,6 +10,7 @@
 #include <utility>
 
 namespace farhorizon {
+
 namespace {
 
 using Envelope = std::vector<EnvelopePiece>;

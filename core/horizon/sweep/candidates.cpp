@@ -17,6 +17,7 @@
 #include "core/horizon/sweep/hull_scene.h"
 
 namespace farhorizon {
+
 namespace {
 
 // True for ridges and border edges, except horizontal edges with a rising face beside them

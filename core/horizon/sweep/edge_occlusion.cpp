@@ -26,6 +26,7 @@
 #include "core/horizon/sweep/virtual_occluders.h"
 
 namespace farhorizon {
+
 namespace {
 
 constexpr double kInfinite = 1;  // the numerator over a denominator of 0

@@ -18,6 +18,7 @@
 #include "core/horizon/sweep/sweep_order.h"
 
 namespace farhorizon {
+
 namespace {
 
 // A hull is known by two numbers: its node in the merge tree, which stays, and its slot in the

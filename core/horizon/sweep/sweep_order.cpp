@@ -10,6 +10,7 @@
 #include "core/base/parallel_for.h"
 
 namespace farhorizon {
+
 namespace {
 
 SweepOrder::NeighbourOrder NeighbourOrderOf(const Terrain& terrain, VertexId v) {

@@ -5,6 +5,7 @@
 #include <utility>
 
 namespace farhorizon {
+
 namespace {
 
 // The directions that a silhouette takes. They may go on at the start of the half turn.

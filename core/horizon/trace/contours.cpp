@@ -9,6 +9,7 @@
 #include <utility>
 
 namespace farhorizon {
+
 namespace {
 
 // The segment of a contour in one triangle.

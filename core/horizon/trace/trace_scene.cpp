@@ -1,6 +1,7 @@
 #include "core/horizon/trace/trace_scene.h"
 
 namespace farhorizon {
+
 namespace {
 
 using kinetic::ClusterId;

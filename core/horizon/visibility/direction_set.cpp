@@ -14,6 +14,7 @@
 #include <cmath>
 
 namespace farhorizon {
+
 namespace {
 
 // How far from a bounding line a point must be for its side to be certain, in posts. A component of

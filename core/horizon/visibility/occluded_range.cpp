@@ -22,6 +22,7 @@
 #include "core/base/result.h"
 
 namespace farhorizon {
+
 namespace {
 
 // t in the numbers that roots are compared with.

@@ -8,6 +8,7 @@
 #include <utility>
 
 namespace farhorizon {
+
 namespace {
 
 constexpr int kDoubleBits = 53;     // of integers that a double holds exactly

@@ -7,6 +7,7 @@
 #include "core/base/result.h"
 
 namespace farhorizon {
+
 namespace {
 
 // The smallest cells are 2^2 posts wide: then a tile has about as many nodes as horizon edges. Any

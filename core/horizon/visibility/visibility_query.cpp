@@ -15,6 +15,7 @@
 #include "core/horizon/visibility/point_query.h"
 
 namespace farhorizon {
+
 namespace {
 
 // How many witnesses with long numbers are compared for the simplest one. Any value is sound: it

@@ -1,9 +1,13 @@
+// The definition, asked again of published edges: each question is a loop over all segments, with
+// none of the indexes that the horizon was found with, so that verification shares no fault with
+// them.
 #include "core/pipeline/verify/published_set.h"
 
 #include <algorithm>
 #include <utility>
 
 namespace farhorizon {
+
 namespace {
 
 // Where `line` crosses the segment, from 0 at its end a to 1 at b.

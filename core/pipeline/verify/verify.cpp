@@ -23,6 +23,7 @@
 #include "core/pipeline/verify/verify_level.h"
 
 namespace farhorizon {
+
 namespace {
 
 namespace fs = std::filesystem;

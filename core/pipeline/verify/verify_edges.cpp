@@ -19,6 +19,7 @@
 #include "core/pipeline/verify/random_line.h"
 
 namespace farhorizon {
+
 namespace {
 
 constexpr int kRandomLines = 1000;

@@ -11,6 +11,7 @@
 #include "core/io/glb.h"
 
 namespace farhorizon {
+
 namespace {
 
 std::optional<std::vector<std::uint8_t>> Load(const std::filesystem::path& path, Claims& claims) {
