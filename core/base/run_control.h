@@ -5,6 +5,7 @@
 #include <stop_token>
 #include <string>
 
+#include "core/base/assumption.h"
 #include "core/base/stage.h"
 
 namespace farhorizon {
@@ -18,11 +19,15 @@ using Progress = std::function<void(Stage stage, double done)>;
 /// Takes a sentence that the caller should know although the work goes on. Called as Progress is.
 using WarningHandler = std::function<void(const std::string& text)>;
 
+/// Takes what was assumed about the data. Called as Progress is, once for each assumption.
+using AssumptionHandler = std::function<void(const Assumption&)>;
+
 /// How a caller watches long work and stops it. All may be left empty.
 struct RunControl {
   Progress progress = {};
   std::stop_token stop = {};
   WarningHandler on_warning = {};
+  AssumptionHandler on_assumption = {};
 
   void Report(Stage stage, double done) const {
     if (progress) progress(stage, done);
@@ -40,6 +45,9 @@ struct RunControl {
   }
   void Warn(const std::string& text) const {
     if (on_warning) on_warning(text);
+  }
+  void Assume(const Assumption& assumption) const {
+    if (on_assumption) on_assumption(assumption);
   }
   [[nodiscard]] bool StopRequested() const { return stop.stop_requested(); }
 };

@@ -236,6 +236,7 @@ struct GlobeTransform::State {
   std::string name;
   double full_turn = 0;
   std::optional<double> about_x;
+  Assumptions assumptions;
 
   // A system without heights says nothing of them, whatever its datum: heights stay as they are.
   [[nodiscard]] bool HasHeights() const { return height_axis.has_value(); }
@@ -423,5 +424,7 @@ Result<std::vector<Geodetic>> GlobeTransform::FromEcef(const std::vector<Ecef>& 
 }
 
 std::string GlobeTransform::Name() const { return state_->name; }
+
+const Assumptions& GlobeTransform::assumptions() const { return state_->assumptions; }
 
 }  // namespace farhorizon

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/assumption.h"
 #include "core/base/result.h"
 #include "core/geo/frames.h"
 
@@ -54,6 +55,9 @@ class GlobeTransform {
   /// "EPSG:4326" where the reference system has a code, "EPSG:4326+5773" where both its parts have
   /// one; otherwise its name.
   [[nodiscard]] std::string Name() const;
+
+  /// What was assumed about the way.
+  [[nodiscard]] const Assumptions& assumptions() const;
 
  private:
   struct State;

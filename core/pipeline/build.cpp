@@ -139,7 +139,7 @@ Status BuildArtifacts(const fs::path& dem, const fs::path& directory, const Buil
   Status checked = CheckOptions(options);
   if (!checked) return checked;
   control.Report(Stage::kRead, 0);
-  Result<std::unique_ptr<TerrainInput>> input = TerrainInput::Open(dem, options);
+  Result<std::unique_ptr<TerrainInput>> input = TerrainInput::Open(dem, options, control);
   if (!input) return std::move(input.error());
   Result<std::vector<LevelPlan>> plans = PlanLevels(**input, options);
   if (!plans) return std::move(plans.error());
@@ -173,8 +173,11 @@ Status BuildArtifacts(const fs::path& dem, const fs::path& directory, const Buil
   control.Report(Stage::kWrite, 0);
   Status written = WriteFeatures(*features, options, writer);
   if (!written) return written;
-  const Report report{Version(), (*input)->report(),
-                      static_cast<std::int64_t>(horizon->edges.size()), horizon->statistics,
+  const Report report{Version(),
+                      (*input)->report(),
+                      (*input)->assumptions(),
+                      static_cast<std::int64_t>(horizon->edges.size()),
+                      horizon->statistics,
                       *levels};
   Status reported = writer.Add("report.json", WriteReport(report));
   if (!reported) return reported;

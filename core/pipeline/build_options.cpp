@@ -61,7 +61,7 @@ Status Read(const std::string& name, const std::string& value, BuildOptions& opt
     return Ok{};
   }
   if (name == "nodata") {
-    if (!ReadNumber(value, options.nodata.emplace())) return Invalid(name, value, "a number");
+    if (!ReadNumber(value, options.nodata.emplace_back())) return Invalid(name, value, "a number");
     return Ok{};
   }
   if (name == "workBudget") {
@@ -93,9 +93,6 @@ Status CheckOptions(const BuildOptions& options) {
   }
   if (!(options.silhouette_error_m >= 0 && options.silhouette_error_m <= 1e5)) {
     return Invalid("silhouetteError", Text(options.silhouette_error_m), "0 to 100000 metres");
-  }
-  if (options.nodata && std::isinf(*options.nodata)) {
-    return Invalid("nodata", Text(*options.nodata), "a finite number or nan");
   }
   if (options.work_budget && *options.work_budget < 1) {
     return Invalid("workBudget", std::to_string(*options.work_budget), "1 or more");

@@ -19,7 +19,9 @@ struct BuildOptions {
   std::vector<std::string> formats = {"3dtiles", "drc", "geojson"};
   std::optional<std::string> crs;
   std::optional<std::string> vertical_datum;
-  std::optional<double> nodata;
+  std::optional<std::string> height_unit;      ///< "m", "ft" or "us-ft"
+  std::optional<std::string> datum_operation;  ///< as GlobeTransform has it
+  std::vector<double> nodata;                  ///< beside the file's own
   std::int64_t max_posts = 64'000'000;
   /// As HorizonOptions has it: decisions about candidates.
   std::optional<std::int64_t> work_budget;

@@ -44,6 +44,21 @@ DemReport ReadDemReport(const Json& json) {
   return dem;
 }
 
+Json ToJson(const Assumptions& assumptions) {
+  Json list = Json::array();
+  for (const Assumption& a : assumptions) list.push_back({{"code", a.code}, {"text", a.text}});
+  return list;
+}
+
+// Reports of versions that told nobody what they assumed have no such member.
+Assumptions ReadAssumptions(const Json& report) {
+  Assumptions assumptions;
+  for (const Json& a : report.value("assumptions", Json::array())) {
+    assumptions.push_back({a.at("code").get<std::string>(), a.at("text").get<std::string>()});
+  }
+  return assumptions;
+}
+
 Json ToJson(const HorizonStatistics& s, std::int64_t horizon_edges) {
   return {{"terrain_edges", s.terrain_edges},
           {"horizon_edges", horizon_edges},
@@ -131,6 +146,7 @@ std::string WriteReport(const Report& report) {
   for (const LevelReport& level : report.levels) levels.push_back(ToJson(level));
   const Json json = {{"farhorizon", report.version},
                      {"dem", ToJson(report.dem)},
+                     {"assumptions", ToJson(report.assumptions)},
                      {"horizon", ToJson(report.statistics, report.horizon_edges)},
                      {"levels", levels}};
   return json.dump(1) + "\n";
@@ -142,6 +158,7 @@ Result<Report> ReadReport(const std::string& text) {
     Report report;
     json.at("farhorizon").get_to(report.version);
     report.dem = ReadDemReport(json.at("dem"));
+    report.assumptions = ReadAssumptions(json);
     ReadHorizon(json.at("horizon"), report);
     for (const Json& level : json.at("levels")) report.levels.push_back(ReadLevel(level));
     return report;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/assumption.h"
 #include "core/base/result.h"
 #include "core/horizon/horizon.h"
 #include "core/simplify/mesh_error.h"
@@ -48,6 +49,7 @@ struct LevelReport {
 struct Report {
   std::string version;
   DemReport dem;
+  Assumptions assumptions;
   std::int64_t horizon_edges = 0;
   HorizonStatistics statistics;
   std::vector<LevelReport> levels;

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/io/dem_reader.h"
+#include "core/io/dem/read_dem.h"
 #include "core/io/file.h"
 
 namespace farhorizon {
@@ -29,12 +29,17 @@ void Include(BoundingRegion& region, const Geodetic& p) {
 }  // namespace
 
 Result<std::unique_ptr<TerrainInput>> TerrainInput::Open(const std::filesystem::path& path,
-                                                         const BuildOptions& options) {
+                                                         const BuildOptions& options,
+                                                         const RunControl& control) {
   std::unique_ptr<TerrainInput> input(new TerrainInput());
-  Result<Dem> dem =
-      ReadDem(path, {.max_posts = options.max_posts, .crs = options.crs, .nodata = options.nodata});
+  Result<Dem> dem = ReadDem(path, {.max_posts = options.max_posts,
+                                   .crs = options.crs,
+                                   .vertical_datum = options.vertical_datum,
+                                   .nodata = options.nodata,
+                                   .height_unit = options.height_unit});
   if (!dem) return std::move(dem.error()).WithContext("read DEM");
   input->dem_ = *std::move(dem);
+  input->Assume(input->dem_.assumptions, control);
   Result<Terrain> terrain = Terrain::Build(input->dem_);
   if (!terrain) return std::move(terrain.error()).WithContext("triangulate DEM");
   input->terrain_ = *terrain;
@@ -42,11 +47,19 @@ Result<std::unique_ptr<TerrainInput>> TerrainInput::Open(const std::filesystem::
       Georeference::Of(*input->terrain_, options.vertical_datum.value_or(""));
   if (!georeference) return std::move(georeference.error()).WithContext("place DEM on the globe");
   input->georeference_.emplace(*std::move(georeference));
+  input->Assume(input->georeference_->assumptions(), control);
   Result<std::string> sha256 = Sha256OfFile(path);
   if (!sha256) return std::move(sha256.error()).WithContext("read DEM");
   input->report_.sha256 = *std::move(sha256);
   input->Describe();
   return input;
+}
+
+void TerrainInput::Assume(const Assumptions& assumptions, const RunControl& control) {
+  for (const Assumption& assumption : assumptions) {
+    assumptions_.push_back(assumption);
+    control.Assume(assumption);
+  }
 }
 
 void TerrainInput::Describe() {

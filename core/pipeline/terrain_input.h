@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/base/result.h"
+#include "core/base/run_control.h"
 #include "core/io/tileset.h"
 #include "core/pipeline/build_options.h"
 #include "core/pipeline/georeference.h"
@@ -17,15 +18,19 @@ namespace farhorizon {
 /// A DEM file, read, triangulated and georeferenced: what every command starts from.
 class TerrainInput {
  public:
-  /// Takes max_posts, crs, nodata and vertical_datum from `options`.
+  /// Takes from `options` what says how to read and to place a DEM, and tells `control` of each
+  /// assumption.
   /// Errors: those of ReadDem, Terrain::Build and Georeference::Of, each with the step's name.
   static Result<std::unique_ptr<TerrainInput>> Open(const std::filesystem::path& path,
-                                                    const BuildOptions& options);
+                                                    const BuildOptions& options,
+                                                    const RunControl& control);
 
   [[nodiscard]] const Dem& dem() const { return dem_; }
   [[nodiscard]] const Terrain& terrain() const { return *terrain_; }
   [[nodiscard]] const Georeference& georeference() const { return *georeference_; }
   [[nodiscard]] const DemReport& report() const { return report_; }
+  /// What was assumed about the heights and their place, in the order in which it was met.
+  [[nodiscard]] const Assumptions& assumptions() const { return assumptions_; }
 
   /// The least region with all posts that have data. Errors: those of Georeference::ToGeodetic.
   [[nodiscard]] Result<BoundingRegion> Region() const;
@@ -33,11 +38,13 @@ class TerrainInput {
  private:
   TerrainInput() = default;
   void Describe();
+  void Assume(const Assumptions& assumptions, const RunControl& control);
 
   Dem dem_;
   std::optional<Terrain> terrain_;
   std::optional<Georeference> georeference_;
   DemReport report_;
+  Assumptions assumptions_;
 };
 
 }  // namespace farhorizon

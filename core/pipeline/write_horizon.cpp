@@ -20,7 +20,7 @@ Status WriteHorizonEdges(const std::filesystem::path& dem, const std::filesystem
                  "unknown-format"};
   }
   control.Report(Stage::kRead, 0);
-  Result<std::unique_ptr<TerrainInput>> input = TerrainInput::Open(dem, options);
+  Result<std::unique_ptr<TerrainInput>> input = TerrainInput::Open(dem, options, control);
   if (!input) return std::move(input.error());
   control.Report(Stage::kRead, 1);
   HorizonOptions horizon_options = HorizonOptionsOf(options);

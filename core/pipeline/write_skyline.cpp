@@ -147,7 +147,7 @@ Result<std::string> WriteSkyline(const std::filesystem::path& dem, double azimut
                  "an azimuth is in degrees clockwise from north, from -360 to 360", "bad-azimuth"};
   }
   control.Report(Stage::kRead, 0);
-  Result<std::unique_ptr<TerrainInput>> input = TerrainInput::Open(dem, options);
+  Result<std::unique_ptr<TerrainInput>> input = TerrainInput::Open(dem, options, control);
   if (!input) return std::move(input.error());
   control.Report(Stage::kRead, 1);
   Result<SkylineOfDirection> skyline = Find(**input, azimuth, options, control);

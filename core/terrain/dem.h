@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "core/base/assumption.h"
+
 namespace farhorizon {
 
 /// A post of the grid: `row * columns + column`.
@@ -37,7 +39,8 @@ struct Dem {
   double height_offset_m = 0;
   bool quantized = false;  ///< heights were rounded to quantum_m: the report says so
   GeoTransform transform;
-  std::string crs;  ///< as PROJ reads it: "EPSG:4326" or WKT
+  std::string crs;          ///< as PROJ reads it: "EPSG:4326" or WKT
+  Assumptions assumptions;  ///< that the reader has made
 
   [[nodiscard]] bool HasData(VertexId v) const {
     return heights[static_cast<std::size_t>(v)] != kNoHeight;

@@ -30,8 +30,8 @@ Status WriteTimings(const std::string& path, StageTimer& timer) {
 int Run(const BuildArguments& arguments) {
   return ExitStatusOf(RunOnDem(arguments.dem, Workflow::kBuild, [&](const DemRun& run) {
     StageTimer timer;
-    const RunControl control{timer.Listen(run.control.progress), run.control.stop,
-                             run.control.on_warning};
+    RunControl control = run.control;
+    control.progress = timer.Listen(run.control.progress);
     Status built = BuildArtifacts(arguments.dem.path, arguments.directory, run.options, control);
     if (built && !arguments.timings.empty()) built = WriteTimings(arguments.timings, timer);
     return built;

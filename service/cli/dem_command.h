@@ -48,7 +48,8 @@ auto RunOnDem(const DemArguments& arguments, Workflow workflow, Work work)
   if (!options) return std::move(options.error());
   const StopOnSignal signals;
   Reporter reporter(arguments.reporter);
-  const RunControl control{reporter.progress(workflow), signals.token(), reporter.warn()};
+  const RunControl control{reporter.progress(workflow), signals.token(), reporter.warn(),
+                           reporter.assume()};
   return work(DemRun{*options, reporter, control});
 }
 

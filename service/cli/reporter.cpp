@@ -37,12 +37,22 @@ Progress Reporter::progress(Workflow workflow) {
 }
 
 WarningHandler Reporter::warn() {
-  return [this](const std::string& text) {
-    Clear();
-    const std::string line =
-        json_ ? nlohmann::json{{"notice", text}}.dump() : "farhorizon: " + text;
-    std::fprintf(stderr, "%s\n", line.c_str());
+  return [this](const std::string& text) { Print(text, {{"notice", text}}); };
+}
+
+AssumptionHandler Reporter::assume() {
+  return [this](const Assumption& assumption) {
+    Print("assumed: " + assumption.text,
+          {{"assumption", {{"code", assumption.code}, {"text", assumption.text}}}});
   };
+}
+
+void Reporter::Print(const std::string& text, const nlohmann::json& object) {
+  Clear();
+  const std::string line =
+      json_ ? object.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)
+            : "farhorizon: " + text;
+  std::fprintf(stderr, "%s\n", line.c_str());
 }
 
 void Reporter::Show(const std::string& stage, double done, int percent) {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include <CLI/CLI.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "core/base/run_control.h"
 #include "core/pipeline/progress_plan.h"
@@ -29,12 +30,16 @@ class Reporter {
   Progress progress(Workflow workflow);
   /// Prints each notice on a line of its own, in every form. Requires: this outlives it.
   WarningHandler warn();
+  /// Prints each assumption likewise. Requires: this outlives it.
+  AssumptionHandler assume();
   /// Shows `stage`, the share of it that is done, and the percentage of the whole work.
   void Show(const std::string& stage, double done, int percent);
   /// Removes the bar, so that a message can be printed in its place. So does the destructor.
   void Clear();
 
  private:
+  void Print(const std::string& text, const nlohmann::json& object);
+
   bool bar_ = false;
   bool json_ = false;
   bool drawn_ = false;

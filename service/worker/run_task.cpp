@@ -8,10 +8,10 @@
 #include <optional>
 #include <string>
 
-#include "core/io/dem_reader.h"
 #include "core/io/file.h"
 #include "core/io/posix_file.h"
 #include "core/pipeline/build.h"
+#include "core/pipeline/terrain_input.h"
 #include "service/stage_timer.h"
 #include "service/worker/worker_protocol.h"
 
@@ -50,8 +50,8 @@ Status Run(bool probe_only, StageTimer& timer) {
   options->max_posts = task->max_posts;
   options->threads = task->threads;
   if (probe_only) {
-    Result<Dem> dem = ReadDem(task->input, {options->max_posts, options->crs, options->nodata});
-    if (!dem) return std::move(dem.error());
+    Result<std::unique_ptr<TerrainInput>> input = TerrainInput::Open(task->input, *options, {});
+    if (!input) return std::move(input.error());
     return Ok{};
   }
   return BuildArtifacts(task->input, task->output, *options,

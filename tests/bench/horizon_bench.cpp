@@ -10,7 +10,7 @@
 
 #include "core/horizon/find_horizon.h"
 #include "core/horizon/kinetic/kinetic_horizon.h"
-#include "core/io/dem_reader.h"
+#include "core/io/dem/read_dem.h"
 #include "core/terrain/terrain.h"
 #include "tests/support/terrains.h"
 

@@ -13,7 +13,7 @@
 
 #include "core/horizon/find_horizon.h"
 #include "core/horizon/lines_of_sight/directional_skyline.h"
-#include "core/io/dem_reader.h"
+#include "core/io/dem/read_dem.h"
 #include "core/terrain/terrain.h"
 
 namespace farhorizon {

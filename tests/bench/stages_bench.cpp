@@ -19,7 +19,7 @@
 #include "core/horizon/lines_of_sight/skyline_drop.h"
 #include "core/horizon/sweep/candidates.h"
 #include "core/horizon/sweep/hull_sweep.h"
-#include "core/io/dem_reader.h"
+#include "core/io/dem/read_dem.h"
 #include "core/pipeline/edge_measures.h"
 #include "core/terrain/terrain.h"
 

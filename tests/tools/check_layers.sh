@@ -9,7 +9,7 @@ cd "${1:-"$(dirname "${BASH_SOURCE[0]}")/../.."}"
 # Our own headers: what each room (a folder, but for files named below) may include beside itself.
 below_horizon="core/base core/exact core/geometry core/terrain"
 below_pipeline="$below_horizon core/horizon core/horizon/search core/horizon/lines core/horizon/visibility
-  core/horizon/lines_of_sight core/horizon/trace core/simplify core/geo core/io"
+  core/horizon/lines_of_sight core/horizon/trace core/simplify core/geo core/io core/io/dem"
 declare -A may=(
   [core/base]=""
   [core/exact]="core/base"
@@ -29,6 +29,7 @@ declare -A may=(
   [core/simplify]="$below_horizon core/horizon core/horizon/visibility"
   [core/geo]="core/base"
   [core/io]="core/base core/geometry core/terrain core/horizon core/horizon/lines_of_sight core/horizon/trace core/geo"
+  [core/io/dem]="core/base core/geometry core/terrain core/geo core/io"
   [core/pipeline]="$below_pipeline"
   [core/pipeline/verify]="$below_pipeline core/pipeline"
   # The service's own root: clock, log, and the wrapper header of Asio. main.cpp is below.
@@ -47,7 +48,7 @@ declare -A may=(
 # The first row that matches decides; a header with a dot or a slash that is in no row is an offence,
 # so that a new dependency has to be entered here.
 foreign=(
-  '(gdal|ogr|cpl_|vrt) @ ^core/io/[^/]+\.cpp$ ^service/jobs/[a-z_0-9]*object_store\.cpp$'
+  '(gdal|ogr|cpl_|vrt) @ ^core/io/(dem/)?[^/]+\.cpp$ ^service/jobs/[a-z_0-9]*object_store\.cpp$'
   'draco/ @ ^core/io/[^/]+\.cpp$'
   'proj(_[a-z]+)?(\.h$|/) @ ^core/geo/[^/]+\.cpp$'
   'boost/multiprecision/ @ ^core/exact/'

@@ -146,7 +146,7 @@ Result<std::vector<ClaimCheck>> VerifyArtifacts(const fs::path& dem, const fs::p
   if (!text) return std::move(text.error());
   Result<Report> report = ReadReport(*text);
   if (!report) return std::move(report.error());
-  Result<std::unique_ptr<TerrainInput>> input = TerrainInput::Open(dem, options);
+  Result<std::unique_ptr<TerrainInput>> input = TerrainInput::Open(dem, options, control);
   if (!input) return std::move(input.error());
   control.Report(Stage::kRead, 1);
   VerifyDem(report->dem, (*input)->report(), claims);

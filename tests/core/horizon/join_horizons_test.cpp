@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/horizon/find_horizon.h"
-#include "core/io/dem_reader.h"
+#include "core/io/dem/read_dem.h"
 #include "tests/oracles/horizon_brute_force.h"
 #include "tests/support/effort.h"
 #include "tests/support/terrains.h"

@@ -21,24 +21,4 @@ struct ValueScale {
 ///   of no use.
 Result<ValueScale> ReadValueScale(void* dataset, void* band);
 
-/// The values of a band that mean no data: NaN, and `forced` or, where that is unset, the band's
-/// nodata value.
-class NoDataRule {
- public:
-  /// band: a GDALRasterBandH.
-  NoDataRule(void* band, std::optional<double> forced);
-
-  /// True where some value other than NaN means no data.
-  [[nodiscard]] bool given() const { return value_.has_value(); }
-
-  /// True where `value`, raw, means no data. Nodata values beyond any height (-1e37, -3.40282e+38)
-  /// are written with few digits, six at least, so that text and bits may differ: those match
-  /// within 1e-5 of their size. Others match as the band's type stores them.
-  [[nodiscard]] bool Matches(double value) const;
-
- private:
-  bool is_float_;
-  std::optional<double> value_;
-};
-
 }  // namespace farhorizon

@@ -1,24 +1,23 @@
 // Reads a DEM through GDAL without trusting the file: all that can be refused from the header is
 // refused before the first pixel is read. GdalSession keeps GDAL from opening other files.
-#include "core/io/dem_reader.h"
+#include "core/io/dem/read_dem.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
-#include <string_view>
+#include <string>
 #include <utility>
 #include <vector>
 
-#include <cpl_conv.h>
-#include <cpl_string.h>
 #include <gdal.h>
-#include <ogr_srs_api.h>
 
-#include "core/io/band_values.h"
-#include "core/io/complete_raster.h"
+#include "core/io/dem/complete_raster.h"
+#include "core/io/dem/height_quantum.h"
+#include "core/io/dem/nodata_rule.h"
+#include "core/io/dem/open_raster.h"
+#include "core/io/dem/raster_place.h"
+#include "core/io/dem/value_scale.h"
 #include "core/io/gdal_session.h"
-#include "core/io/height_quantum.h"
 
 namespace farhorizon {
 
@@ -26,55 +25,8 @@ namespace {
 
 constexpr int kMaxSide = 32768;  // Dem's bound
 
-struct CloseDataset {
-  void operator()(void* dataset) const { GDALClose(dataset); }
-};
-using DatasetPtr = std::unique_ptr<void, CloseDataset>;
-
 Error BadData(const std::string& message, ErrorKind kind) {
   return {ErrorCode::kUnsupportedData, message, kind};
-}
-
-std::string Quoted(const std::filesystem::path& path) {
-  std::string quoted(1, '"');
-  return quoted.append(path.filename().string()).append(1, '"');
-}
-
-DatasetPtr OpenWith(const std::string& path, const char* const* drivers) {
-  // INTERNAL: no world or .tab file; OVERVIEW_LEVEL: no OVERVIEW_FILE redirection (measured).
-  const char* const options[] = {"OVERVIEW_LEVEL=NONE", "GEOREF_SOURCES=INTERNAL", nullptr};
-  return DatasetPtr(
-      GDALOpenEx(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, drivers, options, nullptr));
-}
-
-Result<DatasetPtr> OpenRaster(const std::filesystem::path& path, GdalSession& session) {
-  std::error_code failure;
-  if (!std::filesystem::is_regular_file(path, failure)) {
-    return Error{ErrorCode::kNotFound, "there is no file " + Quoted(path), "no-such-file"};
-  }
-  const std::string absolute = std::filesystem::absolute(path).lexically_normal().string();
-  if (absolute.starts_with("/vsi")) {
-    return Error{ErrorCode::kInvalidArgument, "paths under /vsi are GDAL's, not files of ours",
-                 "virtual-path"};
-  }
-  const char* const alone[] = {"GTiff", "AAIGrid", "SRTMHGT", "DTED", "USGSDEM", nullptr};
-  DatasetPtr dataset = OpenWith(absolute, alone);
-  if (!dataset) {
-    const std::string first = session.Complaint();
-    // ENVI keeps its header in a file beside, which GDAL sees only without EMPTY_DIR.
-    CPLSetThreadLocalConfigOption("GDAL_DISABLE_READDIR_ON_OPEN", "TRUE");
-    const char* const envi[] = {"ENVI", nullptr};
-    dataset = OpenWith(absolute, envi);
-    CPLSetThreadLocalConfigOption("GDAL_DISABLE_READDIR_ON_OPEN", "EMPTY_DIR");
-    if (!dataset) {
-      return BadData(
-          Quoted(path) + " is no raster that can be read" + first +
-              "; expected GeoTIFF, Arc/Info ASCII grid, SRTM HGT, DTED, USGS DEM or ENVI",
-          "not-a-raster");
-    }
-  }
-  session.Forget();
-  return dataset;
 }
 
 Status CheckSize(GDALDatasetH dataset, const DemReadOptions& options) {
@@ -130,59 +82,6 @@ Status CheckType(GDALRasterBandH band) {
                    "unsupported-type");
   }
   return Ok{};
-}
-
-Result<GeoTransform> ReadGeoTransform(GDALDatasetH dataset) {
-  double g[6] = {0, 0, 0, 0, 0, 0};
-  if (GDALGetGeoTransform(dataset, g) != CE_None) {
-    return BadData(
-        "the raster does not say where its cells lie (no geotransform); give it one "
-        "with gdal_translate -a_ullr",
-        "degenerate-geotransform");
-  }
-  const bool finite = std::ranges::all_of(g, [](double x) { return std::isfinite(x); });
-  if (finite && (g[2] != 0 || g[4] != 0)) {
-    return BadData("the raster is rotated or sheared; make it north up with gdalwarp",
-                   "rotated-geotransform");
-  }
-  if (finite && g[1] < 0) {
-    return BadData("the raster's columns run from east to west; turn it round with gdalwarp",
-                   "rotated-geotransform");
-  }
-  // GDAL's coefficients are those of cell corners, for PixelIsPoint files too (it shifts them).
-  const GeoTransform transform = {g[0] + 0.5 * g[1], g[3] + 0.5 * g[5], g[1], g[5]};
-  const double last_x = transform.origin_x + (GDALGetRasterXSize(dataset) - 1) * g[1];
-  const double last_y = transform.origin_y + (GDALGetRasterYSize(dataset) - 1) * g[5];
-  const bool apart = transform.origin_x + g[1] != transform.origin_x && last_x - g[1] != last_x &&
-                     transform.origin_y + g[5] != transform.origin_y && last_y - g[5] != last_y;
-  if (!finite || !apart || !std::isfinite(last_x) || !std::isfinite(last_y)) {
-    return BadData(
-        "the raster's geotransform is degenerate (cell size zero or not a number); give "
-        "it one with gdal_translate -a_ullr",
-        "degenerate-geotransform");
-  }
-  return transform;
-}
-
-Result<std::string> ReadCrs(GDALDatasetH dataset, const DemReadOptions& options) {
-  if (options.crs) return *options.crs;
-  const OGRSpatialReferenceH crs = GDALGetSpatialRef(dataset);
-  if (crs == nullptr) {
-    return BadData("the DEM has no reference system; name it with --crs, for example EPSG:4326",
-                   "no-crs");
-  }
-  const char* authority = OSRGetAuthorityName(crs, nullptr);
-  const char* code = OSRGetAuthorityCode(crs, nullptr);
-  if (authority != nullptr && code != nullptr) return std::string(authority) + ":" + code;
-  const char* const format[] = {"FORMAT=WKT2_2019", "MULTILINE=NO", nullptr};
-  char* text = nullptr;
-  const OGRErr failure = OSRExportToWktEx(crs, &text, format);
-  std::string wkt = text != nullptr ? text : "";
-  CPLFree(text);
-  if (failure != OGRERR_NONE || wkt.empty()) {
-    return BadData("the DEM's reference system cannot be read; name it with --crs", "no-crs");
-  }
-  return wkt;
 }
 
 // Makes NaN of cells that an internal mask hides, whatever their values.
@@ -256,7 +155,7 @@ Result<Dem> ReadOpened(GDALDatasetH dataset, const std::filesystem::path& path,
   }
   Result<GeoTransform> transform = ReadGeoTransform(dataset);
   if (!transform) return std::move(transform.error());
-  Result<std::string> crs = ReadCrs(dataset, options);
+  Result<std::string> crs = ReadCrs(dataset, options.crs);
   if (!crs) return std::move(crs.error());
   Result<ValueScale> scale = ReadValueScale(dataset, band);
   if (!scale) return std::move(scale.error());
@@ -285,7 +184,7 @@ Result<Dem> ReadOpened(GDALDatasetH dataset, const std::filesystem::path& path,
 
 Result<Dem> ReadDem(const std::filesystem::path& path, const DemReadOptions& options) {
   GdalSession session(path);
-  Result<DatasetPtr> dataset = OpenRaster(path, session);
+  Result<RasterPtr> dataset = OpenRaster(path, session);
   if (!dataset) return std::move(dataset.error());
   return ReadOpened(dataset->get(), path, options, session);
 }

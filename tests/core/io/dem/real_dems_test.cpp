@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "core/geo/crs.h"
-#include "core/io/dem_reader.h"
+#include "core/io/dem/read_dem.h"
 
 namespace farhorizon {
 namespace {

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/base/result.h"
 #include "core/terrain/dem.h"
@@ -13,8 +14,10 @@ namespace farhorizon {
 /// The limit on rasters, and values that replace or complete those in the file.
 struct DemReadOptions {
   std::int64_t max_posts = 64'000'000;
-  std::optional<std::string> crs = {};  ///< overrides the file's
-  std::optional<double> nodata = {};    ///< overrides or adds to the file's
+  std::optional<std::string> crs = {};             ///< overrides the file's
+  std::optional<std::string> vertical_datum = {};  ///< overrides what `crs` or the file says
+  std::vector<double> nodata = {};                 ///< beside the file's own
+  std::optional<std::string> height_unit = {};     ///< "m", "ft" or "us-ft": overrides the file's
 };
 
 /// Reads the one band of a raster (GTiff, AAIGrid, SRTMHGT, DTED, USGSDEM, ENVI) as a DEM.

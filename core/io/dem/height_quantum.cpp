@@ -1,6 +1,6 @@
 // One pass finds the range of the values and the lowest bit that any of them has, which decide the
 // quantum; a second one scales. Powers of two scale doubles exactly.
-#include "core/io/height_quantum.h"
+#include "core/io/dem/height_quantum.h"
 
 #include <algorithm>
 #include <bit>

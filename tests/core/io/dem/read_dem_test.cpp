@@ -1,4 +1,4 @@
-#include "core/io/dem_reader.h"
+#include "core/io/dem/read_dem.h"
 
 #include <algorithm>
 #include <cmath>
@@ -131,19 +131,19 @@ TEST_F(DemReader, NodataBeyondFloatsDigitsIsRecognised) {
     const double stored = std::clamp<double>(nodata, std::numeric_limits<float>::lowest(),
                                              std::numeric_limits<float>::max());
     DemReadOptions options;
-    options.nodata = std::abs(nodata) > 1e300 ? stored : nodata;
+    options.nodata = {std::abs(nodata) > 1e300 ? stored : nodata};
     const Dem dem = MustRead({.type = "Float32", .values = {stored, 2, 3, 4, 5, 6}}, options);
     EXPECT_THAT(dem.heights, ElementsAre(kNoHeight, 2, 3, 4, 5, 6)) << nodata;
   }
 }
 
 TEST_F(DemReader, NodataOfTheCallReplacesTheFiles) {
-  const Dem dem = MustRead({.nodata = 1}, {.nodata = 2});
+  const Dem dem = MustRead({.nodata = 1}, {.nodata = {2}});
   EXPECT_THAT(dem.heights, ElementsAre(1, kNoHeight, 3, 4, 5, 6));
 }
 
 TEST_F(DemReader, NodataOutsideTheTypeMatchesNothing) {
-  const Dem dem = MustRead({.type = "UInt16"}, {.nodata = -9999});
+  const Dem dem = MustRead({.type = "UInt16"}, {.nodata = {-9999}});
   EXPECT_THAT(dem.heights, ElementsAre(1, 2, 3, 4, 5, 6));
 }
 

@@ -1,6 +1,6 @@
 // Counts the numbers of an ASCII grid, word by word, in pieces of the file. A word is judged by its
 // characters alone: which value it has is left to GDAL.
-#include "core/io/ascii_grid.h"
+#include "core/io/dem/ascii_grid.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // What a band's raw values mean: metres by scale, offset and unit, or no data.
-#include "core/io/band_values.h"
+#include "core/io/dem/value_scale.h"
 
 #include <algorithm>
 #include <cctype>
@@ -68,35 +68,6 @@ Result<ValueScale> ReadValueScale(void* dataset, void* band) {
                  "unsupported-type"};
   }
   return ValueScale{scale * *unit, offset * *unit};
-}
-
-NoDataRule::NoDataRule(void* band, std::optional<double> forced)
-    : is_float_(GDALGetRasterDataType(band) == GDT_Float32) {
-  int given = 0;
-  double value = 0;
-  switch (GDALGetRasterDataType(band)) {
-    case GDT_Int64:
-      value = static_cast<double>(GDALGetRasterNoDataValueAsInt64(band, &given));
-      break;
-    case GDT_UInt64:
-      value = static_cast<double>(GDALGetRasterNoDataValueAsUInt64(band, &given));
-      break;
-    default:
-      value = GDALGetRasterNoDataValue(band, &given);
-  }
-  if (given != 0) value_ = value;
-  if (forced) value_ = forced;
-}
-
-bool NoDataRule::Matches(double value) const {
-  if (std::isnan(value)) return true;
-  if (!value_) return false;
-  if (value == *value_) return true;
-  if (std::abs(*value_) >= kMaxHeight && std::isfinite(*value_)) {
-    return std::abs(value - *value_) <= 1e-5 * std::abs(*value_);
-  }
-  return is_float_ && std::isfinite(*value_) &&
-         static_cast<float>(value) == static_cast<float>(*value_);
 }
 
 }  // namespace farhorizon

@@ -1,4 +1,4 @@
-#include "core/io/height_quantum.h"
+#include "core/io/dem/height_quantum.h"
 
 #include <cmath>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "core/io/complete_raster.h"
+#include "core/io/dem/complete_raster.h"
 
 #include <cstdint>
 #include <cstdlib>
@@ -6,7 +6,7 @@
 
 #include <gdal.h>
 
-#include "core/io/ascii_grid.h"
+#include "core/io/dem/ascii_grid.h"
 
 namespace farhorizon {
 
