@@ -20,7 +20,7 @@ TEST(ParseOptions, ReadsTheParametersOfAJob) {
   EXPECT_EQ(options->silhouette_error_m, 1);
   EXPECT_EQ(options->formats, (std::vector<std::string>{"drc", "geojson"}));
   EXPECT_EQ(options->crs, "EPSG:32610");
-  EXPECT_EQ(options->nodata, -9999);
+  EXPECT_EQ(options->nodata, std::vector<double>{-9999});
   EXPECT_EQ(options->work_budget, 5'000'000'000);
   EXPECT_TRUE(options->approximate);
 }
@@ -56,7 +56,7 @@ INSTANTIATE_TEST_SUITE_P(
                     BadParameter{"maxError", "-1"}, BadParameter{"maxError", "nan"},
                     BadParameter{"maxError", "inf"}, BadParameter{"maxError", "3m"},
                     BadParameter{"silhouetteError", "-0.5"}, BadParameter{"formats", ""},
-                    BadParameter{"formats", "stl"}, BadParameter{"nodata", "inf"},
+                    BadParameter{"formats", "stl"}, BadParameter{"nodata", "none"},
                     BadParameter{"workBudget", "0"}, BadParameter{"workBudget", "1e9"},
                     BadParameter{"approximate", "1"}));
 
