@@ -153,9 +153,10 @@ Result<Dem> ReadOpened(GDALDatasetH dataset, const std::filesystem::path& path,
   if (Status whole = CheckComplete(dataset, path, nodata.given()); !whole) {
     return std::move(whole.error());
   }
-  Result<GeoTransform> transform = ReadGeoTransform(dataset);
+  Dem dem;
+  Result<GeoTransform> transform = ReadGeoTransform(dataset, path, dem.assumptions);
   if (!transform) return std::move(transform.error());
-  Result<std::string> crs = ReadCrs(dataset, options.crs);
+  Result<std::string> crs = ReadCrs(dataset, path, options.crs, dem.assumptions);
   if (!crs) return std::move(crs.error());
   Result<ValueScale> scale = ReadValueScale(dataset, band);
   if (!scale) return std::move(scale.error());
@@ -168,7 +169,6 @@ Result<Dem> ReadOpened(GDALDatasetH dataset, const std::filesystem::path& path,
   }
 
   ScaledHeights scaled = ScaleHeights(*values);
-  Dem dem;
   dem.columns = GDALGetRasterXSize(dataset);
   dem.rows = GDALGetRasterYSize(dataset);
   dem.heights = std::move(scaled.heights);
