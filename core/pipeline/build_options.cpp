@@ -1,5 +1,5 @@
-// Reads the options of a build from text and checks them. One list of parameters serves jobs and the
-// command line, whose flags are turned into parameters; the messages name the flags.
+// Reads the options of a build from text and checks them. One list of parameters serves jobs and
+// the command line, whose flags are turned into parameters; the messages name the flags.
 #include "core/pipeline/build_options.h"
 
 #include <algorithm>

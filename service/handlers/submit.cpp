@@ -1,6 +1,6 @@
-// POST /jobs, cheapest checks first. From the head: media type and coding, length, Idempotency-Key, query,
-// room for a job. Then the body goes to disk. From the body: form, parameters, first bytes, a
-// worker's reading of the raster; then the stores.
+// POST /jobs, cheapest checks first. From the head: media type and coding, length, Idempotency-Key,
+// query, room for a job. Then the body goes to disk. From the body: form, parameters, first bytes,
+// a worker's reading of the raster; then the stores.
 #include "service/handlers/submit.h"
 
 #include <memory>
