@@ -8,7 +8,7 @@
 namespace farhorizon {
 
 /// The number that the whole of `text` writes: a decimal with or without an exponent, inf or nan,
-/// each with a sign of either kind or none. nullopt for any other text, and where no double is near.
+/// each with a sign of either kind or none. nullopt for any other text, and beyond the doubles.
 std::optional<double> NumberIn(std::string_view text);
 
 /// The whole number that `text` writes; also as 3.0 or 1e6, as programs do whose numbers are all
