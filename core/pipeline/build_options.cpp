@@ -175,6 +175,7 @@ Status CheckOptions(const BuildOptions& options) {
 
 std::vector<std::string_view> ParameterNames() {
   std::vector<std::string_view> names;
+  names.reserve(kParameters.size());
   for (const Parameter& parameter : kParameters) names.push_back(parameter.name);
   return names;
 }

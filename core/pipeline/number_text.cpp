@@ -17,8 +17,9 @@ std::optional<Number> Read(std::string_view text) {
   // std::from_chars takes a minus alone.
   if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
   Number number = 0;
-  const char* end = text.data() + text.size();
-  const auto [stop, failure] = std::from_chars(text.data(), end, number);
+  const char* begin = text.data();
+  const char* end = begin + text.size();
+  const auto [stop, failure] = std::from_chars(begin, end, number);
   if (failure != std::errc() || stop != end) return std::nullopt;
   return number;
 }

@@ -11,31 +11,37 @@ namespace farhorizon {
 
 namespace {
 
+// Reads the quoted string that begins `text`, up to and with its closing quote; nullopt if it has
+// none. A backslash is itself before anything but a quote or a backslash.
+std::optional<std::string> TakeQuoted(std::string_view& text) {
+  std::string value;
+  std::size_t end = 1;
+  for (; end < text.size() && text[end] != '"'; ++end) {
+    const char next = end + 1 < text.size() ? text[end + 1] : '\0';
+    if (text[end] == '\\' && (next == '"' || next == '\\')) ++end;
+    value += text[end];
+  }
+  if (end >= text.size()) return std::nullopt;
+  text.remove_prefix(end + 1);
+  return value;
+}
+
 // The value of a parameter, name="value" or name=value, of a header field.
 std::optional<std::string> FieldParameter(std::string_view field, std::string_view wanted) {
-  std::size_t at = field.find(';');
-  while (at != std::string_view::npos) {
-    std::string_view rest = Trimmed(field.substr(at + 1));
-    const std::size_t equals = rest.find('=');
+  for (std::size_t at = field.find(';'); at != std::string_view::npos; at = field.find(';')) {
+    field = Trimmed(field.substr(at + 1));
+    const std::size_t equals = field.find('=');
     if (equals == std::string_view::npos) return std::nullopt;
-    const std::string name = LowerCase(Trimmed(rest.substr(0, equals)));
-    rest = rest.substr(equals + 1);
-    std::string value;
-    std::size_t end = 0;
-    if (!rest.empty() && rest[0] == '"') {
-      for (end = 1; end < rest.size() && rest[end] != '"'; ++end) {
-        const char next = end + 1 < rest.size() ? rest[end + 1] : '\0';
-        if (rest[end] == '\\' && (next == '"' || next == '\\')) ++end;
-        value += rest[end];
-      }
-      if (end >= rest.size()) return std::nullopt;
+    const std::string name = LowerCase(Trimmed(field.substr(0, equals)));
+    field.remove_prefix(equals + 1);
+    std::optional<std::string> value;
+    if (field.substr(0, 1) == "\"") {
+      value = TakeQuoted(field);
+      if (!value) return std::nullopt;
     } else {
-      end = std::min(rest.find(';'), rest.size());
-      value = std::string(Trimmed(rest.substr(0, end)));
+      value = Trimmed(field.substr(0, field.find(';')));
     }
     if (name == wanted) return value;
-    field = rest.substr(std::min(end, rest.size()));
-    at = field.find(';');
   }
   return std::nullopt;
 }
