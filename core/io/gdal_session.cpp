@@ -33,11 +33,11 @@ void RegisterDrivers() {
   std::call_once(once, [] {
     OSRSetPROJEnableNetwork(0);
     GDALRegister_GTiff();
-    GDALRegister_AAIGrid();
     GDALRegister_SRTMHGT();
     GDALRegister_DTED();
     GDALRegister_USGSDEM();
     GDALRegister_ENVI();
+    GDALRegister_MEM();
     RegisterOGRFlatGeobuf();
     RegisterOGRGeoPackage();
   });

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 
@@ -15,8 +16,13 @@ struct CloseRaster {
 /// A GDALDatasetH, closed with its owner.
 using RasterPtr = std::unique_ptr<void, CloseRaster>;
 
-/// Opens the raster at `path` with the drivers of this program.
-/// Errors: kNotFound; kInvalidArgument "virtual-path"; kUnsupportedData "not-a-raster".
-Result<RasterPtr> OpenRaster(const std::filesystem::path& path, GdalSession& session);
+/// Opens the raster at `path` with the one driver that its first bytes, or its name, call for.
+/// GDAL opens no other file than that, except the .hdr of a raster that needs one and the .prj of
+/// an Arc/Info ASCII grid. Text grids are read whole, with at most `max_cells` cells.
+/// Errors: kNotFound; kInvalidArgument "virtual-path"; kUnsupportedData "not-a-raster", which names
+///   what the file is and what makes it readable, "truncated"; kResourceExhausted
+///   "raster-too-large"; kIo.
+Result<RasterPtr> OpenRaster(const std::filesystem::path& path, std::int64_t max_cells,
+                             GdalSession& session);
 
 }  // namespace farhorizon

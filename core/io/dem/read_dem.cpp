@@ -184,7 +184,7 @@ Result<Dem> ReadOpened(GDALDatasetH dataset, const std::filesystem::path& path,
 
 Result<Dem> ReadDem(const std::filesystem::path& path, const DemReadOptions& options) {
   GdalSession session(path);
-  Result<RasterPtr> dataset = OpenRaster(path, session);
+  Result<RasterPtr> dataset = OpenRaster(path, options.max_posts, session);
   if (!dataset) return std::move(dataset.error());
   return ReadOpened(dataset->get(), path, options, session);
 }
