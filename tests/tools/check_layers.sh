@@ -30,7 +30,7 @@ declare -A may=(
   [core/geo]="core/base"
   [core/io]="core/base core/geometry core/terrain core/horizon core/horizon/lines_of_sight core/horizon/trace core/geo"
   # What a file is by its first bytes, and grids of text: neither knows GDAL.
-  [core/io/file_kind]="core/base"
+  [core/io/file_kind]="core/base core/io/text_grid"
   [core/io/text_grid]="core/base"
   [core/io/dem]="core/base core/geometry core/terrain core/geo core/io core/io/file_kind core/io/text_grid"
   [core/pipeline]="$below_pipeline"

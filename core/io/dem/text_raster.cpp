@@ -13,6 +13,9 @@
 
 #include "core/io/file.h"
 #include "core/io/text_grid/arc_grid.h"
+#include "core/io/text_grid/grass_grid.h"
+#include "core/io/text_grid/surfer_grid.h"
+#include "core/io/text_grid/xyz_list.h"
 
 namespace farhorizon {
 
@@ -72,16 +75,33 @@ void AddReferenceSystem(const std::filesystem::path& path, GDALDatasetH dataset)
   }
 }
 
+Result<XyzGrid> ReadGrid(const std::filesystem::path& path, FileKind kind, std::int64_t max_cells) {
+  if (kind == FileKind::kXyz) return ReadXyzList(path, max_cells);
+  Result<TextGrid> grid = kind == FileKind::kGrassGrid    ? ReadGrassGrid(path, max_cells)
+                          : kind == FileKind::kSurferText ? ReadSurferGrid(path, max_cells)
+                                                          : ReadArcGrid(path, max_cells);
+  if (!grid) return std::move(grid.error());
+  return XyzGrid{std::move(*grid), true};
+}
+
 }  // namespace
 
-Result<RasterPtr> OpenTextRaster(const std::filesystem::path& path, FileKind kind,
-                                 std::int64_t max_cells) {
-  Check(kind == FileKind::kArcGrid, "a text grid");
-  Result<TextGrid> grid = ReadArcGrid(path, max_cells);
-  if (!grid) return std::move(grid.error());
-  Result<RasterPtr> dataset = InMemory(*grid);
-  if (dataset) AddReferenceSystem(path, dataset->get());
-  return dataset;
+Result<OpenedRaster> OpenTextRaster(const std::filesystem::path& path, FileKind kind,
+                                    std::int64_t max_cells) {
+  Result<XyzGrid> read = ReadGrid(path, kind, max_cells);
+  if (!read) return std::move(read.error());
+  Result<RasterPtr> dataset = InMemory(read->grid);
+  if (!dataset) return std::move(dataset.error());
+  if (kind == FileKind::kArcGrid) AddReferenceSystem(path, dataset->get());
+  OpenedRaster opened{std::move(*dataset), {}};
+  if (kind == FileKind::kXyz && !read->order_is_stated) {
+    opened.assumptions.push_back(
+        {"xyz-order",
+         "the list of points does not name its columns, which were taken for x (easting or "
+         "longitude), y (northing or latitude) and height; a first line such as \"y x z\" states "
+         "another order"});
+  }
+  return opened;
 }
 
 }  // namespace farhorizon

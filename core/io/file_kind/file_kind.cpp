@@ -6,6 +6,7 @@
 
 #include "core/io/file_kind/hgt_name.h"
 #include "core/io/file_kind/unread_formats.h"
+#include "core/io/text_grid/xyz_list.h"
 
 namespace farhorizon {
 
@@ -68,9 +69,25 @@ FileKind KindOfFile(const FileFacts& file) {
                      "dy", "cellsize", "nodata_value"})) {
     return FileKind::kArcGrid;
   }
+  if (IsOneOf(word, {"north:", "south:", "east:", "west:", "rows:", "cols:"})) {
+    return FileKind::kGrassGrid;
+  }
+  if (word == "dsaa") return FileKind::kSurferText;
+  if (bytes.starts_with("DSBB")) return FileKind::kSurferBinary;
+  if (bytes.starts_with("DSRB")) return FileKind::kSurfer7;
+  if (bytes.starts_with("EHFA_HEADER_TAG")) return FileKind::kErdas;
+  if (bytes.starts_with("PK\x03\x04") && HasEnding(file.filename, ".hgt.zip")) {
+    return FileKind::kZippedHgt;
+  }
   if (IsHgtName(file.filename) && IsHgtSize(file.bytes)) return FileKind::kHgt;
   if (IsUsgsDem(bytes)) return FileKind::kUsgsDem;
+  if (LooksLikeXyz(bytes)) return FileKind::kXyz;
   return FileKind::kOther;
+}
+
+bool IsTextGrid(FileKind kind) {
+  return kind == FileKind::kArcGrid || kind == FileKind::kGrassGrid ||
+         kind == FileKind::kSurferText || kind == FileKind::kXyz;
 }
 
 Error UnreadFile(const FileFacts& file, const std::string& subject, const std::string& complaint) {

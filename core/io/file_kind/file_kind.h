@@ -37,6 +37,9 @@ inline constexpr std::size_t kBeginningBytes = 4096;
 
 FileKind KindOfFile(const FileFacts& file);
 
+/// Whether the cells of a file of this kind are text that core/io/text_grid reads.
+bool IsTextGrid(FileKind kind);
+
 /// Why a file that is of no kind that is read, or could not be opened as one, is not: what it is,
 /// where that can be told, and what makes a DEM of it.
 /// subject: what the message calls the file; complaint: what GDAL said of it, or "".

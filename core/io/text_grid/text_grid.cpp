@@ -18,6 +18,14 @@ float ToFloat(double value) {
 
 }  // namespace
 
+GridCells GridCells::OfFloats(const std::vector<float>& values) {
+  GridCells cells;
+  cells.is_float_ = true;
+  cells.bits_.reserve(values.size());
+  for (const float value : values) cells.bits_.push_back(std::bit_cast<std::uint32_t>(value));
+  return cells;
+}
+
 void GridCells::BecomeFloats() {
   for (std::uint32_t& bits : bits_) {
     bits = std::bit_cast<std::uint32_t>(static_cast<float>(std::bit_cast<std::int32_t>(bits)));

@@ -11,6 +11,9 @@ namespace farhorizon {
 /// from the first that is not. GDAL decides so, too, for the text grids that it reads.
 class GridCells {
  public:
+  /// Cells with these values.
+  static GridCells OfFloats(const std::vector<float>& values);
+
   void Reserve(std::size_t cells) { bits_.reserve(cells); }
   /// Adds a value; whole: written without point or exponent.
   void Add(double value, bool whole);

@@ -1,18 +1,17 @@
 // Splits a text file into words in pieces of the file, and counts its lines.
 #include "core/io/text_grid/text_words.h"
 
-#include <string_view>
-#include <utility>
-
 namespace farhorizon {
 
 namespace {
 
 constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
 
-bool IsSpace(int byte) { return byte == ' ' || (byte >= '\t' && byte <= '\r') || byte == 0x1a; }
-
 }  // namespace
+
+bool TextWords::IsSpace(int byte) const {
+  return byte == ' ' || (byte >= '\t' && byte <= '\r') || byte == 0x1a || byte == separator_;
+}
 
 Result<TextWords> TextWords::Open(const std::filesystem::path& path) {
   TextWords words(std::ifstream(path, std::ios::binary));

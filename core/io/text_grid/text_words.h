@@ -6,6 +6,8 @@
 #include <fstream>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 
 #include "core/base/result.h"
 
@@ -29,11 +31,19 @@ class TextWords {
   /// Errors: kIo.
   static Result<TextWords> Open(const std::filesystem::path& path);
 
+  /// Makes white space of `separator`, too.
+  void SeparateAt(char separator) { separator_ = separator; }
+  /// What of the file lies ahead in the buffer: all of its beginning, before the first word is read.
+  [[nodiscard]] std::string_view Ahead() const {
+    return std::string_view(buffer_.data(), filled_).substr(at_);
+  }
+
   /// The next word; false at the end of the file. `word` is reused so that no word allocates.
   bool Next(TextWord& word);
 
  private:
   explicit TextWords(std::ifstream file) : file_(std::move(file)) {}
+  [[nodiscard]] bool IsSpace(int byte) const;
   // The next byte, -1 at the end.
   int Take();
   bool Fill();
@@ -45,6 +55,7 @@ class TextWords {
   std::int64_t line_ = 1;
   std::int64_t column_ = 0;
   bool after_cr_ = false;
+  char separator_ = ' ';
 };
 
 /// `word` in quotation marks for a message: printable ASCII, no more than 24 characters of it.
