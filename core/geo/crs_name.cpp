@@ -73,6 +73,18 @@ std::string NameOf(const ProjSession& session, const PJ* crs) {
   return one_authority ? first + "+" + second.substr(colon + 1) : first + " + " + second;
 }
 
+std::string HorizontalDatumName(const ProjSession& session, const PJ* plan) {
+  const ProjObject geodetic(proj_crs_get_geodetic_crs(session.get(), plan));
+  return geodetic ? DatumName(session, geodetic.get()) : "";
+}
+
+std::string DatumName(const ProjSession& session, const PJ* crs) {
+  ProjObject datum(proj_crs_get_datum(session.get(), crs));
+  if (!datum) datum.reset(proj_crs_get_datum_ensemble(session.get(), crs));
+  const char* name = datum ? proj_get_name(datum.get()) : nullptr;
+  return name != nullptr ? name : "";
+}
+
 bool IsUnnamed(const std::string& name) {
   std::string lower = name;
   std::ranges::transform(lower, lower.begin(),

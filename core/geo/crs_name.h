@@ -18,6 +18,11 @@ ProjObject Identified(const ProjSession& session, const PJconsts* crs);
 /// unnamed, its PROJ string. It depends on nothing but `crs`.
 std::string NameOf(const ProjSession& session, const PJconsts* crs);
 
+/// The name of the horizontal datum, or ensemble of datums, of a geographic or projected system.
+std::string HorizontalDatumName(const ProjSession& session, const PJconsts* plan);
+/// The name of the datum, or ensemble of datums, of a vertical or geodetic system.
+std::string DatumName(const ProjSession& session, const PJconsts* crs);
+
 /// True for "unknown", "unnamed" and the like, which writers put where a name is asked for.
 bool IsUnnamed(const std::string& name);
 

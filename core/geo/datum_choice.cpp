@@ -7,6 +7,10 @@
 #include <cstdio>
 #include <utility>
 
+#include "core/geo/crs_name.h"
+#include "core/geo/crs_text.h"
+#include "core/geo/parse_crs.h"
+
 namespace farhorizon {
 
 namespace {
@@ -21,25 +25,49 @@ std::string Lower(std::string text) {
   return text;
 }
 
-// True where `stated` names `operation`.
-bool Is(const DatumOperation& operation, const std::string& stated) {
-  constexpr std::string_view kInverse = "inverse of ";
-  std::string wanted = Lower(stated);
-  if (wanted.starts_with(kInverse)) wanted.erase(0, kInverse.size());
-  if (wanted == "ballpark") return operation.ballpark;
-  const auto same = [&](const std::string& text) { return Lower(text) == wanted; };
-  return wanted == Lower(operation.Stated()) || std::ranges::any_of(operation.codes, same) ||
-         std::ranges::any_of(operation.names, same);
+// The names by which `operation` may be stated, in lower case: its own, its code, and those of its
+// transformations. PROJ joins the names of some with " + ".
+std::vector<std::string> NamesOf(const DatumOperation& operation) {
+  std::vector<std::string> names = operation.codes;
+  names.push_back(operation.Stated());
+  for (const std::string& joined : operation.names) {
+    names.push_back(joined);
+    for (std::size_t from = 0; from < joined.size();) {
+      const std::size_t plus = std::min(joined.find(" + ", from), joined.size());
+      names.push_back(joined.substr(from, plus - from));
+      from = plus + 3;
+    }
+  }
+  for (std::string& name : names) name = Lower(name);
+  return names;
 }
 
-Result<DatumChoice> TakeStated(DatumChoice choice, const std::string& stated) {
+// What a user may mean by `stated`, in lower case: the text itself, without "Inverse of", and the
+// name of the operation that has it as its code.
+std::vector<std::string> Meanings(const ProjSession& session, const std::string& stated) {
+  constexpr std::string_view kInverse = "inverse of ";
+  std::vector<std::string> meanings = {Lower(stated)};
+  if (meanings[0].starts_with(kInverse)) meanings[0].erase(0, kInverse.size());
+  std::string name = OperationName(session, CompletedCrsText(stated));
+  if (!name.empty()) meanings.push_back(Lower(std::move(name)));
+  return meanings;
+}
+
+bool IsOnWgs84(const ProjSession& session, const PJconsts* crs) {
+  const ProjObject plan = PlanOf(session, crs);
+  return plan && HorizontalDatumName(session, plan.get()).starts_with("World Geodetic System 1984");
+}
+
+Result<DatumChoice> TakeStated(const ProjSession& session, DatumChoice choice,
+                               const std::string& stated) {
+  const std::vector<std::string> meanings = Meanings(session, stated);
   std::string known;
   std::size_t listed = 0;
   const DatumOperation* lacking = nullptr;
   for (std::size_t i = 0; i < choice.all.size(); ++i) {
     const DatumOperation& one = choice.all[i];
     if (one.ballpark_heights) continue;
-    if (Is(one, stated)) {
+    if (std::ranges::find_first_of(meanings, NamesOf(one)) != meanings.end()) {
       if (one.missing_grids.empty()) {
         choice.taken = i;
         return choice;
@@ -85,7 +113,7 @@ std::string BetterGrids(const DatumChoice& choice) {
   std::vector<std::string> names;
   std::string listed;
   for (const DatumOperation& one : choice.all) {
-    if (choice.global && one.shifts_plan && !one.HoldsEverywhere()) continue;
+    if (choice.global && choice.shifts_plan && !one.HoldsEverywhere()) continue;
     const bool better = !one.ballpark && !one.ballpark_heights && !one.missing_grids.empty() &&
                         one.accuracy_m &&
                         (!taken.accuracy_m || *one.accuracy_m < *taken.accuracy_m);
@@ -126,14 +154,15 @@ const DatumOperation* BestAt(const DatumChoice& choice, const Geodetic& place) {
 Result<DatumChoice> TakeDatumOperation(const ProjSession& session, const PJconsts* source,
                                        const PJconsts* globe, const std::string& stated) {
   DatumChoice choice{.all = ListDatumOperations(session, source, globe)};
-  if (!stated.empty()) return TakeStated(std::move(choice), stated);
   choice.global = IsOfTheWorld(session, source);
+  choice.shifts_plan = !IsOnWgs84(session, source);
+  if (!stated.empty()) return TakeStated(session, std::move(choice), stated);
   const auto usable = [](const DatumOperation& one) {
     return one.missing_grids.empty() && !one.ballpark_heights;
   };
   auto found = std::ranges::find_if(choice.all, [&](const DatumOperation& one) {
     return usable(one) && !one.ballpark &&
-           (!choice.global || !one.shifts_plan || one.HoldsEverywhere());
+           (!choice.global || !choice.shifts_plan || one.HoldsEverywhere());
   });
   if (found == choice.all.end()) {
     found = std::ranges::find_if(
@@ -149,9 +178,9 @@ std::optional<Assumption> DatumAssumption(const DatumChoice& choice, const std::
                                           const std::optional<Geodetic>& middle, bool stated) {
   const DatumOperation& taken = choice.Taken();
   const bool outside =
-      taken.shifts_plan && middle && !taken.HoldsAt(middle->lon_deg, middle->lat_deg);
+      choice.shifts_plan && middle && !taken.HoldsAt(middle->lon_deg, middle->lat_deg);
   const std::string grids = stated ? "" : BetterGrids(choice);
-  if (!outside && (stated || (!taken.shifts_plan && grids.empty()))) return std::nullopt;
+  if (!outside && (stated || (!choice.shifts_plan && grids.empty()))) return std::nullopt;
   std::string text = name + " is placed on the globe by the datum operation " + taken.Described();
   if (!stated) text += ", every tile alike";
   if (taken.ballpark) {

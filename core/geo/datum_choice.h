@@ -15,7 +15,8 @@ namespace farhorizon {
 struct DatumChoice {
   std::vector<DatumOperation> all;  ///< in the order of ListDatumOperations; may be empty
   std::size_t taken = 0;
-  bool global = false;  ///< the system is used in the whole world
+  bool global = false;       ///< the system is used in the whole world
+  bool shifts_plan = false;  ///< its horizontal datum is not WGS 84
 
   [[nodiscard]] const DatumOperation& Taken() const { return all[taken]; }
 };

@@ -21,12 +21,6 @@ namespace {
 using ListPtr = std::unique_ptr<PJ_OBJ_LIST, void (*)(PJ_OBJ_LIST*)>;
 constexpr double kWorldTolerance = 1e-6;  // degrees: EPSG's boxes of the world are exact
 
-std::string Lower(std::string text) {
-  std::ranges::transform(text, text.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
 // The names and codes of inverses are those of the operations themselves:
 // "Inverse of WGS 84 to EGM96 height (1)", "INVERSE(DERIVED_FROM(EPSG)):1149".
 std::string Forward(std::string name) {
@@ -60,23 +54,13 @@ bool IsExact(const PJ* step, const std::string& name) {
          name.starts_with("axis order change") || name.starts_with("WGS 84 to WGS 84");
 }
 
-bool IsOfHeights(const ProjSession& session, const PJ* step) {
-  const char* method = nullptr;
-  proj_coordoperation_get_method_info(session.get(), step, &method, nullptr, nullptr);
-  const std::string lower = Lower(method != nullptr ? method : "");
-  return lower.find("gravityrelatedheight") != std::string::npos ||
-         lower.find("vertical") != std::string::npos;
-}
-
-void AddStep(const ProjSession& session, const PJ* step, DatumOperation& operation) {
+void AddStep(const PJ* step, DatumOperation& operation) {
   const char* text = proj_get_name(step);
   const std::string name = Forward(text != nullptr ? text : "");
   if (IsExact(step, name)) return;
-  const bool heights_only = Lower(name).find("ballpark vertical") != std::string::npos;
-  operation.ballpark_heights = operation.ballpark_heights || heights_only;
+  if (name.find("ballpark vertical") != std::string::npos) operation.ballpark_heights = true;
   operation.names.push_back(name);
   operation.codes.push_back(PlainCode(step));
-  if (!heights_only && !IsOfHeights(session, step)) operation.shifts_plan = true;
 }
 
 // The steps of `way`, in their order: an inverse of a concatenated operation is a step of its own.
@@ -120,7 +104,7 @@ DatumOperation Read(const ProjSession& session, ProjObject way) {
   operation.way = std::move(way);
   const PJ* whole = operation.way.get();
   for (const ProjObject& step : StepsOf(session, whole)) {
-    if (step) AddStep(session, step.get(), operation);
+    if (step) AddStep(step.get(), operation);
   }
   operation.ballpark = proj_coordoperation_has_ballpark_transformation(session.get(), whole) != 0;
   const double accuracy = proj_coordoperation_get_accuracy(session.get(), whole);
@@ -155,9 +139,9 @@ std::string DatumOperation::Described() const {
 }
 
 std::string DatumOperation::Stated() const {
-  const bool coded = std::ranges::none_of(codes, [](const std::string& c) { return c.empty(); });
   if (ballpark) return "ballpark";
-  return coded && codes.size() == 1 ? codes.front() : Joined(names);
+  const bool coded = std::ranges::none_of(codes, [](const std::string& c) { return c.empty(); });
+  return Joined(coded ? codes : names);
 }
 
 std::vector<DatumOperation> ListDatumOperations(const ProjSession& session, const PJ* source,
@@ -187,6 +171,16 @@ std::vector<DatumOperation> ListDatumOperations(const ProjSession& session, cons
     all.push_back(Read(session, ProjObject(proj_list_get(session.get(), ways.get(), i))));
   }
   return all;
+}
+
+std::string OperationName(const ProjSession& session, const std::string& code) {
+  const std::size_t colon = code.find(':');
+  if (colon == std::string::npos) return "";
+  const ProjObject found(proj_create_from_database(session.get(), code.substr(0, colon).c_str(),
+                                                   code.substr(colon + 1).c_str(),
+                                                   PJ_CATEGORY_COORDINATE_OPERATION, 0, nullptr));
+  const char* name = found ? proj_get_name(found.get()) : nullptr;
+  return name != nullptr ? name : "";
 }
 
 bool IsOfTheWorld(const ProjSession& session, const PJ* crs) {

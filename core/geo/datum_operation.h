@@ -15,10 +15,8 @@ struct DatumOperation {
   /// (4)". Empty where all is exact.
   std::vector<std::string> names;
   std::vector<std::string> codes;  ///< of `names`: "EPSG:1173", "" where one has none
-  /// Between horizontal datums that are not both WGS 84.
-  bool shifts_plan = false;
-  bool ballpark = false;          ///< some datum is taken for WGS 84 for want of a transformation
-  bool ballpark_heights = false;  ///< heights of one datum are taken for those of another
+  bool ballpark = false;           ///< some datum is taken for WGS 84 for want of a transformation
+  bool ballpark_heights = false;   ///< heights of one datum are taken for those of another
   std::optional<double> accuracy_m;  ///< nullopt where it is unknown
   std::vector<std::string> missing_grids;
   std::string area;  ///< where it holds, in words; "" where that is not stated
@@ -37,6 +35,10 @@ struct DatumOperation {
 /// used: grids installed before missing, large areas before small ones, then by accuracy.
 std::vector<DatumOperation> ListDatumOperations(const ProjSession& session, const PJconsts* source,
                                                 const PJconsts* globe);
+
+/// The name of the operation that has the code `code`: "NAD27 to WGS 84 (4)" for "EPSG:1173"; ""
+/// where PROJ's database has none.
+std::string OperationName(const ProjSession& session, const std::string& code);
 
 /// True where `crs` is used in the whole world: a global frame, as WGS 84 and the ITRF.
 bool IsOfTheWorld(const ProjSession& session, const PJconsts* crs);

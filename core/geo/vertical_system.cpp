@@ -48,13 +48,6 @@ ProjObject HeightPart(const ProjSession& session, const PJ* crs) {
   return part;
 }
 
-std::string DatumName(const ProjSession& session, const PJ* vertical) {
-  ProjObject datum(proj_crs_get_datum(session.get(), vertical));
-  if (!datum) datum.reset(proj_crs_get_datum_ensemble(session.get(), vertical));
-  const char* name = datum ? proj_get_name(datum.get()) : nullptr;
-  return name != nullptr ? name : "";
-}
-
 // The vertical system whose name is `name`, or `name` and "height"; else the only one that has
 // `name` in its name; else an error that lists those that do.
 Result<ProjObject> FindByName(ProjSession& session, const std::string& name) {
