@@ -1,8 +1,11 @@
 #include "service/handlers/multipart.h"
 
 #include <algorithm>
+#include <array>
+#include <utility>
 
 #include "service/handlers/http_message.h"
+#include "service/url_query.h"
 
 namespace farhorizon {
 
@@ -29,7 +32,8 @@ std::optional<std::string> FieldParameter(std::string_view field, std::string_vi
     std::size_t end = 0;
     if (!rest.empty() && rest[0] == '"') {
       for (end = 1; end < rest.size() && rest[end] != '"'; ++end) {
-        if (rest[end] == '\\' && end + 1 < rest.size()) ++end;
+        const char next = end + 1 < rest.size() ? rest[end + 1] : '\0';
+        if (rest[end] == '\\' && (next == '"' || next == '\\')) ++end;
         value += rest[end];
       }
       if (end >= rest.size()) return std::nullopt;
@@ -44,21 +48,60 @@ std::optional<std::string> FieldParameter(std::string_view field, std::string_vi
   return std::nullopt;
 }
 
+// `text` with each `from` in it as `to`.
+std::string Replaced(std::string text, std::string_view from, std::string_view to) {
+  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size()) {
+    text.replace(at, from.size(), to);
+  }
+  return text;
+}
+
+// The file name of a Content-Disposition. That of filename* is CHARSET'LANGUAGE'TEXT with escapes.
+std::optional<std::string> FilenameIn(std::string_view field) {
+  if (const auto extended = FieldParameter(field, "filename*")) {
+    const std::size_t first = extended->find('\'');
+    const std::size_t second = extended->find('\'', first + 1);
+    if (first != std::string::npos && second != std::string::npos) {
+      std::optional<std::string> name = PercentDecode(extended->substr(second + 1));
+      if (name) return name;
+    }
+  }
+  std::optional<std::string> name = FieldParameter(field, "filename");
+  if (!name) return std::nullopt;
+  for (const auto& [escape, character] :
+       {std::pair("%22", "\""), std::pair("%0D", "\r"), std::pair("%0A", "\n")}) {
+    name = Replaced(*std::move(name), escape, character);
+  }
+  return name;
+}
+
+// Whether bytes of this Content-Encoding or Content-Transfer-Encoding are those that are meant.
+bool IsPlainCoding(std::string_view coding) {
+  constexpr std::array<std::string_view, 5> kPlain = {"", "identity", "binary", "8bit", "7bit"};
+  return std::find(kPlain.begin(), kPlain.end(), coding) != kPlain.end();
+}
+
 Result<PartHead> ReadPartHead(std::string_view head) {
+  std::optional<PartHead> part;
+  std::optional<std::string> coding;
   while (!head.empty()) {
     const std::size_t end = std::min(head.find("\r\n"), head.size());
     const std::string_view line = head.substr(0, end);
     head.remove_prefix(std::min(end + 2, head.size()));
     const std::size_t colon = line.find(':');
     if (colon == std::string_view::npos) return Broken("a part's header field has no colon");
-    if (LowerCase(line.substr(0, colon)) != "content-disposition") continue;
+    const std::string name = LowerCase(line.substr(0, colon));
     const std::string_view field = Trimmed(line.substr(colon + 1));
-    if (MediaTypeIn(field) != "form-data") break;
-    std::optional<std::string> name = FieldParameter(field, "name");
-    if (!name) break;
-    return PartHead{*std::move(name), FieldParameter(field, "filename")};
+    if (name == "content-encoding" || name == "content-transfer-encoding") {
+      if (!coding && !IsPlainCoding(LowerCase(field))) coding = field;
+    }
+    if (part || name != "content-disposition" || MediaTypeIn(field) != "form-data") continue;
+    std::optional<std::string> of_part = FieldParameter(field, "name");
+    if (of_part) part = PartHead{*std::move(of_part), FilenameIn(field), {}};
   }
-  return Broken("a part has no 'Content-Disposition: form-data; name=…'");
+  if (!part) return Broken("a part has no 'Content-Disposition: form-data; name=…'");
+  part->coding = std::move(coding);
+  return *std::move(part);
 }
 
 }  // namespace

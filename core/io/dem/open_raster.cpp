@@ -1,5 +1,5 @@
-// Finds out which of the formats that this program reads a file has, and opens it so that GDAL opens
-// no other file.
+// Finds out which of the formats that this program reads a file has, and opens it so that GDAL
+// opens no other file.
 #include "core/io/dem/open_raster.h"
 
 #include <string>
