@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <memory>
 #include <utility>
 
 #include <proj.h>
@@ -13,6 +14,12 @@
 namespace farhorizon {
 
 namespace {
+
+std::string Lower(std::string text) {
+  std::ranges::transform(text, text.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
 
 std::optional<HeightSystem> Described(const ProjSession& session, const PJ* crs) {
   const std::optional<HeightAxis> axis = HeightAxisOf(session, crs);
@@ -54,10 +61,22 @@ Result<std::optional<HeightSystem>> ReadHeightSystem(const std::string& vertical
   return Described(session, heights->get());
 }
 
+std::optional<double> ListedLengthUnit(const std::string& name) {
+  const ProjSession session;
+  int count = 0;
+  const std::unique_ptr<PROJ_UNIT_INFO*, void (*)(PROJ_UNIT_INFO**)> units(
+      proj_get_units_from_database(session.get(), "EPSG", "linear", 0, &count),
+      proj_unit_list_destroy);
+  const std::string wanted = Lower(name);
+  for (int i = 0; units && i < count; ++i) {
+    const PROJ_UNIT_INFO& unit = *units.get()[i];
+    if (Lower(unit.name) == wanted && unit.conv_factor > 0) return unit.conv_factor;
+  }
+  return std::nullopt;
+}
+
 bool IsEllipsoid(const std::string& vertical_datum) {
-  std::string lower = vertical_datum;
-  std::ranges::transform(lower, lower.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string lower = Lower(vertical_datum);
   return lower == "ellipsoid" || lower == "ellipsoidal";
 }
 

@@ -32,6 +32,10 @@ Result<CrsUnits> ReadCrsUnits(const std::string& crs);
 /// Errors: those of ReadVerticalSystem.
 Result<std::optional<HeightSystem>> ReadHeightSystem(const std::string& vertical_datum);
 
+/// A unit of length by its name in EPSG's list, such as "Clarke's foot", in any case: in metres;
+/// nullopt where the list does not have it.
+std::optional<double> ListedLengthUnit(const std::string& name);
+
 /// True for the words that stand for the ellipsoid instead of a vertical system, in any case.
 bool IsEllipsoid(const std::string& vertical_datum);
 

@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-// PROJ's own names of PJ_CONTEXT and PJ, so that headers do without proj.h.
+// PROJ's own names of PJ_CONTEXT and PJ: headers do without those of PROJ.
 struct pj_ctx;
 struct PJconsts;
 

@@ -1,6 +1,6 @@
 // Grid points go to map coordinates by the geotransform, from there to degrees on the ellipsoid and
-// to ECEF by PROJ (core/geo/globe_transform.h), and into the local frame by a rotation (core/geo/frames.h);
-// back the same way. PROJ is called for whole vectors of points.
+// to ECEF by PROJ (core/geo/globe_transform.h), and into the local frame by a rotation
+// (core/geo/frames.h); back the same way. PROJ is called for whole vectors of points.
 #include "core/pipeline/georeference.h"
 
 #include <cmath>
