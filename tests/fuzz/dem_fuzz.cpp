@@ -1,6 +1,6 @@
-// libFuzzer's target: DEM files that strangers send, in every format, with what may lie beside them.
-// Such a file is read and placed on the globe, or refused; what is read has finite heights at finite
-// places.
+// libFuzzer's target: DEM files that strangers send, in every format, with what may lie beside
+// them. Such a file is read and placed on the globe, or refused; what is read has finite heights at
+// finite places.
 //
 // An input is a byte that chooses the name and the options, two bytes (little-endian) with the
 // length of the file beside, that file, and the DEM. tests/fuzz/dem_corpus makes such inputs.

@@ -5,8 +5,6 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <optional>
 #include <sstream>
@@ -20,6 +18,8 @@
 
 #include "core/io/dem/nodata_rule.h"
 #include "core/io/dem/number_text.h"
+#include "core/io/file.h"
+#include "core/io/text_grid/text_number.h"
 
 namespace farhorizon {
 
@@ -93,16 +93,17 @@ class AuxReader {
     const auto read = [&](const char* key, const char* what, auto get, auto set) {
       const std::optional<std::string> text = Text(node, key);
       if (!text) return;
-      const std::optional<double> value = ParseTagNumber(*text);
+      const std::optional<TextNumber> value = ParseNumber(*text);
       int given = 0;
       const double own = get(band_, &given);
       if (!value) {
         Say("gives " + std::string(what) + " that is no number; it was passed over");
         return;
       }
-      if (given != 0 && own != *value) SayBoth(what, NumberText(*value), NumberText(own));
-      set(band_, *value);
-      if (get(band_, &given) != *value) SayUnread(std::string(what));
+      const double there = value->value;
+      if (given != 0 && own != there) SayBoth(what, NumberText(there), NumberText(own));
+      set(band_, there);
+      if (get(band_, &given) != there) SayUnread(what);
     };
     read("Scale", "the scale of the heights", GDALGetRasterScale, GDALSetRasterScale);
     read("Offset", "the offset of the heights", GDALGetRasterOffset, GDALSetRasterOffset);
@@ -125,12 +126,12 @@ class AuxReader {
     for (double& coefficient : there) {
       std::string word;
       std::getline(words >> std::ws, word, ',');
-      const std::optional<double> value = ParseTagNumber(word.substr(0, word.find(' ')));
+      const std::optional<TextNumber> value = ParseNumber(word.substr(0, word.find(' ')));
       if (!value) {
         Say("has a geotransform of other than six numbers; it was passed over");
         return;
       }
-      coefficient = *value;
+      coefficient = value->value;
     }
     std::array<double, 6> own{};
     if (GDALGetGeoTransform(dataset_, own.data()) == CE_None && !NearlyEqual(there, own)) {
@@ -212,13 +213,8 @@ std::vector<double> ReadAuxFile(const std::filesystem::path& path, void* dataset
   std::error_code failure;
   if (!std::filesystem::is_regular_file(beside, failure)) return {};
   AuxReader reader(beside.filename().string(), dataset, number, assumptions);
-  const std::uintmax_t bytes = std::filesystem::file_size(beside, failure);
-  XmlPtr xml;
-  if (!failure && bytes <= kMaxBytes) {
-    std::ifstream in(beside, std::ios::binary);
-    const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-    xml.reset(CPLParseXMLString(text.c_str()));
-  }
+  const Result<std::string> text = ReadFile(beside, kMaxBytes);
+  const XmlPtr xml(text ? CPLParseXMLString(text->c_str()) : nullptr);
   const CPLXMLNode* root = xml ? CPLGetXMLNode(xml.get(), "=PAMDataset") : nullptr;
   if (root == nullptr) {
     reader.Say(

@@ -6,8 +6,6 @@
 
 #include <gdal.h>
 
-#include "core/io/dem/ascii_grid.h"
-
 namespace farhorizon {
 
 Error Truncated(const std::string& what) {
@@ -25,7 +23,6 @@ Status CheckComplete(void* dataset, const std::filesystem::path& path) {
   const std::int64_t posts =
       std::int64_t{GDALGetRasterBandXSize(band)} * GDALGetRasterBandYSize(band);
   const std::string_view driver = GDALGetDriverShortName(GDALGetDatasetDriver(dataset));
-  if (driver == "AAIGrid") return CheckAsciiGrid(path, posts);
   if (driver == "ENVI") {
     const char* text = GDALGetMetadataItem(dataset, "header_offset", "ENVI");
     const std::uintmax_t start = text != nullptr ? std::strtoull(text, nullptr, 10) : 0;

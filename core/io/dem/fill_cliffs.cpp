@@ -1,7 +1,7 @@
 // A step is the difference of two posts that are neighbours in a row or a column. Steps of ground
-// are distributed about exponentially: one in e^8 = 3000 is higher than 8 times their mean. Even a
-// coast of sea cliffs has landings, while a fill has none; so that it counts as one where three in
-// four steps at its rim are that high. On the 17 real rasters of the tests' collection the highest
+// are distributed about exponentially: one in e^8 = 3000 is higher than 8 times their mean. A
+// coast of sea cliffs has landings, a fill has none: a value is said where three in four steps at
+// its rim are that high. On the 17 real rasters of the tests' collection the highest
 // share at the rim of any sea, lake or lowest post is below 0.1.
 #include "core/io/dem/fill_cliffs.h"
 
@@ -132,11 +132,10 @@ void SayFillsWithCliffs(const std::vector<double>& values, int columns, const Sa
     assumptions.push_back(
         {"cliffs-around-value",
          std::to_string(suspect.posts) + (suspect.posts == 1 ? " post is" : " posts are") +
-             " exactly " + text + ", and " + std::to_string(suspect.cliffs) + " of " +
-             std::to_string(suspect.rim) + " steps at the rim of them are cliffs of more than " +
+             " exactly " + text + " and may be a fill: " + std::to_string(suspect.cliffs) +
+             " of the " + std::to_string(suspect.rim) + " steps at the rim are cliffs of more than " +
              NumberText(std::round(cliff_m)) +
-             " m; they were kept as ground; if that value means no data, state it with --nodata=" +
-             text});
+             " m; kept as ground; if that value means no data, state it with --nodata=" + text});
   }
 }
 

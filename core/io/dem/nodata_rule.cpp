@@ -9,6 +9,7 @@
 
 #include "core/io/dem/number_text.h"
 #include "core/io/dem/value_scale.h"
+#include "core/io/text_grid/text_number.h"
 
 namespace farhorizon {
 
@@ -17,8 +18,8 @@ std::vector<double> ParseNodataText(const std::string& text, const std::string& 
   std::vector<double> values;
   std::istringstream words(text);
   for (std::string word; words >> word;) {
-    const std::optional<double> value = ParseTagNumber(word);
-    if (!value) {
+    const std::optional<TextNumber> number = ParseNumber(word);
+    if (!number) {
       std::string shown = text.substr(0, 40);
       std::ranges::replace_if(
           shown, [](unsigned char c) { return c < 0x20 || c > 0x7e; }, '?');
@@ -27,7 +28,7 @@ std::vector<double> ParseNodataText(const std::string& text, const std::string& 
                                                "number; it was passed over, --nodata names one"});
       return {};
     }
-    values.push_back(*value);
+    values.push_back(number->value);
   }
   return values;
 }

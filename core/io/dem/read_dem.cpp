@@ -79,7 +79,8 @@ Result<Dem> ReadOpened(OpenedDem opened) {
   Result<std::string> crs = ReadCrs(opened.dataset, opened.options.crs);
   if (!crs) return std::move(crs.error());
   dem.crs = *crs;
-  Result<ValueScale> scale = ReadValueScale(opened.dataset, opened.band.heights);
+  Result<ValueScale> scale = ReadValueScale(opened.dataset, opened.band.heights, opened.options,
+                                            opened.assumptions);
   if (!scale) return std::move(scale.error());
 
   Result<std::vector<double>> values = ReadValues(opened, *tags);
@@ -97,9 +98,13 @@ Result<Dem> ReadOpened(OpenedDem opened) {
 
 Result<Dem> ReadDem(const std::filesystem::path& path, const DemReadOptions& options) {
   GdalSession session(path);
-  Result<RasterPtr> dataset = OpenRaster(path, session);
-  if (!dataset) return std::move(dataset.error());
-  return ReadOpened({dataset->get(), path, options, session});
+  Result<OpenedRaster> raster = OpenRaster(path, options.max_posts, session);
+  if (!raster) return std::move(raster.error());
+  return ReadOpened({.dataset = raster->dataset.get(),
+                     .path = path,
+                     .options = options,
+                     .session = session,
+                     .assumptions = std::move(raster->assumptions)});
 }
 
 }  // namespace farhorizon
