@@ -1,28 +1,31 @@
-// Reads the options of a build from text and checks them. One list of names serves jobs and the
-// command line, whose flags are turned into parameters; the messages name parameters.
+// Reads the options of a build from text and checks them. One list of parameters serves jobs and
+// the command line, whose flags are turned into parameters; the messages name the flags.
 #include "core/pipeline/build_options.h"
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
 #include <sstream>
+#include <utility>
+
+#include "core/pipeline/number_text.h"
 
 namespace farhorizon {
 
 namespace {
 
-Error Invalid(const std::string& name, const std::string& value, const std::string& expected) {
-  return {ErrorCode::kInvalidArgument, name + " is \"" + value + "\", expected " + expected,
-          "invalid-parameter"};
-}
+// Each of these is compared with every post of the DEM.
+constexpr std::size_t kMostNodataValues = 16;
 
-template <typename Number>
-bool ReadNumber(const std::string& text, Number& number) {
-  const char* end = text.data() + text.size();
-  const auto [stop, failure] = std::from_chars(text.data(), end, number);
-  return failure == std::errc() && stop == end;
-}
+// A parameter as it is given.
+struct Given {
+  std::string_view name;
+  const std::string& value;
+
+  [[nodiscard]] Error Expected(const std::string& what) const {
+    return {ErrorCode::kInvalidArgument, FlagOf(name) + " is \"" + value + "\", expected " + what,
+            "invalid-parameter"};
+  }
+};
 
 std::string Text(double value) {
   std::ostringstream text;
@@ -37,83 +40,163 @@ std::vector<std::string> SplitAtCommas(const std::string& text) {
   return parts;
 }
 
-Status Read(const std::string& name, const std::string& value, BuildOptions& options) {
-  const auto read_metres = [&](double& metres) -> Status {
-    if (!ReadNumber(value, metres)) return Invalid(name, value, "a number of metres");
-    return Ok{};
-  };
-  if (name == "levels") {
-    if (!ReadNumber(value, options.levels)) return Invalid(name, value, "a number from 1 to 12");
-    return Ok{};
+template <typename Whole>
+Status ReadCount(const Given& given, const char* expected, Whole& count) {
+  const std::optional<std::int64_t> number = WholeNumberIn(given.value);
+  if (!number || !std::in_range<Whole>(*number)) return given.Expected(expected);
+  count = static_cast<Whole>(*number);
+  return Ok{};
+}
+
+Status ReadMetres(const Given& given, double& metres) {
+  const std::optional<double> number = NumberIn(given.value);
+  if (!number) return given.Expected("a number of metres");
+  metres = *number;
+  return Ok{};
+}
+
+Status ReadFlag(const Given& given, bool& flag) {
+  flag = given.value == "true";
+  if (!flag && given.value != "false") return given.Expected("true or false");
+  return Ok{};
+}
+
+// A text that an empty value or one with a NUL, where C's strings end, cannot be.
+Status ReadText(const Given& given, const char* expected, std::optional<std::string>& text) {
+  const bool usable = !given.value.empty() && given.value.find('\0') == std::string::npos;
+  if (!usable) return given.Expected(expected);
+  text = given.value;
+  return Ok{};
+}
+
+Status ReadNodata(const Given& given, std::vector<double>& nodata) {
+  std::optional<std::vector<double>> numbers = NumbersIn(given.value);
+  if (!numbers) return given.Expected("a number, inf, -inf or nan, or several with commas between");
+  if (numbers->size() > kMostNodataValues) {
+    return given.Expected("at most " + std::to_string(kMostNodataValues) + " values");
   }
-  if (name == "maxError") return read_metres(options.max_error_m.emplace());
-  if (name == "silhouetteError") return read_metres(options.silhouette_error_m);
-  if (name == "formats") {
-    options.formats = SplitAtCommas(value);
-    return Ok{};
+  nodata = *std::move(numbers);
+  return Ok{};
+}
+
+struct Parameter {
+  std::string_view name;
+  Status (*read)(const Given& given, BuildOptions& options);
+};
+using Options = BuildOptions;
+constexpr std::array kParameters = {
+    Parameter{"levels",
+              [](const Given& given, Options& options) {
+                return ReadCount(given, "a whole number from 1 to 12", options.levels);
+              }},
+    Parameter{"maxError",
+              [](const Given& given, Options& options) {
+                return ReadMetres(given, options.max_error_m.emplace());
+              }},
+    Parameter{"silhouetteError",
+              [](const Given& given, Options& options) {
+                return ReadMetres(given, options.silhouette_error_m);
+              }},
+    Parameter{"formats",
+              [](const Given& given, Options& options) -> Status {
+                options.formats = SplitAtCommas(given.value);
+                return Ok{};
+              }},
+    Parameter{"crs",
+              [](const Given& given, Options& options) {
+                return ReadText(given, "a code such as EPSG:4326, WKT or a PROJ string",
+                                options.crs);
+              }},
+    Parameter{"verticalDatum",
+              [](const Given& given, Options& options) {
+                return ReadText(given, "a code such as EPSG:5773, WKT or \"ellipsoid\"",
+                                options.vertical_datum);
+              }},
+    Parameter{"heightUnit",
+              [](const Given& given, Options& options) {
+                return ReadText(given, "m, ft or us-ft", options.height_unit);
+              }},
+    Parameter{"datumOperation",
+              [](const Given& given, Options& options) {
+                return ReadText(given, "a coordinate operation", options.datum_operation);
+              }},
+    Parameter{"nodata", [](const Given& given,
+                           Options& options) { return ReadNodata(given, options.nodata); }},
+    Parameter{"workBudget",
+              [](const Given& given, Options& options) {
+                return ReadCount(given, "a whole number", options.work_budget.emplace());
+              }},
+    Parameter{"approximate", [](const Given& given,
+                                Options& options) { return ReadFlag(given, options.approximate); }},
+};
+
+Error NoSuchParameter(const std::string& name) {
+  std::string known;
+  for (const std::string_view one : ParameterNames()) {
+    known.append(known.empty() ? "" : ", ").append(one);
   }
-  if (name == "crs") {
-    options.crs = value;
-    return Ok{};
-  }
-  if (name == "verticalDatum") {
-    options.vertical_datum = value;
-    return Ok{};
-  }
-  if (name == "nodata") {
-    if (!ReadNumber(value, options.nodata.emplace_back())) return Invalid(name, value, "a number");
-    return Ok{};
-  }
-  if (name == "workBudget") {
-    if (!ReadNumber(value, options.work_budget.emplace())) {
-      return Invalid(name, value, "a whole number");
-    }
-    return Ok{};
-  }
-  if (name == "approximate") {
-    if (value != "true" && value != "false") return Invalid(name, value, "true or false");
-    options.approximate = value == "true";
-    return Ok{};
-  }
-  return Error{ErrorCode::kInvalidArgument,
-               "there is no parameter \"" + name +
-                   "\"; known are levels, maxError, silhouetteError, formats, crs, "
-                   "verticalDatum, nodata, workBudget and approximate",
-               "unknown-parameter"};
+  return {ErrorCode::kInvalidArgument, "there is no parameter \"" + name + "\"; known are " + known,
+          "unknown-parameter"};
 }
 
 }  // namespace
 
 Status CheckOptions(const BuildOptions& options) {
   if (options.levels < 1 || options.levels > 12) {
-    return Invalid("levels", std::to_string(options.levels), "1 to 12");
+    return Given{"levels", std::to_string(options.levels)}.Expected("1 to 12");
   }
   if (options.max_error_m && !(*options.max_error_m > 0 && *options.max_error_m <= 1e5)) {
-    return Invalid("maxError", Text(*options.max_error_m), "more than 0, at most 100000 metres");
+    return Given{"maxError", Text(*options.max_error_m)}.Expected(
+        "more than 0, at most 100000 metres");
   }
   if (!(options.silhouette_error_m >= 0 && options.silhouette_error_m <= 1e5)) {
-    return Invalid("silhouetteError", Text(options.silhouette_error_m), "0 to 100000 metres");
+    return Given{"silhouetteError", Text(options.silhouette_error_m)}.Expected(
+        "0 to 100000 metres");
   }
   if (options.work_budget && *options.work_budget < 1) {
-    return Invalid("workBudget", std::to_string(*options.work_budget), "1 or more");
+    return Given{"workBudget", std::to_string(*options.work_budget)}.Expected("1 or more");
   }
-  if (options.formats.empty()) return Invalid("formats", "", "at least one format");
+  const std::string unit = options.height_unit.value_or("m");
+  if (unit != "m" && unit != "ft" && unit != "us-ft") {
+    return Given{"heightUnit", unit}.Expected("m, ft or us-ft");
+  }
+  if (options.formats.empty()) return Given{"formats", ""}.Expected("at least one format");
   constexpr std::array kKnown = {"3dtiles", "drc", "geojson", "flatgeobuf"};
   for (const std::string& format : options.formats) {
     if (std::find(kKnown.begin(), kKnown.end(), format) == kKnown.end()) {
-      return Invalid("formats", format, "of 3dtiles, drc, geojson and flatgeobuf");
+      return Given{"formats", format}.Expected("of 3dtiles, drc, geojson and flatgeobuf");
     }
   }
   if (options.threads < 1 || options.threads > 1024) {
-    return Invalid("threads", std::to_string(options.threads), "1 to 1024");
+    return Given{"threads", std::to_string(options.threads)}.Expected("1 to 1024");
   }
   return Ok{};
+}
+
+std::vector<std::string_view> ParameterNames() {
+  std::vector<std::string_view> names;
+  names.reserve(kParameters.size());
+  for (const Parameter& parameter : kParameters) names.push_back(parameter.name);
+  return names;
+}
+
+std::string FlagOf(std::string_view parameter) {
+  std::string flag = "--";
+  for (const char c : parameter) {
+    const bool upper = c >= 'A' && c <= 'Z';
+    if (upper) flag += '-';
+    flag += upper ? static_cast<char>(c - 'A' + 'a') : c;
+  }
+  return flag;
 }
 
 Result<BuildOptions> ParseOptions(const std::map<std::string, std::string>& parameters) {
   BuildOptions options;
   for (const auto& [name, value] : parameters) {
-    Status read = Read(name, value, options);
+    const auto* known = std::find_if(kParameters.begin(), kParameters.end(),
+                                     [&](const Parameter& one) { return one.name == name; });
+    if (known == kParameters.end()) return NoSuchParameter(name);
+    Status read = known->read({known->name, value}, options);
     if (!read) return std::move(read.error());
   }
   Status checked = CheckOptions(options);

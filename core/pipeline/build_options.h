@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/base/result.h"
@@ -29,13 +30,21 @@ struct BuildOptions {
   int threads = 1;           ///< never changes a byte of the result
 };
 
-/// Checks options that need no DEM to be checked. Errors: kInvalidArgument, naming the option, its
+/// Checks options that need no DEM to be checked. Errors: kInvalidArgument, naming the flag, its
 /// value and its range.
 Status CheckOptions(const BuildOptions& options);
 
-/// Reads options from a job's parameters and checks them: flat names as in proto/openapi.yaml
-/// ("maxError"), values as text. Errors: kInvalidArgument, kind "unknown-parameter" or
-/// "invalid-parameter"; those of CheckOptions.
+/// The names of all parameters that a job may have, as in proto/openapi.yaml: "maxError".
+std::vector<std::string_view> ParameterNames();
+/// The flag of the command line for a parameter: "--max-error" of "maxError". Messages of the core
+/// name flags.
+std::string FlagOf(std::string_view parameter);
+
+/// Reads options from a job's parameters, by name, and checks them. Values are text: whole numbers
+/// may be written 3.0 or 3e0; the several values of `nodata` are separated by commas, each a
+/// number, inf, -inf or nan.
+/// Errors: kInvalidArgument, kind "unknown-parameter" or "invalid-parameter"; those of
+///   CheckOptions.
 Result<BuildOptions> ParseOptions(const std::map<std::string, std::string>& parameters);
 
 /// The options of FindHorizon for a build.

@@ -2,18 +2,36 @@
 
 #include <algorithm>
 #include <thread>
+#include <vector>
 
 namespace farhorizon {
 
 namespace {
 
-void Add(CLI::App& command, BuildFlags& flags, const char* flag, const char* parameter,
-         const char* type, const char* help) {
+// Adds the flag of `parameter`.
+void Add(CLI::App& command, BuildFlags& flags, const char* parameter, const char* type,
+         const char* help) {
   command
       .add_option_function<std::string>(
-          flag,
+          FlagOf(parameter),
           [&flags, parameter](const std::string& value) { flags.parameters[parameter] = value; },
           help)
+      ->type_name(type);
+}
+
+// Likewise, for one that may be given more than once; commas separate the values of the parameter.
+void AddList(CLI::App& command, BuildFlags& flags, const char* parameter, const char* type,
+             const char* help) {
+  command
+      .add_option_function<std::vector<std::string>>(
+          FlagOf(parameter),
+          [&flags, parameter](const std::vector<std::string>& values) {
+            std::string joined;
+            for (const std::string& value : values) joined.append(",").append(value);
+            flags.parameters[parameter] = joined.substr(1);
+          },
+          help)
+      ->allow_extra_args(false)  // one value after each flag: the next word may be the DEM
       ->type_name(type);
 }
 
@@ -30,28 +48,33 @@ Result<BuildOptions> BuildFlags::Options() const {
 }
 
 void AddBuildFlags(CLI::App& command, BuildFlags& flags) {
-  Add(command, flags, "--levels", "levels", "N",
+  Add(command, flags, "levels", "N",
       "number of levels of detail, 1 to 12; level 0 is the finest (5)");
-  Add(command, flags, "--max-error", "maxError", "M",
+  Add(command, flags, "maxError", "M",
       "vertical error that level 0 may have, metres; each further level may have twice the one "
       "before (an eighth of the cell size)");
-  Add(command, flags, "--silhouette-error", "silhouetteError", "M",
+  Add(command, flags, "silhouetteError", "M",
       "silhouette error that level 0 may have, metres; 0 keeps every horizon edge (0)");
-  Add(command, flags, "--formats", "formats", "a,b,...",
+  Add(command, flags, "formats", "a,b,...",
       "of 3dtiles, drc, geojson, flatgeobuf (3dtiles,drc,geojson)");
   AddReadFlags(command, flags);
   AddWorkFlags(command, flags);
 }
 
 void AddReadFlags(CLI::App& command, BuildFlags& flags) {
-  Add(command, flags, "--crs", "crs", "CRS", "reference system, instead of the file's");
-  Add(command, flags, "--vertical-datum", "verticalDatum", "CRS",
-      "vertical reference system, instead of the file's");
-  Add(command, flags, "--nodata", "nodata", "H", "height that stands for no data");
+  Add(command, flags, "crs", "CRS", "reference system, instead of the file's");
+  Add(command, flags, "verticalDatum", "CRS", "vertical reference system, instead of the file's");
+  Add(command, flags, "heightUnit", "U",
+      "m, ft or us-ft: unit of the heights, instead of the file's");
+  Add(command, flags, "datumOperation", "OP",
+      "coordinate operation from the reference system's datum to WGS 84, instead of PROJ's choice");
+  AddList(command, flags, "nodata", "H",
+          "height that stands for no data, beside the file's own: a number, nan or -inf; may be "
+          "given more than once");
 }
 
 void AddWorkFlags(CLI::App& command, BuildFlags& flags) {
-  Add(command, flags, "--work-budget", "workBudget", "N",
+  Add(command, flags, "workBudget", "N",
       "decisions about edges after which to give up (2000 for each edge of the terrain, at least a "
       "billion)");
   command.add_flag_callback(

@@ -22,7 +22,7 @@ struct BuildFlags {
 
 /// Adds --levels, --max-error and all other flags of a build. Requires: `flags` outlives the parse.
 void AddBuildFlags(CLI::App& command, BuildFlags& flags);
-/// Adds --crs, --vertical-datum, --nodata.
+/// Adds --crs, --vertical-datum, --height-unit, --datum-operation, --nodata.
 void AddReadFlags(CLI::App& command, BuildFlags& flags);
 /// Adds --work-budget, --approximate.
 void AddWorkFlags(CLI::App& command, BuildFlags& flags);

@@ -2,6 +2,7 @@
 #include <chrono>
 #include <filesystem>
 #include <memory>
+#include <set>
 #include <system_error>
 #include <vector>
 
@@ -41,7 +42,7 @@ class RemoteJob {
       : client_(url, run.control.stop),
         arguments_(arguments),
         reporter_(run.reporter),
-        stop_(run.control.stop) {}
+        control_(run.control) {}
 
   Status Run() {
     Status sent = Send();
@@ -69,14 +70,29 @@ class RemoteJob {
     Result<json> job = client_.SendForJson("/jobs?" + EncodeQuery(query), 201, request);
     if (!job) return std::move(job.error());
     id_ = job->value("jobID", "");
-    if (IsJobId(id_)) return Ok{};
-    return Error{ErrorCode::kIo, "the service's answer names no job; is it a farhorizon?"};
+    if (!IsJobId(id_)) {
+      return Error{ErrorCode::kIo, "the service's answer names no job; is it a farhorizon?"};
+    }
+    SayAssumptions(*job);
+    return Ok{};
+  }
+
+  // Each once, of a list that grows, and begins anew where the job is run again.
+  void SayAssumptions(const json& job) {
+    const auto list = job.find("assumptions");
+    if (list == job.end() || !list->is_array()) return;
+    for (const json& one : *list) {
+      if (!one.is_object()) continue;
+      const Assumption assumption{one.value("code", ""), one.value("text", "")};
+      if (said_.insert(assumption.text).second) control_.Assume(assumption);
+    }
   }
 
   Status Wait() {
     for (milliseconds pause = kFirstPause;; pause = std::min(pause * 3 / 2, kLongestPause)) {
       Result<json> job = client_.SendForJson("/jobs/" + id_, 200);
       if (!job) return std::move(job.error());
+      SayAssumptions(*job);
       const std::string status = job->value("status", "");
       const std::string stage = job->value("message", "");
       const int percent = job->value("progress", 0);
@@ -90,8 +106,8 @@ class RemoteJob {
         if (!why) return std::move(why.error());
         return Error{ErrorCode::kIo, "the job failed"};
       }
-      Pause(pause, stop_);
-      if (stop_.stop_requested()) {
+      Pause(pause, control_.stop);
+      if (control_.StopRequested()) {
         return Error{ErrorCode::kCancelled, "interrupted; the job goes on as /jobs/" + id_};
       }
     }
@@ -160,8 +176,9 @@ class RemoteJob {
   JobClient client_;
   const SubmitArguments& arguments_;
   Reporter& reporter_;
-  std::stop_token stop_;
+  const RunControl& control_;
   std::string id_;
+  std::set<std::string> said_;
 };
 
 int Run(const SubmitArguments& arguments) {

@@ -63,7 +63,7 @@ Result<JobQuery> ReadQuery(const Parameters& parameters) {
 }
 
 HttpResponse ListJobs(const HandlerContext& context, const HttpRequest& request) {
-  const std::optional<Parameters> parameters = DecodeQuery(request.query);
+  const std::optional<Parameters> parameters = DecodeQuery(request.query, {"status"});
   Result<JobQuery> query =
       parameters ? ReadQuery(*parameters) : Result<JobQuery>(BadQuery("the query cannot be read"));
   if (!query) return ProblemResponse(request, ProblemOf(query.error()));

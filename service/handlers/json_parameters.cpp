@@ -32,8 +32,9 @@ Result<Parameters> ParametersOfJson(const std::string& text) {
       for (const auto& element : value) {
         const std::optional<std::string> part = ScalarText(element);
         if (!part) return invalid("the parameter " + name + " must list numbers or texts");
-        *joined += (joined->empty() ? "" : ",") + *part;
+        joined->append(",").append(*part);
       }
+      joined->erase(0, 1);
     }
     if (!joined) return invalid("the parameter " + name + " must be a number, a text or a list");
     parameters.emplace(name, *joined);

@@ -1,9 +1,5 @@
 #include "service/handlers/multipart.h"
 
-#include <algorithm>
-
-#include "service/handlers/http_message.h"
-
 namespace farhorizon {
 
 namespace {
@@ -11,70 +7,7 @@ namespace {
 constexpr std::size_t kMaxHeadBytes = 8192;
 constexpr int kMaxParts = 16;
 
-Error Broken(const std::string& why) {
-  return {ErrorCode::kInvalidArgument, "the multipart form is at fault: " + why,
-          "invalid-multipart"};
-}
-
-// The value of a parameter, name="value" or name=value, of a header field.
-std::optional<std::string> FieldParameter(std::string_view field, std::string_view wanted) {
-  std::size_t at = field.find(';');
-  while (at != std::string_view::npos) {
-    std::string_view rest = Trimmed(field.substr(at + 1));
-    const std::size_t equals = rest.find('=');
-    if (equals == std::string_view::npos) return std::nullopt;
-    const std::string name = LowerCase(Trimmed(rest.substr(0, equals)));
-    rest = rest.substr(equals + 1);
-    std::string value;
-    std::size_t end = 0;
-    if (!rest.empty() && rest[0] == '"') {
-      for (end = 1; end < rest.size() && rest[end] != '"'; ++end) {
-        if (rest[end] == '\\' && end + 1 < rest.size()) ++end;
-        value += rest[end];
-      }
-      if (end >= rest.size()) return std::nullopt;
-    } else {
-      end = std::min(rest.find(';'), rest.size());
-      value = std::string(Trimmed(rest.substr(0, end)));
-    }
-    if (name == wanted) return value;
-    field = rest.substr(std::min(end, rest.size()));
-    at = field.find(';');
-  }
-  return std::nullopt;
-}
-
-Result<PartHead> ReadPartHead(std::string_view head) {
-  while (!head.empty()) {
-    const std::size_t end = std::min(head.find("\r\n"), head.size());
-    const std::string_view line = head.substr(0, end);
-    head.remove_prefix(std::min(end + 2, head.size()));
-    const std::size_t colon = line.find(':');
-    if (colon == std::string_view::npos) return Broken("a part's header field has no colon");
-    if (LowerCase(line.substr(0, colon)) != "content-disposition") continue;
-    const std::string_view field = Trimmed(line.substr(colon + 1));
-    if (MediaTypeIn(field) != "form-data") break;
-    std::optional<std::string> name = FieldParameter(field, "name");
-    if (!name) break;
-    return PartHead{*std::move(name), FieldParameter(field, "filename")};
-  }
-  return Broken("a part has no 'Content-Disposition: form-data; name=…'");
-}
-
 }  // namespace
-
-std::optional<std::string> MultipartBoundary(std::string_view content_type) {
-  if (MediaTypeIn(content_type) != "multipart/form-data") return std::nullopt;
-  std::optional<std::string> boundary = FieldParameter(content_type, "boundary");
-  if (!boundary || boundary->empty() || boundary->size() > 70 || boundary->back() == ' ') {
-    return std::nullopt;
-  }
-  const bool allowed = std::all_of(boundary->begin(), boundary->end(), [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-           std::string_view("'()+_,-./:=? ").find(c) != std::string_view::npos;
-  });
-  return allowed ? boundary : std::nullopt;
-}
 
 MultipartParser::MultipartParser(const std::string& boundary, PartReceiver receiver)
     : delimiter_("\r\n--" + boundary),
@@ -93,7 +26,7 @@ Status MultipartParser::Feed(std::string_view piece) {
 
 Status MultipartParser::Finish() const {
   if (state_ == State::kEnd) return Ok{};
-  return Broken("it stops before its closing boundary");
+  return BrokenForm("it stops before its closing boundary");
 }
 
 Result<bool> MultipartParser::Step() {
@@ -101,7 +34,7 @@ Result<bool> MultipartParser::Step() {
     case State::kStart:
       if (buffer_.size() < delimiter_.size()) return false;
       if (buffer_.compare(0, delimiter_.size(), delimiter_) != 0) {
-        return Broken("it does not start with its boundary");
+        return BrokenForm("it does not start with its boundary");
       }
       buffer_.erase(0, delimiter_.size());
       state_ = State::kAfterBoundary;
@@ -126,10 +59,10 @@ Result<bool> MultipartParser::StepAfterBoundary() {
   if (next == "--") {
     state_ = State::kEnd;
   } else if (next == "\r\n") {
-    if (++parts_ > kMaxParts) return Broken("it has more than 16 parts");
+    if (++parts_ > kMaxParts) return BrokenForm("it has more than 16 parts");
     state_ = State::kHead;
   } else {
-    return Broken("a boundary is followed by something else");
+    return BrokenForm("a boundary is followed by something else");
   }
   return true;
 }
@@ -139,9 +72,9 @@ Result<bool> MultipartParser::StepHead() {
   if (end == std::string::npos) {
     // A head of the greatest length may still wait for the rest of its CRLF CRLF.
     if (buffer_.size() < kMaxHeadBytes + 4) return false;
-    return Broken("a part's head is longer than 8192 bytes");
+    return BrokenForm("a part's head is longer than 8192 bytes");
   }
-  if (end > kMaxHeadBytes) return Broken("a part's head is longer than 8192 bytes");
+  if (end > kMaxHeadBytes) return BrokenForm("a part's head is longer than 8192 bytes");
   Result<PartHead> head = ReadPartHead(std::string_view(buffer_).substr(0, end));
   if (!head) return std::move(head.error());
   buffer_.erase(0, end + 4);

@@ -1,24 +1,13 @@
 #pragma once
 
 #include <functional>
-#include <map>
-#include <optional>
 #include <string>
 #include <string_view>
 
 #include "core/base/result.h"
+#include "service/handlers/part_head.h"
 
 namespace farhorizon {
-
-/// The boundary of a Content-Type multipart/form-data; nullopt if there is none, or if it is not
-/// one to 70 of the characters that [RFC 2046, section 5.1.1] allows.
-std::optional<std::string> MultipartBoundary(std::string_view content_type);
-
-/// The head of a part [RFC 7578, section 4.2].
-struct PartHead {
-  std::string name;
-  std::optional<std::string> filename;
-};
 
 /// Takes what the parser finds. An error of either function ends the parse.
 struct PartReceiver {

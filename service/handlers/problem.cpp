@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "service/handlers/json.h"
+#include "service/handlers/parameter_names.h"
 
 namespace farhorizon {
 
@@ -35,7 +36,8 @@ constexpr ErrorKind kKinds404[] = {
 constexpr ErrorKind kKinds405[] = {"method-not-allowed"};
 constexpr ErrorKind kKinds408[] = {"request-timeout"};
 constexpr ErrorKind kKinds412[] = {"precondition-failed"};
-constexpr ErrorKind kKinds413[] = {"body-not-allowed", "body-too-large", "raster-too-large"};
+constexpr ErrorKind kKinds413[] = {"block-too-large", "body-not-allowed", "body-too-large",
+                                   "raster-too-large"};
 constexpr ErrorKind kKinds414[] = {"target-too-long"};
 constexpr ErrorKind kKinds415[] = {"not-a-raster", "unsupported-media-type"};
 constexpr ErrorKind kKinds416[] = {"range-not-satisfiable"};
@@ -88,8 +90,8 @@ constexpr ErrorKind kKinds500[] = {
 };
 constexpr ErrorKind kKinds501[] = {"transfer-encoding-not-implemented"};
 constexpr ErrorKind kKinds503[] = {
-    "block-too-large",      "cancelled",          "draining", "queue-full", "resource-exhausted",
-    "too-many-connections", "worker-not-started",
+    "cancelled",          "draining", "queue-full", "resource-exhausted", "too-many-connections",
+    "worker-not-started",
 };
 constexpr ErrorKind kKinds505[] = {"version-not-supported"};
 constexpr ErrorKind kKinds507[] = {"no-space"};
@@ -156,7 +158,7 @@ int HttpStatusOf(ErrorKind kind) {
 Problem ProblemOf(const Error& error) {
   const ErrorKind code =
       error.kind.empty() ? ErrorKind::FromName(ErrorCodeName(error.code)).value() : error.kind;
-  Problem problem(code, error.message);
+  Problem problem(code, WithParameterNames(error.message));
   // The message of such a failure may name paths of this machine: it belongs in the log alone.
   const bool crash = code == ErrorKind("worker-crashed") || code == ErrorKind("result-corrupt");
   if (problem.status == 500 && !crash) {

@@ -21,7 +21,8 @@ struct Problem {
 int HttpStatusOf(ErrorKind kind);
 
 /// The problem that `error` is to a client. Its code is the kind, or the name of the ErrorCode of
-/// an error without a kind. The message of a failure of the storage or of this program is withheld.
+/// an error without a kind. Its detail names parameters where the message names flags. The message
+/// of a failure of the storage or of this program is withheld.
 Problem ProblemOf(const Error& error);
 
 /// The type URI of a code: OGC's where OGC names one, else ours; the same on every host.

@@ -35,7 +35,7 @@ std::optional<std::vector<std::string>> Match(const std::string& pattern, const 
       if (wanted[i] != given[i]) return std::nullopt;
       continue;
     }
-    std::optional<std::string> value = PercentDecode(given[i], false);
+    std::optional<std::string> value = PercentDecode(given[i]);
     if (!value || value->empty()) return std::nullopt;
     values.push_back(*std::move(value));
   }

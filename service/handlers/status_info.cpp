@@ -1,6 +1,7 @@
 #include "service/handlers/status_info.h"
 
 #include "service/clock.h"
+#include "service/handlers/parameter_names.h"
 #include "service/handlers/problem.h"
 
 namespace farhorizon {
@@ -34,6 +35,10 @@ ordered_json StatusInfo(const Job& job, const std::string& base) {
   info["filename"] = job.filename;
   info["attempt"] = job.attempt;
   if (!job.timings.empty()) info["timings"] = job.timings;
+  info["assumptions"] = ordered_json::array();
+  for (const auto& [code, text] : job.assumptions) {
+    info["assumptions"].push_back({{"code", code}, {"text", WithParameterNames(text)}});
+  }
   if (job.failure) {
     const Problem problem = ProblemOf(*job.failure);
     info["message"] = problem.detail;

@@ -1,6 +1,6 @@
-// POST /jobs, cheapest checks first. From the head: media type, length, Idempotency-Key, query,
-// room for a job. Then the body goes to disk. From the body: form, parameters, first bytes, a
-// worker's reading of the raster; then the stores.
+// POST /jobs, cheapest checks first. From the head: media type and coding, length, Idempotency-Key,
+// query, room for a job. Then the body goes to disk. From the body: form, parameters, first bytes,
+// a worker's reading of the raster; then the stores.
 #include "service/handlers/submit.h"
 
 #include <memory>
@@ -11,18 +11,17 @@
 #include "core/pipeline/build.h"
 #include "service/handlers/json.h"
 #include "service/handlers/json_parameters.h"
-#include "service/handlers/multipart.h"
 #include "service/handlers/problem.h"
 #include "service/handlers/raster_sniff.h"
 #include "service/handlers/status_info.h"
 #include "service/handlers/upload_body.h"
+#include "service/handlers/upload_media.h"
 #include "service/log.h"
 
 namespace farhorizon {
 
 namespace {
 
-constexpr const char* kAccepted = "image/tiff, application/octet-stream, multipart/form-data";
 constexpr std::size_t kMaxKeyBytes = 256;
 
 // The contents of the head of a submission.
@@ -53,10 +52,18 @@ Status CheckParameters(const Parameters& parameters) {
   return CheckOptions(*options);
 }
 
+// Moves the file name out of the parameters of a build.
+void TakeFilename(SubmissionHead& head) {
+  const auto name = head.parameters.find("filename");
+  if (name == head.parameters.end()) return;
+  head.filename = name->second;
+  head.parameters.erase(name);
+}
+
 Result<SubmissionHead> ReadSubmissionHead(const HttpRequest& request) {
   Result<std::optional<std::string>> key = ReadIdempotencyKey(request);
   if (!key) return std::move(key.error());
-  std::optional<Parameters> query = DecodeQuery(request.query);
+  std::optional<Parameters> query = DecodeQuery(request.query, {"formats", "nodata"});
   if (!query) {
     return Error{
         ErrorCode::kInvalidArgument,
@@ -64,26 +71,25 @@ Result<SubmissionHead> ReadSubmissionHead(const HttpRequest& request) {
         "invalid-parameter"};
   }
   SubmissionHead head{*std::move(query), {}, *std::move(key)};
-  if (const auto name = head.parameters.find("filename"); name != head.parameters.end()) {
-    head.filename = name->second;
-    head.parameters.erase(name);
-  }
+  TakeFilename(head);
   Status parameters = CheckParameters(head.parameters);
   if (!parameters) return std::move(parameters.error());
   return head;
 }
 
 // Adds the parameters of a form to those of the query.
-Status AddFormParameters(const std::string& json, Parameters& parameters) {
+Status AddFormParameters(const std::string& json, SubmissionHead& head) {
   Result<Parameters> form = ParametersOfJson(json);
   if (!form) return std::move(form.error());
   for (const auto& [name, value] : *form) {
-    if (parameters.emplace(name, value).second) continue;
+    const bool in_query = name == "filename" && head.filename;
+    if (!in_query && head.parameters.emplace(name, value).second) continue;
     return Error{ErrorCode::kInvalidArgument,
                  "the parameter " + name + " stands in the query and in the form",
                  "invalid-parameter"};
   }
-  return CheckParameters(parameters);
+  TakeFilename(head);
+  return CheckParameters(head.parameters);
 }
 
 class SubmitExchange : public Exchange {
@@ -110,13 +116,14 @@ class SubmitExchange : public Exchange {
 
 // Head and form joined.
 Result<Submission> SubmitExchange::ReadSubmission() const {
-  Parameters parameters = head_.parameters;
+  SubmissionHead head = head_;
   if (body_.params()) {
-    Status added = AddFormParameters(*body_.params(), parameters);
+    Status added = AddFormParameters(*body_.params(), head);
     if (!added) return std::move(added.error());
   }
-  const std::string name = head_.filename.value_or(body_.filename().value_or("dem"));
-  return Submission{SafeFilename(name), std::move(parameters), head_.idempotency_key};
+  const std::string name = head.filename.value_or(body_.filename().value_or("dem"));
+  return Submission{SafeFilename(name), std::move(head.parameters),
+                    std::move(head.idempotency_key)};
 }
 
 Result<Job> SubmitExchange::Submit() const {
@@ -127,8 +134,9 @@ Result<Job> SubmitExchange::Submit() const {
   const SpoolFile& spool = body_.spool();
   Status upload = CheckUpload(spool.beginning(), spool.bytes(), submission->filename);
   if (!upload) return std::move(upload.error());
-  Status readable = context_.jobs.Probe(spool, *submission);
-  if (!readable) return std::move(readable.error());
+  Result<Assumptions> assumptions = context_.jobs.Probe(spool, *submission);
+  if (!assumptions) return std::move(assumptions.error());
+  submission->assumptions = *std::move(assumptions);
   auto job = context_.jobs.Submit(spool, *submission);
   if (!job) return std::move(job.error());
   return job;
@@ -151,21 +159,8 @@ HttpResponse SubmitExchange::Finish() {
 }
 
 Admission BeginSubmission(const HandlerContext& context, const HttpRequest& request) {
-  const std::string* type = request.Header("content-type");
-  const std::string media = type != nullptr ? MediaTypeIn(*type) : "";
-  const std::optional<std::string> boundary =
-      type != nullptr ? MultipartBoundary(*type) : std::nullopt;
-  if (media == "multipart/form-data" && !boundary) {
-    return ProblemResponse(
-        request, {"invalid-multipart", "the Content-Type has no boundary that can be used"});
-  }
-  if (!boundary && media != "image/tiff" && media != "application/octet-stream") {
-    HttpResponse response =
-        ProblemResponse(request, {"unsupported-media-type",
-                                  std::string("send the DEM with a Content-Type of ") + kAccepted});
-    response.Set("Accept-Post", kAccepted);
-    return response;
-  }
+  std::variant<UploadMedia, HttpResponse> media = ReadUploadMedia(request);
+  if (auto* refusal = std::get_if<HttpResponse>(&media)) return std::move(*refusal);
   if (request.content_length.value_or(0) > context.max_body_bytes) {
     return ProblemResponse(request, ProblemOf(BodyTooLarge(context.max_body_bytes)));
   }
@@ -179,7 +174,7 @@ Admission BeginSubmission(const HandlerContext& context, const HttpRequest& requ
     return ProblemResponse(request, ProblemOf(spool.error()));
   }
   return std::make_unique<SubmitExchange>(context, request, *std::move(head), *std::move(spool),
-                                          boundary);
+                                          std::get<UploadMedia>(media).boundary);
 }
 
 }  // namespace

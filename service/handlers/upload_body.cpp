@@ -51,6 +51,12 @@ Status UploadBody::BeginPart(const PartHead& head) {
   if (dem ? has_dem_ : params_.has_value()) {
     return InvalidForm("the form has the part '" + head.name + "' twice");
   }
+  if (head.coding) {
+    return Error{ErrorCode::kUnsupportedData,
+                 "the part '" + head.name + "' of the form is encoded, as " +
+                     head.coding->substr(0, 100) + "; send its bytes as they are",
+                 "unsupported-media-type"};
+  }
   in_dem_ = dem;
   if (dem) {
     has_dem_ = true;

@@ -20,8 +20,8 @@ class UploadBody {
   UploadBody(const UploadBody&) = delete;
   UploadBody& operator=(const UploadBody&) = delete;
 
-  /// Errors: kResourceExhausted "body-too-large"; kInvalidArgument "invalid-multipart"; those of
-  ///   the spool file.
+  /// Errors: kResourceExhausted "body-too-large"; kInvalidArgument "invalid-multipart";
+  ///   kUnsupportedData "unsupported-media-type" where a part is encoded; those of the spool file.
   Status Take(std::string_view piece);
   /// Checks, after the last piece, that a form has its end and its DEM.
   /// Errors: kInvalidArgument "invalid-multipart".

@@ -13,6 +13,7 @@ namespace {
 constexpr std::array kStates = {JobState::kAccepted, JobState::kRunning, JobState::kSuccessful,
                                 JobState::kFailed, JobState::kDismissed};
 constexpr std::size_t kLongestFilename = 100;
+constexpr std::string_view kNoFilename = "dem";
 // Where a UUID's text has its dashes, in rising order.
 constexpr std::array<std::size_t, 4> kDashes = {8, 13, 18, 23};
 
@@ -84,13 +85,17 @@ std::string SafeFilename(std::string_view path) {
   if (slash != std::string_view::npos) path = path.substr(slash + 1);
   std::string name;
   for (const char c : path) {
-    if (!IsFilenameCharacter(c)) continue;
-    if (name.empty() && (c == '.' || c == '-')) continue;
-    name += c;
+    if (IsFilenameCharacter(c)) name += c;
   }
   if (name.size() > kLongestFilename) name.erase(0, name.size() - kLongestFilename);
-  while (!name.empty() && (name[0] == '.' || name[0] == '-')) name.erase(0, 1);
-  return name.empty() ? "dem" : name;
+  const std::size_t start = name.find_first_not_of(".-");
+  if (start == std::string::npos) return std::string(kNoFilename);
+  // Formats are known by their endings: one that is all that is left is kept.
+  const bool ending = start > 0 && name[start - 1] == '.';
+  if (ending && name.size() - start + kNoFilename.size() < kLongestFilename) {
+    return std::string(kNoFilename) + name.substr(start - 1);
+  }
+  return name.substr(start);
 }
 
 bool IsArtifactName(std::string_view name) {

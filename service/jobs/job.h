@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/assumption.h"
 #include "core/base/result.h"
 #include "service/url_query.h"
 
@@ -51,6 +52,7 @@ struct Job {
   std::int64_t crash_count = 0;
   std::optional<Error> failure;           ///< set if and only if state is kFailed
   std::map<std::string, double> timings;  ///< seconds by stage, of the run that succeeded
+  Assumptions assumptions;                ///< of the last run that has read the DEM, or the probe
 };
 
 /// One output file of a job.
@@ -66,7 +68,7 @@ Error NoSuchJob();
 
 /// A name that is safe for a file and in a header: of the part after the last slash or backslash,
 /// the ASCII letters, digits, '.', '_' and '-' from the first that is neither '.' nor '-', at most
-/// the last 100; "dem" where none is left.
+/// the last 100; "dem" where none is left, and before an ending that alone is left: "dem.tif".
 std::string SafeFilename(std::string_view path);
 
 /// True for a name that SafeFilename would return unchanged.

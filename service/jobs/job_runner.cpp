@@ -43,7 +43,8 @@ void JobRunner::Run(const Job& job, const std::stop_token& stop) {
       StoreFailure(job, prepared.error(), stop);
     } else {
       const WorkerCall call{options_.worker_program, false, directory, options_.limits};
-      StoreOutcome(job, RunWorker(call, ReportTo(job), stop), directory, stop);
+      const RunControl control{ReportTo(job), stop, {}, StoreAssumptionsOf(job)};
+      StoreOutcome(job, RunWorker(call, control), directory, stop);
     }
   } catch (const std::exception& bug) {
     Log(LogLevel::kError, "internal error", {{"job_id", job.id}, {"error", bug.what()}});
@@ -88,6 +89,18 @@ Progress JobRunner::ReportTo(const Job& job) {
     shown->at = now;
     Result<bool> stored = jobs_.ReportProgress(id, attempt, percent, StageName(stage), NowMs());
     if (!stored) Log(LogLevel::kWarning, "progress lost", {{"error", stored.error().message}});
+  };
+}
+
+// Those of this run alone, so that a second run does not double what the first has stored.
+AssumptionHandler JobRunner::StoreAssumptionsOf(const Job& job) {
+  return [this, id = job.id, attempt = job.attempt,
+          met = std::make_shared<Assumptions>()](const Assumption& assumption) {
+    met->push_back(assumption);
+    Log(LogLevel::kInfo, "assumed",
+        {{"job_id", id}, {"code", assumption.code}, {"text", assumption.text}});
+    Result<bool> stored = jobs_.ReportAssumptions(id, attempt, *met, NowMs());
+    if (!stored) Log(LogLevel::kWarning, "assumption lost", {{"error", stored.error().message}});
   };
 }
 

@@ -46,6 +46,7 @@ class JobRunner {
                  const std::filesystem::path& directory);
   void StoreFailure(const Job& job, const Error& error, const std::stop_token& stop);
   Progress ReportTo(const Job& job);
+  AssumptionHandler StoreAssumptionsOf(const Job& job);
 
   JobStore& jobs_;
   ObjectStore& objects_;

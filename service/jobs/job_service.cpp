@@ -87,8 +87,9 @@ Status JobService::CheckReady() {
   return CheckDisk();
 }
 
-Status JobService::Probe(const SpoolFile& upload, const Submission& submission) {
-  if (upload.bytes() > options_.probe.max_bytes) return Ok{};
+Result<Assumptions> JobService::Probe(const SpoolFile& upload, const Submission& submission) {
+  Assumptions assumptions;
+  if (upload.bytes() > options_.probe.max_bytes) return assumptions;
   const fs::path directory = directory_.Work() / ("probe-" + std::to_string(next_probe_++));
   const fs::path input = fs::path("in") / submission.filename;
   std::error_code failure;
@@ -98,21 +99,24 @@ Status JobService::Probe(const SpoolFile& upload, const Submission& submission) 
   if (!failure) fs::create_hard_link(upload.path(), directory / input, failure);
   const RunnerOptions& runner = options_.runner;
   const WorkerTask task{input.string(), "", submission.parameters, runner.max_posts, 1};
-  Status readable = Ok{};
+  std::optional<Error> refusal;
   if (!failure && WriteTaskFile(directory, task)) {
     probes_.acquire();
     WorkerOutcome outcome =
-        RunWorker({runner.worker_program, true, directory, ProbeLimits(options_.probe)}, {}, {});
+        RunWorker({runner.worker_program, true, directory, ProbeLimits(options_.probe)},
+                  {.on_assumption = [&](const Assumption& met) { assumptions.push_back(met); }});
     probes_.release();
-    if (outcome.end == WorkerEnd::kFailed) {
-      readable = std::move(outcome.error);
+    // A worker that runs out of the probe's memory says so itself; a job may have more.
+    if (outcome.end == WorkerEnd::kFailed && outcome.error.kind != "memory-limit") {
+      refusal = std::move(outcome.error);
     } else if (outcome.end == WorkerEnd::kCrashed) {
       Log(LogLevel::kWarning, "probe crashed",
           {{"code", outcome.error.kind}, {"last_words", outcome.stderr_tail}});
     }
   }
   fs::remove_all(directory, failure);
-  return readable;
+  if (refusal) return *std::move(refusal);
+  return assumptions;
 }
 
 Result<Job> JobService::Submit(const SpoolFile& upload, const Submission& submission) {
@@ -120,9 +124,10 @@ Result<Job> JobService::Submit(const SpoolFile& upload, const Submission& submis
   Result<StoredObject> stored = objects_->PutFile(upload.path());
   if (!stored) return std::move(stored.error());
   const std::int64_t now = NowMs();
-  Result<Job> inserted = jobs_->Insert({NewJobId(now), submission.filename, submission.parameters,
-                                        stored->sha256, stored->bytes, submission.idempotency_key},
-                                       now);
+  Result<Job> inserted =
+      jobs_->Insert({NewJobId(now), submission.filename, submission.parameters, stored->sha256,
+                     stored->bytes, submission.idempotency_key, submission.assumptions},
+                    now);
   pin.unlock();
   if (inserted) {
     engine_->Wake();

@@ -23,7 +23,7 @@ namespace farhorizon {
 
 /// Limits of reading an upload before its job is accepted.
 struct ProbeOptions {
-  std::int64_t max_bytes = std::int64_t{1} << 26U;  ///< larger uploads are read by their job only
+  std::int64_t max_bytes = std::int64_t{1} << 31U;  ///< larger uploads are read by their job only
   std::int64_t memory_bytes = std::int64_t{1} << 31U;
   std::int64_t wall_seconds = 20;
 };
@@ -42,6 +42,7 @@ struct Submission {
   std::string filename;  ///< as SafeFilename gives it
   Parameters parameters;
   std::optional<std::string> idempotency_key;
+  Assumptions assumptions = {};  ///< those of the probe
 };
 
 /// An artifact, open for reading.
@@ -65,9 +66,11 @@ class JobService {
   Status CheckRoom();
   Result<SpoolFile> NewSpoolFile() { return SpoolFile::Create(directory_.Spool()); }
 
-  /// Reads the upload in a worker process, without building anything. Succeeds also where the
-  /// limits of the probe end the worker: the job has larger ones. Errors: those of ReadDem.
-  Status Probe(const SpoolFile& upload, const Submission& submission);
+  /// Reads, places and plans the upload in a worker process, without building anything; returns
+  /// what was assumed. Succeeds, with what is known by then, also where the limits of the probe end
+  /// the worker: the job has larger ones.
+  /// Errors: those of TerrainInput::Open and PlanLevels.
+  Result<Assumptions> Probe(const SpoolFile& upload, const Submission& submission);
 
   /// Stores the bytes and an accepted job, durably, and returns the job: an earlier one where the
   /// idempotency key has made one. Errors: those of the stores.

@@ -19,6 +19,7 @@ struct NewJob {
   std::string input_sha256;
   std::int64_t input_bytes = 0;
   std::optional<std::string> idempotency_key;
+  Assumptions assumptions = {};  ///< as far as they are known before it runs
 };
 
 /// The jobs that a page of the list is to have.
@@ -68,6 +69,9 @@ class JobStore {
   virtual Result<std::optional<Job>> ClaimNext(std::int64_t now_ms) = 0;
   virtual Result<bool> ReportProgress(const std::string& id, std::int64_t attempt, int progress,
                                       const std::string& message, std::int64_t now_ms) = 0;
+  /// Replaces the job's assumptions, those of an earlier attempt too.
+  virtual Result<bool> ReportAssumptions(const std::string& id, std::int64_t attempt,
+                                         const Assumptions& assumptions, std::int64_t now_ms) = 0;
   virtual Result<bool> Publish(const std::string& id, std::int64_t attempt,
                                const std::vector<Artifact>& artifacts,
                                const std::map<std::string, double>& timings,

@@ -31,6 +31,8 @@ class SqliteJobStore : public JobStore {
   Result<std::optional<Job>> ClaimNext(std::int64_t now_ms) override;
   Result<bool> ReportProgress(const std::string& id, std::int64_t attempt, int progress,
                               const std::string& message, std::int64_t now_ms) override;
+  Result<bool> ReportAssumptions(const std::string& id, std::int64_t attempt,
+                                 const Assumptions& assumptions, std::int64_t now_ms) override;
   Result<bool> Publish(const std::string& id, std::int64_t attempt,
                        const std::vector<Artifact>& artifacts,
                        const std::map<std::string, double>& timings, std::int64_t now_ms) override;
@@ -103,10 +105,11 @@ Result<Job> SqliteJobStore::Insert(const NewJob& job, std::int64_t now_ms) {
     }
     Statement insert(database_,
                      "INSERT INTO jobs (id, state, filename, parameters, input_sha256, "
-                     "input_bytes, created_ms, updated_ms, message) "
-                     "VALUES (?, 'accepted', ?, ?, ?, ?, ?, ?, 'waiting')");
+                     "input_bytes, created_ms, updated_ms, assumptions, message) "
+                     "VALUES (?, 'accepted', ?, ?, ?, ?, ?, ?, ?, 'waiting')");
     insert.Bind(job.id).Bind(job.filename).Bind(EncodeQuery(job.parameters));
-    insert.Bind(job.input_sha256).Bind(job.input_bytes).Bind(now_ms).Bind(now_ms).Run();
+    insert.Bind(job.input_sha256).Bind(job.input_bytes).Bind(now_ms).Bind(now_ms);
+    insert.Bind(AssumptionsColumn(job.assumptions)).Run();
     if (job.idempotency_key) {
       Statement key(database_,
                     "INSERT INTO idempotency_keys (key, job_id, created_ms) VALUES (?, ?, ?)");
@@ -182,6 +185,18 @@ Result<bool> SqliteJobStore::ReportProgress(const std::string& id, std::int64_t 
                      "UPDATE jobs SET progress = max(progress, ?), message = ?, updated_ms = ? "
                      "WHERE id = ? AND attempt = ? AND state = 'running'");
     update.Bind(std::int64_t{progress}).Bind(message).Bind(now_ms).Bind(id).Bind(attempt);
+    return update.Run() == 1;
+  });
+}
+
+Result<bool> SqliteJobStore::ReportAssumptions(const std::string& id, std::int64_t attempt,
+                                               const Assumptions& assumptions,
+                                               std::int64_t now_ms) {
+  return Guarded([&]() -> Result<bool> {
+    Statement update(database_,
+                     "UPDATE jobs SET assumptions = ?, updated_ms = ? "
+                     "WHERE id = ? AND attempt = ? AND state = 'running'");
+    update.Bind(AssumptionsColumn(assumptions)).Bind(now_ms).Bind(id).Bind(attempt);
     return update.Run() == 1;
   });
 }

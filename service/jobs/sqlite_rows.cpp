@@ -22,7 +22,27 @@ std::map<std::string, double> ReadTimings(const std::string& text) {
   return timings;
 }
 
+Assumptions ReadAssumptions(const std::string& text) {
+  Assumptions assumptions;
+  const nlohmann::json document = nlohmann::json::parse(text, nullptr, false);
+  if (!document.is_array()) return assumptions;
+  for (const nlohmann::json& one : document) {
+    if (!one.is_object() || !one.contains("code") || !one.contains("text")) continue;
+    if (!one["code"].is_string() || !one["text"].is_string()) continue;
+    assumptions.push_back({one["code"].get<std::string>(), one["text"].get<std::string>()});
+  }
+  return assumptions;
+}
+
 }  // namespace
+
+std::string AssumptionsColumn(const Assumptions& assumptions) {
+  nlohmann::json document = nlohmann::json::array();
+  for (const auto& [code, text] : assumptions) {
+    document.push_back({{"code", code}, {"text", text}});
+  }
+  return document.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
 
 Job ReadJob(const Statement& row) {
   Job job;
@@ -42,6 +62,7 @@ Job ReadJob(const Statement& row) {
   job.crash_count = row.Integer(13);
   job.failure = ReadFailure(row);
   job.timings = ReadTimings(row.Text(17));
+  job.assumptions = ReadAssumptions(row.Text(18));
   return job;
 }
 

@@ -10,7 +10,10 @@ namespace farhorizon {
 inline constexpr const char* kJobColumns =
     "id, state, filename, parameters, input_sha256, input_bytes, progress, message, created_ms, "
     "started_ms, finished_ms, updated_ms, attempt, crash_count, failure_code, failure_kind, "
-    "failure_message, timings";
+    "failure_message, timings, assumptions";
+
+/// Assumptions as the column has them: a JSON array of objects with a code and a text.
+std::string AssumptionsColumn(const Assumptions& assumptions);
 
 /// The job of the current row of a statement that selects kJobColumns.
 Job ReadJob(const Statement& row);

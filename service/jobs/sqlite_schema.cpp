@@ -1,13 +1,15 @@
 #include "service/jobs/sqlite_schema.h"
 
+#include <array>
+
 namespace farhorizon {
 
 namespace {
 
 constexpr int kApplicationId = 0x46484A53;  // "FHJS"
-constexpr int kSchemaVersion = 1;
-
-constexpr const char* kSchema = R"(
+// What makes version i + 1 of the tables out of version i. The file's user_version is the number of
+// those that it has gone through; none is ever changed, because files exist that have.
+constexpr const char* kVersion1 = R"(
 CREATE TABLE jobs (
   id TEXT PRIMARY KEY,
   state TEXT NOT NULL CHECK (state IN ('accepted','running','successful','failed','dismissed')),
@@ -48,13 +50,21 @@ CREATE TABLE idempotency_keys (
 ) STRICT, WITHOUT ROWID;
 CREATE INDEX idempotency_keys_by_job ON idempotency_keys (job_id);
 )";
+constexpr const char* kVersion2 = R"(
+ALTER TABLE jobs ADD COLUMN assumptions TEXT NOT NULL DEFAULT '[]';
+)";
+constexpr std::array kVersions = {kVersion1, kVersion2};
+constexpr auto kSchemaVersion = static_cast<std::int64_t>(kVersions.size());
 
 void Migrate(Database& database) {
   Transaction transaction(database);
-  if (database.Pragma("user_version") == 0) {
-    database.Execute(kSchema);
-    database.Execute(("PRAGMA application_id = " + std::to_string(kApplicationId)).c_str());
-    database.Execute(("PRAGMA user_version = " + std::to_string(kSchemaVersion)).c_str());
+  for (std::int64_t version = database.Pragma("user_version"); version < kSchemaVersion;
+       ++version) {
+    if (version == 0) {
+      database.Execute(("PRAGMA application_id = " + std::to_string(kApplicationId)).c_str());
+    }
+    database.Execute(kVersions[static_cast<std::size_t>(version)]);
+    database.Execute(("PRAGMA user_version = " + std::to_string(version + 1)).c_str());
   }
   transaction.Commit();
 }

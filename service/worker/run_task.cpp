@@ -7,10 +7,12 @@
 #include <new>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/io/file.h"
 #include "core/io/posix_file.h"
 #include "core/pipeline/build.h"
+#include "core/pipeline/level_plan.h"
 #include "core/pipeline/terrain_input.h"
 #include "service/stage_timer.h"
 #include "service/worker/worker_protocol.h"
@@ -42,6 +44,23 @@ Progress SendProgress() {
   };
 }
 
+AssumptionHandler SendAssumptions() {
+  return [sent = std::make_shared<std::size_t>()](const Assumption& assumption) {
+    if (++*sent <= kMostAssumptions) Send(assumption);
+  };
+}
+
+// What a build does before its long work. The plan of level 0, which puts every post on the globe,
+// refuses whatever those of further levels would.
+Status Probe(const WorkerTask& task, BuildOptions options, const RunControl& control) {
+  options.levels = 1;
+  Result<std::unique_ptr<TerrainInput>> input = TerrainInput::Open(task.input, options, control);
+  if (!input) return std::move(input.error());
+  Result<std::vector<LevelPlan>> plans = PlanLevels(**input, options);
+  if (!plans) return std::move(plans.error());
+  return Ok{};
+}
+
 Status Run(bool probe_only, StageTimer& timer) {
   Result<WorkerTask> task = ReadTaskFile();
   if (!task) return std::move(task.error());
@@ -49,13 +68,10 @@ Status Run(bool probe_only, StageTimer& timer) {
   if (!options) return std::move(options.error());
   options->max_posts = task->max_posts;
   options->threads = task->threads;
-  if (probe_only) {
-    Result<std::unique_ptr<TerrainInput>> input = TerrainInput::Open(task->input, *options, {});
-    if (!input) return std::move(input.error());
-    return Ok{};
-  }
-  return BuildArtifacts(task->input, task->output, *options,
-                        RunControl{timer.Listen(SendProgress()), {}});
+  RunControl control{.on_assumption = SendAssumptions()};
+  if (probe_only) return Probe(*task, *std::move(options), control);
+  control.progress = timer.Listen(SendProgress());
+  return BuildArtifacts(task->input, task->output, *options, control);
 }
 
 }  // namespace

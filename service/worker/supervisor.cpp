@@ -23,11 +23,11 @@ using Clock = std::chrono::steady_clock;
 constexpr std::size_t kLongestLine = 16384;
 constexpr std::streamoff kStderrTailBytes = 2000;
 
-// Splits a worker's bytes into messages, passes progress on and keeps the message that ends the
-// work.
+// Splits a worker's bytes into messages, passes progress and assumptions on and keeps the message
+// that ends the work.
 class MessageReader {
  public:
-  explicit MessageReader(const Progress& progress) : progress_(progress) {}
+  explicit MessageReader(const RunControl& control) : control_(control) {}
 
   // False where the bytes violate the protocol.
   bool Add(std::string_view bytes) {
@@ -46,14 +46,18 @@ class MessageReader {
     std::optional<WorkerMessage> message = ReadMessage(line);
     if (!message || final_message_) return false;
     if (const auto* step = std::get_if<WorkerProgress>(&*message)) {
-      if (progress_) progress_(step->stage, step->done);
+      control_.Report(step->stage, step->done);
+    } else if (const auto* assumption = std::get_if<Assumption>(&*message)) {
+      if (++assumptions_ > kMostAssumptions) return false;
+      control_.Assume(*assumption);
     } else {
       final_message_ = std::move(message);
     }
     return true;
   }
 
-  const Progress& progress_;
+  const RunControl& control_;
+  std::size_t assumptions_ = 0;
   std::string buffer_;
   std::optional<WorkerMessage> final_message_;
 };
@@ -143,16 +147,16 @@ WorkerOutcome OutcomeOfExit(int status, const std::optional<WorkerMessage>& fina
 
 }  // namespace
 
-WorkerOutcome RunWorker(const WorkerCall& call, const Progress& progress,
-                        const std::stop_token& stop) {
+WorkerOutcome RunWorker(const WorkerCall& call, const RunControl& control) {
   const UniqueFd stop_event(::eventfd(0, EFD_CLOEXEC));
-  const std::stop_callback wake(stop, [&stop_event] { ::eventfd_write(stop_event.get(), 1); });
+  const std::stop_callback wake(control.stop,
+                                [&stop_event] { ::eventfd_write(stop_event.get(), 1); });
   std::vector<std::string> arguments = {"worker"};
   if (call.probe_only) arguments.emplace_back("--probe");
   Result<ChildProcess> child =
       ChildProcess::Start(call.program, arguments, call.directory, call.limits);
   if (!child) return {WorkerEnd::kCrashed, std::move(child.error()), {}, {}};
-  MessageReader reader(progress);
+  MessageReader reader(control);
   const Clock::time_point deadline = Clock::now() + std::chrono::seconds(call.limits.wall_seconds);
   const WaitResult waited = WaitForChild(*child, reader, stop_event.get(), deadline);
   if (waited != WaitResult::kEnded) child->Kill();

@@ -2,7 +2,6 @@
 
 #include <filesystem>
 #include <map>
-#include <stop_token>
 #include <string>
 
 #include "core/base/result.h"
@@ -35,9 +34,8 @@ struct WorkerCall {
   WorkerLimits limits;
 };
 
-/// Runs a worker process to its end. Returns within the wall-clock limit and the time of a kill,
-/// whatever the worker does.
-WorkerOutcome RunWorker(const WorkerCall& call, const Progress& progress,
-                        const std::stop_token& stop);
+/// Runs a worker process to its end, and passes its progress and assumptions on to `control`.
+/// Returns within the wall-clock limit and the time of a kill, whatever the worker does.
+WorkerOutcome RunWorker(const WorkerCall& call, const RunControl& control);
 
 }  // namespace farhorizon

@@ -1,5 +1,6 @@
 #include "service/worker/worker_protocol.h"
 
+#include <algorithm>
 #include <fstream>
 
 #include <nlohmann/json.hpp>
@@ -15,15 +16,28 @@ using nlohmann::json;
 constexpr const char* kTaskFile = "task.json";
 constexpr std::uintmax_t kLargestTask = 1U << 20U;
 constexpr std::size_t kLongestText = 2000;
+constexpr std::size_t kLongestAssumption = 1000;
+constexpr std::size_t kLongestCode = 64;
 
 std::string Line(const json& object) {
   return object.dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
 }
 
-std::string TextOf(const json& object, const char* key) {
+// The beginning of `text`, at most `most` bytes, that ends with a whole character of UTF-8.
+std::string Beginning(std::string text, std::size_t most) {
+  if (text.size() <= most) return text;
+  const auto continues = [&](std::size_t at) {
+    return (static_cast<unsigned char>(text[at]) & 0xC0U) == 0x80U;
+  };
+  for (int back = 0; back < 3 && most > 0 && continues(most); ++back) --most;
+  text.resize(most);
+  return text;
+}
+
+std::string TextOf(const json& object, const char* key, std::size_t most = kLongestText) {
   const auto found = object.find(key);
   if (found == object.end() || !found->is_string()) return {};
-  return found->get<std::string>().substr(0, kLongestText);
+  return Beginning(found->get<std::string>(), most);
 }
 
 // An empty name is an error of no kind but its code.
@@ -37,6 +51,20 @@ std::optional<WorkerMessage> ReadError(const json& error) {
   const std::optional<ErrorKind> kind = KindOf(TextOf(error, "kind"));
   if (!code || !kind) return std::nullopt;
   return Error{*code, TextOf(error, "message"), *kind};
+}
+
+bool IsAssumptionCode(const std::string& code) {
+  return !code.empty() && code.size() <= kLongestCode &&
+         std::all_of(code.begin(), code.end(), [](char c) {
+           return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-';
+         });
+}
+
+std::optional<WorkerMessage> ReadAssumption(const json& assumption) {
+  if (!assumption.is_object()) return std::nullopt;
+  Assumption read{TextOf(assumption, "code"), TextOf(assumption, "text", kLongestAssumption)};
+  if (!IsAssumptionCode(read.code) || read.text.empty()) return std::nullopt;
+  return read;
 }
 
 std::optional<WorkerMessage> ReadDone(const json& timings) {
@@ -95,11 +123,16 @@ std::string WriteMessage(const WorkerMessage& message) {
   if (const auto* done = std::get_if<WorkerDone>(&message)) {
     return Line({{"timings", done->timings}});
   }
+  if (const auto* assumption = std::get_if<Assumption>(&message)) {
+    return Line({{"assumption",
+                  {{"code", assumption->code},
+                   {"text", Beginning(assumption->text, kLongestAssumption)}}}});
+  }
   const Error& error = std::get<Error>(message);
   return Line({{"error",
                 {{"code", ErrorCodeName(error.code)},
                  {"kind", error.kind.name()},
-                 {"message", error.message}}}});
+                 {"message", Beginning(error.message, kLongestText)}}}});
 }
 
 std::optional<WorkerMessage> ReadMessage(std::string_view line) {
@@ -108,6 +141,9 @@ std::optional<WorkerMessage> ReadMessage(std::string_view line) {
   if (!object.is_object()) return std::nullopt;
   if (const auto error = object.find("error"); error != object.end()) return ReadError(*error);
   if (const auto times = object.find("timings"); times != object.end()) return ReadDone(*times);
+  if (const auto what = object.find("assumption"); what != object.end()) {
+    return ReadAssumption(*what);
+  }
   const auto done = object.find("done");
   if (done == object.end() || !done->is_number()) return std::nullopt;
   const double share = done->get<double>();

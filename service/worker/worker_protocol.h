@@ -8,6 +8,7 @@
 #include <string_view>
 #include <variant>
 
+#include "core/base/assumption.h"
 #include "core/base/result.h"
 #include "core/base/stage.h"
 #include "service/url_query.h"
@@ -35,8 +36,12 @@ Status WriteTaskFile(const std::filesystem::path& directory, const WorkerTask& t
 /// Reads task.json of the working directory. Errors: as ReadFile and ReadTask.
 Result<WorkerTask> ReadTaskFile();
 
-/// A worker's messages, one JSON object a line: progress any number of times, then at most once
-/// that the work is done or the error that stopped it.
+/// As many assumptions as a worker may send; a longer list than any DEM gives rise to, and short
+/// enough to be stored with its job and shown in every status.
+constexpr std::size_t kMostAssumptions = 32;
+
+/// A worker's messages, one JSON object a line: progress any number of times, an assumption up to
+/// kMostAssumptions times, then at most once that the work is done or the error that stopped it.
 struct WorkerProgress {
   Stage stage = Stage::kRead;
   double done = 0;
@@ -44,9 +49,10 @@ struct WorkerProgress {
 struct WorkerDone {
   std::map<std::string, double> timings;  ///< seconds by stage
 };
-using WorkerMessage = std::variant<WorkerProgress, WorkerDone, Error>;
+using WorkerMessage = std::variant<WorkerProgress, Assumption, WorkerDone, Error>;
 
-/// One line, with its newline.
+/// One line, with its newline. A text is cut where it is too long: after 2000 bytes, of an
+/// assumption after 1000.
 std::string WriteMessage(const WorkerMessage& message);
 /// nullopt for anything that WriteMessage does not write: a hostile raster may have taken control
 /// of the worker.

@@ -199,8 +199,9 @@ TEST_F(ServiceE2e, AWorkerEndsItsOwnJobAlone) {
                 "FARHORIZON_WORKER_FILE_BYTES=4194304", "FARHORIZON_WORKERS=3"});
   const std::vector<std::pair<std::string, std::string>> fates = {
       {"segv", "worker-crashed"},    {"exit3", "worker-crashed"}, {"nonsense", "worker-crashed"},
-      {"endless", "worker-crashed"}, {"liar", "worker-crashed"},  {"hang", "timeout"},
-      {"spin", "timeout"},           {"large", "file-limit"},     {"refused", "no-crs"}};
+      {"endless", "worker-crashed"}, {"flood", "worker-crashed"}, {"liar", "worker-crashed"},
+      {"hang", "timeout"},           {"spin", "timeout"},         {"large", "file-limit"},
+      {"refused", "no-crs"}};
   std::vector<std::string> jobs;
   for (const auto& [name, code] : fates) jobs.push_back(Submit(name + ".asc"));
   const std::string good = Submit("good.asc");
@@ -209,8 +210,12 @@ TEST_F(ServiceE2e, AWorkerEndsItsOwnJobAlone) {
     EXPECT_EQ(WaitForEnd(jobs[i]), "failed") << fates[i].first;
     EXPECT_EQ(FailureOf(jobs[i]), fates[i].second) << fates[i].first;
   }
-  EXPECT_EQ(StatusOf(jobs[0])["attempt"], 2);  // a crash is forgiven once
-  EXPECT_EQ(StatusOf(jobs[8])["attempt"], 1);  // a refusal is final
+  EXPECT_EQ(StatusOf(jobs[0])["attempt"], 2);      // a crash is forgiven once
+  EXPECT_EQ(StatusOf(jobs.back())["attempt"], 1);  // a refusal is final
+  const std::string named = "no reference system; give crs=EPSG:4326";
+  EXPECT_EQ(StatusOf(jobs.back())["message"], named);
+  EXPECT_EQ(StatusOf(jobs.back())["exception"]["detail"], named);
+  EXPECT_EQ(json::parse(Ask(port_, "GET", jobs.back() + "/results").body)["detail"], named);
   EXPECT_EQ(Ask(port_, "GET", "/readyz").status, 200);
   EXPECT_EQ(LeftOver("work"), 0U);
 }
@@ -222,6 +227,70 @@ TEST_F(ServiceE2e, AProbeRefusesOrLeavesItToTheJob) {
   EXPECT_EQ(large.status, 413);
   EXPECT_EQ(json::parse(large.body)["code"], "raster-too-large");
   EXPECT_EQ(WaitForEnd(Submit("probe-segv.asc")), "failed");
+  EXPECT_EQ(WaitForEnd(Submit("probe-memory.asc")), "successful") << "a job may have more of it";
+}
+
+TEST_F(ServiceE2e, AStatusSaysWhatWasAssumed) {
+  StartStandIn();
+  const json expected = {
+      {{"code", "height-unit"}, {"text", "taken for feet; state it with heightUnit=m"}},
+      {{"code", "void"}, {"text", "-32768 is no data; state it with nodata"}}};
+  const RawAnswer accepted =
+      Ask(port_, "POST", "/jobs?filename=assumes.asc", "Content-Type: text/plain\r\n", SmallGrid());
+  ASSERT_EQ(accepted.status, 201) << accepted.body;
+  EXPECT_EQ(json::parse(accepted.body)["assumptions"], expected) << "known before the job runs";
+  const std::string job = "/jobs/" + json::parse(accepted.body).value("jobID", "");
+  EXPECT_EQ(WaitForEnd(job), "successful");
+  EXPECT_EQ(StatusOf(job)["assumptions"], expected);
+  const std::string crashed = Submit("assumes-segv.asc");
+  EXPECT_EQ(WaitForEnd(crashed), "failed");
+  EXPECT_EQ(StatusOf(crashed)["attempt"], 2);
+  EXPECT_EQ(StatusOf(crashed)["assumptions"], expected) << "not doubled by the second run";
+  SpillFile(folder_ / "assumes.asc", SmallGrid());
+  ASSERT_EQ(Run({"submit", (folder_ / "assumes.asc").string(), "--url",
+                 "http://127.0.0.1:" + std::to_string(port_), "-o", (folder_ / "sent").string()}),
+            0);
+  EXPECT_EQ(SlurpFile(folder_ / "stderr"),
+            "farhorizon: assumed: taken for feet; state it with heightUnit=m\n"
+            "farhorizon: assumed: -32768 is no data; state it with nodata\n");
+}
+
+TEST_F(ServiceE2e, WhatNoJobCouldBuildIsRefusedAtOnce) {
+  Start();
+  struct Case {
+    const char* query;
+    int status;
+    const char* code;
+  };
+  for (const Case& one :
+       std::initializer_list<Case>{{"crs=EPSG:999999", 422, "unknown-crs"},
+                                   {"crs=EPSG:4326%205773", 422, "unknown-crs"},
+                                   {"crs=EPSG:4326&maxError=1e-9", 400, "max-error-too-small"},
+                                   {"crs=EPSG:4326&nodata=-inf&nodata=x", 400, "invalid-parameter"},
+                                   {"crs=EPSG:4326&heightUnit=yd", 400, "invalid-parameter"}}) {
+    const RawAnswer answer = Ask(port_, "POST", std::string("/jobs?filename=a.asc&") + one.query,
+                                 "Content-Type: text/plain\r\n", SmallGrid());
+    EXPECT_EQ(answer.status, one.status) << one.query << answer.body;
+    EXPECT_EQ(json::parse(answer.body).value("code", ""), one.code) << one.query;
+    EXPECT_EQ(answer.body.find("--"), std::string::npos) << answer.body;
+  }
+  std::string empty = "ncols 3\nnrows 2\nxllcorner 7\nyllcorner 46\ncellsize 1\nNODATA_value 0\n";
+  for (const char* values : {"1 0 0\n0 0 2\n", "0 0 0\n0 0 0\n"}) {
+    const RawAnswer answer = Ask(port_, "POST", "/jobs?filename=a.asc&crs=EPSG:4326",
+                                 "Content-Type: text/plain\r\n", empty + values);
+    EXPECT_EQ(answer.status, 422) << answer.body;
+  }
+  EXPECT_TRUE(json::parse(Ask(port_, "GET", "/jobs").body)["jobs"].empty());
+}
+
+TEST_F(ServiceE2e, APlusInAQueryIsWhatWasMeant) {
+  Start();
+  for (const char* crs : {"EPSG:4326+5773", "EPSG:4326%2B5773", "EPSG%3A4326%2B5773"}) {
+    const RawAnswer answer = Ask(port_, "POST", std::string("/jobs?filename=a.asc&crs=") + crs,
+                                 "Content-Type: text/plain\r\n", SmallGrid());
+    const std::string code = json::parse(answer.body).value("code", "");
+    EXPECT_TRUE(answer.status == 201 || code == "no-geoid-grid") << crs << answer.body;
+  }
 }
 
 TEST_F(ServiceE2e, KillLosesNothingThatWasAcknowledged) {

@@ -34,7 +34,18 @@ bool Named(const WorkerTask& task, const char* word) {
   return task.input.find(word) != std::string::npos;
 }
 
+void Assume(const WorkerTask& task) {
+  if (Named(task, "assumes")) {
+    Send(WriteMessage(Assumption{"height-unit", "taken for feet; state it with --height-unit m"}));
+    Send(WriteMessage(Assumption{"void", "-32768 is no data; state it with --nodata"}));
+  }
+  if (Named(task, "flood")) {
+    for (int i = 0; i < 100; ++i) Send(WriteMessage(Assumption{"flood", std::to_string(i)}));
+  }
+}
+
 int Misbehave(const WorkerTask& task) {
+  Assume(task);
   if (Named(task, "segv")) std::raise(SIGSEGV);
   if (Named(task, "exit3")) return 3;
   if (Named(task, "hang")) std::this_thread::sleep_for(std::chrono::hours(1));
@@ -59,7 +70,7 @@ int Misbehave(const WorkerTask& task) {
   }
   if (Named(task, "refused")) {
     Send(WriteMessage(
-        Error{ErrorCode::kUnsupportedData, "the DEM has no reference system", "no-crs"}));
+        Error{ErrorCode::kUnsupportedData, "no reference system; give --crs EPSG:4326", "no-crs"}));
     return 1;
   }
   if (Named(task, "slow")) {
@@ -86,6 +97,11 @@ int main(int argc, char** argv) {
     Send(WriteMessage(Error{ErrorCode::kResourceExhausted, "too large", "raster-too-large"}));
     return 1;
   }
+  if (Named(*task, "probe-memory")) {
+    Send(WriteMessage(Error{ErrorCode::kResourceExhausted, "too much", "memory-limit"}));
+    return 1;
+  }
+  Assume(*task);
   if (Named(*task, "probe-segv")) std::raise(SIGSEGV);
   Send(WriteMessage(WorkerDone{}));
   return 0;

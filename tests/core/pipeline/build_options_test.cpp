@@ -1,3 +1,7 @@
+#include <limits>
+#include <string>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "core/pipeline/build.h"
@@ -11,6 +15,9 @@ TEST(ParseOptions, ReadsTheParametersOfAJob) {
                                                {"silhouetteError", "1"},
                                                {"formats", "drc,geojson"},
                                                {"crs", "EPSG:32610"},
+                                               {"verticalDatum", "EPSG:5773"},
+                                               {"heightUnit", "us-ft"},
+                                               {"datumOperation", "EPSG:1693"},
                                                {"nodata", "-9999"},
                                                {"workBudget", "5000000000"},
                                                {"approximate", "true"}});
@@ -20,7 +27,10 @@ TEST(ParseOptions, ReadsTheParametersOfAJob) {
   EXPECT_EQ(options->silhouette_error_m, 1);
   EXPECT_EQ(options->formats, (std::vector<std::string>{"drc", "geojson"}));
   EXPECT_EQ(options->crs, "EPSG:32610");
-  EXPECT_EQ(options->nodata, -9999);
+  EXPECT_EQ(options->vertical_datum, "EPSG:5773");
+  EXPECT_EQ(options->height_unit, "us-ft");
+  EXPECT_EQ(options->datum_operation, "EPSG:1693");
+  EXPECT_EQ(options->nodata, std::vector<double>{-9999});
   EXPECT_EQ(options->work_budget, 5'000'000'000);
   EXPECT_TRUE(options->approximate);
 }
@@ -30,6 +40,33 @@ TEST(ParseOptions, NamesWhatItDoesNotKnow) {
   ASSERT_FALSE(options);
   EXPECT_EQ(options.error().kind, "unknown-parameter");
   EXPECT_NE(options.error().message.find("\"level\""), std::string::npos);
+  for (const std::string_view name : ParameterNames()) {
+    EXPECT_NE(options.error().message.find(name), std::string::npos) << name;
+  }
+}
+
+TEST(ParseOptions, TakesSeveralValuesForNoData) {
+  const auto nodata = [](const std::string& text) {
+    Result<BuildOptions> options = ParseOptions({{"nodata", text}});
+    return options ? options->nodata : std::vector<double>();
+  };
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(nodata("-9999,-32767, 0"), (std::vector<double>{-9999, -32767, 0}));
+  EXPECT_EQ(nodata("-inf,+1e3"), (std::vector<double>{-kInfinity, 1000}));
+}
+
+TEST(ParseOptions, TakesWholeNumbersHoweverTheyAreWritten) {
+  for (const char* three : {"3", "3.0", "3e0"}) {
+    Result<BuildOptions> options = ParseOptions({{"levels", three}, {"workBudget", "1e6"}});
+    ASSERT_TRUE(options) << three << ": " << options.error().message;
+    EXPECT_EQ(options->levels, 3) << three;
+    EXPECT_EQ(options->work_budget, 1'000'000) << three;
+  }
+}
+
+TEST(FlagOf, WritesAParameterAsTheCommandLineDoes) {
+  EXPECT_EQ(FlagOf("crs"), "--crs");
+  EXPECT_EQ(FlagOf("silhouetteError"), "--silhouette-error");
 }
 
 struct BadParameter {
@@ -44,7 +81,7 @@ TEST_P(BadParameters, AreRefusedByNameAndValue) {
   ASSERT_FALSE(options);
   EXPECT_EQ(options.error().code, ErrorCode::kInvalidArgument);
   EXPECT_EQ(options.error().kind, "invalid-parameter");
-  EXPECT_NE(options.error().message.find(GetParam().name), std::string::npos)
+  EXPECT_NE(options.error().message.find(FlagOf(GetParam().name)), std::string::npos)
       << options.error().message;
 }
 
@@ -56,9 +93,22 @@ INSTANTIATE_TEST_SUITE_P(
                     BadParameter{"maxError", "-1"}, BadParameter{"maxError", "nan"},
                     BadParameter{"maxError", "inf"}, BadParameter{"maxError", "3m"},
                     BadParameter{"silhouetteError", "-0.5"}, BadParameter{"formats", ""},
-                    BadParameter{"formats", "stl"}, BadParameter{"nodata", "inf"},
-                    BadParameter{"workBudget", "0"}, BadParameter{"workBudget", "1e9"},
+                    BadParameter{"formats", "stl"}, BadParameter{"nodata", ""},
+                    BadParameter{"nodata", "1,"}, BadParameter{"nodata", "none"},
+                    BadParameter{"nodata", "1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16,17"},
+                    BadParameter{"workBudget", "0"}, BadParameter{"workBudget", "1.5e0"},
+                    BadParameter{"workBudget", "1e19"}, BadParameter{"workBudget", "inf"},
+                    BadParameter{"levels", "nan"}, BadParameter{"levels", "3e10"},
+                    BadParameter{"heightUnit", ""}, BadParameter{"heightUnit", "feet"},
+                    BadParameter{"heightUnit", "M"}, BadParameter{"crs", ""},
+                    BadParameter{"verticalDatum", ""}, BadParameter{"datumOperation", ""},
                     BadParameter{"approximate", "1"}));
+
+TEST(ParseOptions, RefusesTextsWithANul) {
+  for (const char* name : {"crs", "verticalDatum", "datumOperation"}) {
+    EXPECT_FALSE(ParseOptions({{name, std::string("EPSG:4326\0x", 11)}})) << name;
+  }
+}
 
 }  // namespace
 }  // namespace farhorizon

@@ -21,8 +21,8 @@ DemArguments Parsed(const std::string& line) {
 TEST(BuildFlags, AreTheParametersOfAJob) {
   const DemArguments arguments = Parsed(
       "a.tif --levels 3 --max-error 2.5 --silhouette-error 1 --formats drc,geojson "
-      "--crs EPSG:32611 --vertical-datum EPSG:5703 --nodata -9999 --work-budget 1000 "
-      "--approximate");
+      "--crs EPSG:32611 --vertical-datum EPSG:5703 --height-unit ft --datum-operation EPSG:1693 "
+      "--nodata -9999 --work-budget 1000 --approximate");
   EXPECT_EQ(arguments.path, "a.tif");
   EXPECT_EQ(arguments.flags.parameters, (Parameters{{"levels", "3"},
                                                     {"maxError", "2.5"},
@@ -30,9 +30,34 @@ TEST(BuildFlags, AreTheParametersOfAJob) {
                                                     {"formats", "drc,geojson"},
                                                     {"crs", "EPSG:32611"},
                                                     {"verticalDatum", "EPSG:5703"},
+                                                    {"heightUnit", "ft"},
+                                                    {"datumOperation", "EPSG:1693"},
                                                     {"nodata", "-9999"},
                                                     {"workBudget", "1000"},
                                                     {"approximate", "true"}}));
+}
+
+TEST(BuildFlags, AreThoseOfAllParameters) {
+  CLI::App app;
+  BuildFlags flags;
+  AddBuildFlags(app, flags);
+  for (const std::string_view name : ParameterNames()) {
+    EXPECT_NE(app.get_option_no_throw(FlagOf(name)), nullptr) << name;
+  }
+}
+
+TEST(BuildFlags, TakeNoDataMoreThanOnce) {
+  for (const char* line :
+       {"--nodata -9999 a.tif --nodata -inf", "a.tif --nodata=-9999 --nodata=-inf",
+        "--nodata -9999,-inf a.tif", "--nodata -9999 --nodata -inf a.tif"}) {
+    const DemArguments arguments = Parsed(line);
+    EXPECT_EQ(arguments.path, "a.tif") << line;
+    EXPECT_EQ(arguments.flags.parameters, (Parameters{{"nodata", "-9999,-inf"}})) << line;
+  }
+  Result<BuildOptions> options = Parsed("a.tif --nodata nan --nodata -1e+30").flags.Options();
+  ASSERT_TRUE(options) << options.error().message;
+  EXPECT_EQ(options->nodata.size(), 2U);
+  EXPECT_THROW(Parsed("a.tif --nodata"), CLI::ParseError);
 }
 
 TEST(BuildFlags, BecomeTheOptionsOfABuild) {
@@ -52,10 +77,12 @@ TEST(BuildFlags, TakeAllCoresUnlessTold) {
 }
 
 TEST(BuildFlags, RefuseWhatAJobRefuses) {
-  for (const char* line : {"a.tif --levels 99", "a.tif --levels x", "a.tif --max-error -1"}) {
+  for (const char* line : {"a.tif --levels 99", "a.tif --levels x", "a.tif --max-error -1",
+                           "a.tif --nodata -9999 --nodata x", "a.tif --height-unit yd"}) {
     Result<BuildOptions> options = Parsed(line).flags.Options();
     ASSERT_FALSE(options) << line;
     EXPECT_EQ(options.error().code, ErrorCode::kInvalidArgument) << line;
+    EXPECT_EQ(options.error().message.substr(0, 2), "--") << options.error().message;
   }
   EXPECT_THROW(Parsed("a.tif --levles 2"), CLI::ParseError);
   EXPECT_THROW(Parsed("--levels 2"), CLI::ParseError);

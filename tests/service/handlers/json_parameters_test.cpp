@@ -17,6 +17,14 @@ TEST(ParametersOfJson, JoinsListsAndKeepsScalars) {
                                      {"maxError", "0.5"}}));
 }
 
+TEST(ParametersOfJson, KeepsEveryElementOfAList) {
+  const Result<Parameters> parameters =
+      ParametersOfJson(R"({"nodata": [-9999, "-inf", ""], "levels": 3.0, "formats": []})");
+  ASSERT_TRUE(parameters);
+  EXPECT_EQ(*parameters,
+            (Parameters{{"formats", ""}, {"levels", "3.0"}, {"nodata", "-9999,-inf,"}}));
+}
+
 TEST(ParametersOfJson, RefusesOtherShapes) {
   for (const char* text :
        {"[]", "3", R"({"a": {}})", R"({"a": null})", R"({"a": [[1]]})", R"({"a": [{}]})"}) {

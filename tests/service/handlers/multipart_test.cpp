@@ -86,14 +86,5 @@ TEST(Multipart, BoundsHeadsAlikeHoweverTheyAreCut) {
   }
 }
 
-TEST(Multipart, TakesBoundariesOfTheGrammarOnly) {
-  EXPECT_EQ(MultipartBoundary("multipart/form-data; boundary=\"a b\""), "a b");
-  EXPECT_EQ(MultipartBoundary("Multipart/Form-Data;boundary=abc"), "abc");
-  EXPECT_FALSE(MultipartBoundary("multipart/form-data"));
-  EXPECT_FALSE(MultipartBoundary("multipart/form-data; boundary=" + std::string(71, 'a')));
-  EXPECT_FALSE(MultipartBoundary("multipart/form-data; boundary=\"a\x01\""));
-  EXPECT_FALSE(MultipartBoundary("image/tiff; boundary=a"));
-}
-
 }  // namespace
 }  // namespace farhorizon

@@ -99,6 +99,12 @@ TEST(ProblemOf, HasTheKindOrElseTheClassAsItsCode) {
   EXPECT_EQ(bare.code, "not-found");
 }
 
+TEST(ProblemOf, NamesParametersWhereTheMessageNamesFlags) {
+  EXPECT_EQ(
+      ProblemOf({ErrorCode::kUnsupportedData, "void; give --nodata -9999", "all-nodata"}).detail,
+      "void; give nodata=-9999");
+}
+
 TEST(ProblemOf, TellsNothingOfFailuresOfTheMachine) {
   EXPECT_THAT(ProblemOf({ErrorCode::kIo, "/data: disk gone", "storage"}).detail,
               testing::Not(testing::HasSubstr("/data")));

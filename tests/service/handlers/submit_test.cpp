@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -14,6 +15,19 @@ namespace {
 using nlohmann::json;
 
 using SubmitTest = HandlersTest;
+using testing::HasSubstr;
+
+constexpr const char* kForm = "multipart/form-data; boundary=B";
+
+/// A form, from its first boundary on, with a DEM of this name.
+std::string FormOf(const std::string& filename, const std::string& dem) {
+  return "--B\r\nContent-Disposition: form-data; name=\"dem\"; filename=\"" + filename +
+         "\"\r\n\r\n" + dem + "\r\n--B--\r\n";
+}
+
+std::string DetailOf(const HttpResponse& response) {
+  return json::parse(response.body).value("detail", "");
+}
 
 TEST_F(SubmitTest, AcceptsATiff) {
   const HttpResponse response = Post("/jobs?levels=2&filename=a/b.tif", tiff_);
@@ -53,7 +67,7 @@ TEST_F(SubmitTest, RefusalsSayWhyAndLeaveNothingBehind) {
   const std::vector<Case> cases = {
       {"/jobs", "hello", "image/tiff", 415, "not-a-raster"},
       {"/jobs", "", "image/tiff", 415, "not-a-raster"},
-      {"/jobs", tiff_, "text/plain", 415, "unsupported-media-type"},
+      {"/jobs", tiff_, "text/html", 415, "unsupported-media-type"},
       {"/jobs?levels=99", tiff_, "image/tiff", 400, "invalid-parameter"},
       {"/jobs?levls=2", tiff_, "image/tiff", 400, "unknown-parameter"},
       {"/jobs?levels=1&levels=2", tiff_, "image/tiff", 400, "invalid-parameter"},
@@ -74,6 +88,101 @@ TEST_F(SubmitTest, RefusalsSayWhyAndLeaveNothingBehind) {
     EXPECT_EQ(CodeOf(response), one.code) << one.target << " " << one.body;
     EXPECT_EQ(FieldOf(response, "Content-Type"), "application/problem+json");
     EXPECT_EQ(FilesLeft(), 0U) << one.code;
+  }
+}
+
+TEST_F(SubmitTest, TakesTheTypesThatProgramsGiveToFilesOfHeights) {
+  for (const char* type : {"image/tiff; application=geotiff", "IMAGE/TIFF", "image/x-tiff",
+                           "text/plain; charset=utf-8", "application/zip", ""}) {
+    EXPECT_EQ(Post("/jobs?levels=99", tiff_, type).status, 400) << type;
+  }
+  EXPECT_EQ(Send("POST", "/jobs", {}, tiff_).status, 201) << "without a Content-Type";
+}
+
+TEST_F(SubmitTest, SaysWhichTypesItTakes) {
+  for (const char* type :
+       {"application/json", "multipart/mixed; boundary=B", "text/html", "image/png"}) {
+    const HttpResponse response = Post("/jobs", tiff_, type);
+    EXPECT_EQ(response.status, 415) << type;
+    EXPECT_THAT(FieldOf(response, "Accept-Post"), HasSubstr("image/tiff")) << type;
+    EXPECT_EQ(FieldOf(response, "Accept-Encoding"), "") << type;
+  }
+  // What curl --data-binary sends unless told otherwise.
+  const HttpResponse curl = Post("/jobs", tiff_, "application/x-www-form-urlencoded");
+  EXPECT_EQ(curl.status, 415);
+  EXPECT_THAT(DetailOf(curl), HasSubstr("-H 'Content-Type: application/octet-stream'"));
+}
+
+TEST_F(SubmitTest, TakesBodiesAsTheyAreOnly) {
+  for (const char* coding : {"gzip", "GZip", "deflate", "br", "identity, zstd", "x-gzip"}) {
+    const HttpResponse response =
+        Post("/jobs", tiff_, "image/tiff", {{"content-encoding", coding}});
+    EXPECT_EQ(response.status, 415) << coding;
+    EXPECT_EQ(CodeOf(response), "unsupported-media-type");
+    EXPECT_EQ(FieldOf(response, "Accept-Encoding"), "identity");
+    EXPECT_THAT(DetailOf(response), HasSubstr("Content-Encoding")) << coding;
+  }
+  EXPECT_EQ(Post("/jobs", tiff_, "image/tiff",
+                 {{"content-encoding", "identity"}, {"content-encoding", "gzip"}})
+                .status,
+            415);
+  EXPECT_EQ(Post("/jobs", tiff_, "image/tiff", {{"content-encoding", "Identity"}}).status, 201);
+  const HttpResponse part =
+      Post("/jobs", FormOf("a.tif\"\r\nContent-Transfer-Encoding: base64\r\nX: \"", tiff_), kForm);
+  EXPECT_EQ(part.status, 415) << part.body;
+  EXPECT_THAT(DetailOf(part), testing::AllOf(HasSubstr("base64"), HasSubstr("'dem'")));
+}
+
+TEST_F(SubmitTest, TakesFileNamesAsBrowsersSendThem) {
+  const auto name = [&](const std::string& filename) {
+    const HttpResponse response = Post("/jobs", FormOf(filename, std::string(tiff_)), kForm);
+    const std::string id = json::parse(response.body).value("jobID", "");
+    Send("DELETE", "/jobs/" + id);  // makes room for the next
+    return json::parse(response.body).value("filename", "");
+  };
+  EXPECT_EQ(name(R"(C:\fakepath\N38E007.HGT)"), "N38E007.HGT");
+  EXPECT_EQ(name(R"(C:\dem\new\n38e007.hgt)"), "n38e007.hgt");
+  EXPECT_EQ(name("a%22b.tif"), "ab.tif");
+  EXPECT_EQ(name("H\xC3\xB6he.asc"), "Hhe.asc");
+  const std::string renamed =
+      "--B\r\nContent-Disposition: form-data; name=params\r\n\r\n{\"filename\": "
+      "\"N38E007.hgt\"}\r\n" +
+      FormOf("blob", tiff_);
+  const HttpResponse form = Post("/jobs", renamed, kForm);
+  EXPECT_EQ(json::parse(form.body)["filename"], "N38E007.hgt");
+  EXPECT_EQ(CodeOf(Post("/jobs?filename=a.tif", renamed, kForm)), "invalid-parameter");
+  const HttpResponse query = Post("/jobs?filename=C:%5Cdem%5CMy+DEM.tif", tiff_);
+  EXPECT_EQ(json::parse(query.body)["filename"], "MyDEM.tif");
+}
+
+TEST_F(SubmitTest, TakesNoDataAsAListInEachForm) {
+  const auto nodata = [&](const HttpResponse& response) {
+    const std::string id = json::parse(response.body).value("jobID", "");
+    const auto job = jobs_->Find(id);
+    if (!job) return response.body;
+    Send("DELETE", "/jobs/" + id);
+    return job->parameters.at("nodata");
+  };
+  EXPECT_EQ(nodata(Post("/jobs?nodata=-9999&nodata=-inf", tiff_)), "-9999,-inf");
+  EXPECT_EQ(nodata(Post("/jobs?nodata=-9999,nan", tiff_)), "-9999,nan");
+  EXPECT_EQ(nodata(Post("/jobs?nodata=-3.4e+38", tiff_)), "-3.4e+38");
+  for (const char* list : {R"(["-inf", -9999])", R"("-inf,-9999")"}) {
+    const std::string form =
+        "--B\r\nContent-Disposition: form-data; name=params\r\n\r\n{\"nodata\": " +
+        std::string(list) + "}\r\n" + FormOf("a.tif", tiff_);
+    EXPECT_EQ(nodata(Post("/jobs", form, kForm)), "-inf,-9999") << list;
+  }
+}
+
+TEST_F(SubmitTest, NamesTheParameterAndNotTheFlag) {
+  for (const auto& [query, name] :
+       std::vector<std::pair<std::string, std::string>>{{"maxError=-1", "maxError"},
+                                                        {"heightUnit=yards", "heightUnit"},
+                                                        {"nodata=none", "nodata"},
+                                                        {"datumOperation=", "datumOperation"}}) {
+    const HttpResponse response = Post("/jobs?" + query, tiff_);
+    EXPECT_EQ(response.status, 400) << query;
+    EXPECT_EQ(DetailOf(response).find(name + " is"), 0U) << DetailOf(response);
   }
 }
 

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "service/jobs/sqlite.h"
 #include "service/jobs/sqlite_job_store.h"
 #include "tests/support/temp_dir.h"
 
@@ -113,6 +114,31 @@ TEST_P(JobStoreConformance, KeepsTheFailure) {
   EXPECT_EQ(found->failure->message, "no reference system");
 }
 
+std::vector<std::string> CodesOf(const Job& job) {
+  std::vector<std::string> codes;
+  for (const Assumption& assumption : job.assumptions) codes.push_back(assumption.code);
+  return codes;
+}
+
+TEST_P(JobStoreConformance, KeepsTheAssumptionsOfTheLastRunThatHasSome) {
+  using Codes = std::vector<std::string>;
+  const NewJob probed{NewJobId(++time_), "dem.tif", {}, std::string(64, 'a'), 5, {},
+                      {{"a", "\"é\""}}};
+  ASSERT_TRUE(store_->Insert(probed, time_));
+  const Job first = Claim();
+  EXPECT_EQ(CodesOf(first), Codes{"a"});
+  EXPECT_EQ(first.assumptions.at(0).text, "\"é\"");
+  const Assumptions two = {{"a", "x"}, {"b", "y"}};
+  ASSERT_TRUE(*store_->ReportAssumptions(first.id, first.attempt, two, ++time_));
+  ASSERT_TRUE(*store_->Requeue(first.id, first.attempt, RequeueReason::kWorkerCrashed, ++time_));
+  EXPECT_EQ(CodesOf(*store_->Find(first.id)), (Codes{"a", "b"}));
+  const Job second = Claim();
+  ASSERT_TRUE(*store_->ReportAssumptions(second.id, second.attempt, {{"c", "z"}}, ++time_));
+  ASSERT_TRUE(*store_->Publish(second.id, second.attempt, {}, {}, ++time_));
+  Reopen();
+  EXPECT_EQ(CodesOf(*store_->Find(second.id)), Codes{"c"});
+}
+
 TEST_P(JobStoreConformance, IgnoresAnEarlierAttempt) {
   Insert();
   const Job earlier = Claim();
@@ -123,6 +149,7 @@ TEST_P(JobStoreConformance, IgnoresAnEarlierAttempt) {
   EXPECT_EQ(later.attempt, earlier.attempt + 1);
   EXPECT_EQ(later.crash_count, 1);
   EXPECT_FALSE(*store_->ReportProgress(earlier.id, earlier.attempt, 50, "late", ++time_));
+  EXPECT_FALSE(*store_->ReportAssumptions(earlier.id, earlier.attempt, {{"a", "b"}}, ++time_));
   EXPECT_FALSE(*store_->Publish(earlier.id, earlier.attempt, {}, {}, ++time_));
   EXPECT_FALSE(*store_->Fail(earlier.id, earlier.attempt, {ErrorCode::kIo, "x"}, ++time_));
   EXPECT_FALSE(
@@ -232,6 +259,72 @@ INSTANTIATE_TEST_SUITE_P(Sqlite, JobStoreConformance,
                          testing::Values([](const std::filesystem::path& folder) {
                            return OpenSqliteJobStore(folder / "jobs.sqlite");
                          }));
+
+// The tables as version 1 of the schema had them, without what no row of this test needs.
+constexpr const char* kVersion1 = R"(
+CREATE TABLE jobs (
+  id TEXT PRIMARY KEY,
+  state TEXT NOT NULL CHECK (state IN ('accepted','running','successful','failed','dismissed')),
+  filename TEXT NOT NULL, parameters TEXT NOT NULL, input_sha256 TEXT NOT NULL,
+  input_bytes INTEGER NOT NULL,
+  progress INTEGER NOT NULL DEFAULT 0 CHECK (progress BETWEEN 0 AND 100),
+  message TEXT NOT NULL DEFAULT '', created_ms INTEGER NOT NULL, started_ms INTEGER,
+  finished_ms INTEGER, updated_ms INTEGER NOT NULL, attempt INTEGER NOT NULL DEFAULT 0,
+  crash_count INTEGER NOT NULL DEFAULT 0, failure_code TEXT, failure_kind TEXT,
+  failure_message TEXT, timings TEXT NOT NULL DEFAULT '{}',
+  CHECK ((finished_ms IS NOT NULL) = (state IN ('successful','failed','dismissed'))),
+  CHECK ((failure_code IS NOT NULL) = (state = 'failed'))
+) STRICT, WITHOUT ROWID;
+CREATE TABLE artifacts (
+  job_id TEXT NOT NULL REFERENCES jobs (id) ON DELETE CASCADE,
+  name TEXT NOT NULL, media_type TEXT NOT NULL, bytes INTEGER NOT NULL, sha256 TEXT NOT NULL,
+  PRIMARY KEY (job_id, name)
+) STRICT, WITHOUT ROWID;
+CREATE TABLE idempotency_keys (
+  key TEXT PRIMARY KEY, job_id TEXT NOT NULL REFERENCES jobs (id) ON DELETE CASCADE,
+  created_ms INTEGER NOT NULL
+) STRICT, WITHOUT ROWID;
+INSERT INTO jobs (id, state, filename, parameters, input_sha256, input_bytes, created_ms,
+  updated_ms) VALUES ('old', 'accepted', 'a.tif', 'levels=2', 'x', 5, 1, 1);
+PRAGMA application_id = 1179142739;
+PRAGMA user_version = 1;
+)";
+
+TEST(SqliteJobStore, BringsAnOlderFileForward) {
+  const TempDir folder;
+  const auto path = folder / "jobs.sqlite";
+  {
+    Database database;
+    database.Open(path);
+    database.Execute(kVersion1);
+  }
+  for (int opened = 0; opened < 2; ++opened) {  // the second time there is nothing left to do
+    auto store = OpenSqliteJobStore(path);
+    ASSERT_TRUE(store) << store.error().message;
+    const auto job = (*store)->Find("old");
+    ASSERT_TRUE(job);
+    EXPECT_EQ(job->parameters, (Parameters{{"levels", "2"}}));
+    EXPECT_TRUE(job->assumptions.empty());
+  }
+  auto store = OpenSqliteJobStore(path);
+  ASSERT_TRUE((*store)->ClaimNext(2));
+  EXPECT_TRUE(*(*store)->ReportAssumptions("old", 1, {{"a", "b"}}, 3));
+  EXPECT_EQ(CodesOf(*(*store)->Find("old")), std::vector<std::string>{"a"});
+}
+
+TEST(SqliteJobStore, RefusesAFileOfANewerVersion) {
+  const TempDir folder;
+  const auto path = folder / "jobs.sqlite";
+  ASSERT_TRUE(OpenSqliteJobStore(path));
+  {
+    Database database;
+    database.Open(path);
+    database.Execute("PRAGMA user_version = 1000;");
+  }
+  auto opened = OpenSqliteJobStore(path);
+  ASSERT_FALSE(opened);
+  EXPECT_NE(opened.error().message.find("newer farhorizon"), std::string::npos);
+}
 
 TEST(SqliteJobStore, NeverStartsAfreshOverAFileThatItCannotRead) {
   const TempDir folder;

@@ -59,10 +59,25 @@ TEST(SafeFilename, KeepsWhatIsHarmless) {
   EXPECT_EQ(SafeFilename(".."), "dem");
   EXPECT_EQ(SafeFilename(""), "dem");
   EXPECT_EQ(SafeFilename("a\r\nX: y\".tif"), "aXy.tif");
+  EXPECT_EQ(SafeFilename("C:\\fakepath\\n38e007.HGT"), "n38e007.HGT");
   const std::string kept = SafeFilename(std::string(300, 'a') + ".tif");
   EXPECT_EQ(kept.size(), 100U);
   EXPECT_EQ(kept.substr(96), ".tif");
   EXPECT_TRUE(IsArtifactName(kept));
+}
+
+TEST(SafeFilename, KeepsTheEndingByWhichAFormatIsKnown) {
+  EXPECT_EQ(SafeFilename("H\xC3\xB6he.asc"), "Hhe.asc");
+  EXPECT_EQ(SafeFilename("\xE9\xAB\x98\xE7\xA8\x8B.asc"), "dem.asc");
+  EXPECT_EQ(SafeFilename("\xE9\xAB\x98.hgt.zip"), "dem.hgt.zip");
+  EXPECT_EQ(SafeFilename(".tif"), "dem.tif");
+  EXPECT_EQ(SafeFilename("-.tif"), "dem.tif");
+  EXPECT_EQ(SafeFilename("..."), "dem");
+  for (const std::size_t length : {95U, 96U, 97U, 98U, 99U, 100U, 200U}) {
+    const std::string kept = SafeFilename("." + std::string(length, 'a'));
+    EXPECT_LE(kept.size(), 100U) << length;
+    EXPECT_EQ(SafeFilename(kept), kept) << length;
+  }
 }
 
 }  // namespace

@@ -7,6 +7,12 @@
 namespace farhorizon {
 namespace {
 
+std::string Repeated(const std::string& text, int times) {
+  std::string all;
+  for (int i = 0; i < times; ++i) all += text;
+  return all;
+}
+
 // The message that a line of WriteMessage reads back as.
 template <typename Message>
 Message ReadBack(const WorkerMessage& message) {
@@ -21,6 +27,9 @@ TEST(WorkerProtocol, ReadsBackEveryMessage) {
   const auto progress = ReadBack<WorkerProgress>(WorkerProgress{Stage::kSweep, 0.5});
   EXPECT_EQ(progress.stage, Stage::kSweep);
   EXPECT_EQ(progress.done, 0.5);
+  const auto assumption = ReadBack<Assumption>(Assumption{"height-unit", "taken for metres"});
+  EXPECT_EQ(assumption.code, "height-unit");
+  EXPECT_EQ(assumption.text, "taken for metres");
   const auto done = ReadBack<WorkerDone>(WorkerDone{{{"sweep", 1.25}}});
   EXPECT_EQ(done.timings, (std::map<std::string, double>{{"sweep", 1.25}}));
   const auto error = ReadBack<Error>(Error{ErrorCode::kUnsupportedData, "no\nCRS \xff", "no-crs"});
@@ -33,7 +42,10 @@ TEST(WorkerProtocol, RefusesWhatNoWorkerWrites) {
   for (const char* line :
        {"", "x", "[]", "{}", "{\"stage\": \"sweep\"}", "{\"done\": \"1\"}", "{\"done\": 1.5}",
         "{\"stage\": \"dance\", \"done\": 0.5}", "{\"done\": -0.1}", "{\"done\": [[[[[[]]]]]]}",
-        "{\"timings\": []}", "{\"timings\": {\"a\": \"b\"}}", "{\"error\": 1}",
+        "{\"assumption\": \"a\"}", "{\"assumption\": {\"code\": \"a\"}}",
+        "{\"assumption\": {\"code\": \"A b\", \"text\": \"c\"}}",
+        "{\"assumption\": {\"code\": \"\", \"text\": \"c\"}}", "{\"timings\": []}",
+        "{\"timings\": {\"a\": \"b\"}}", "{\"error\": 1}",
         "{\"error\": {\"code\": \"none\", \"kind\": \"a\", \"message\": \"b\"}}",
         "{\"error\": {\"code\": \"io\", \"kind\": \"A b\", \"message\": \"c\"}}"}) {
     EXPECT_FALSE(ReadMessage(line)) << line;
@@ -46,6 +58,17 @@ TEST(WorkerProtocol, RefusesWhatNoWorkerWrites) {
 TEST(WorkerProtocol, ShortensTexts) {
   const auto error = ReadBack<Error>(Error{ErrorCode::kIo, std::string(5000, 'a'), "no-crs"});
   EXPECT_EQ(error.message.size(), 2000U);
+  const auto assumption = ReadBack<Assumption>(Assumption{"a", std::string(5000, 'a')});
+  EXPECT_EQ(assumption.text.size(), 1000U);
+  const std::string long_text(5000, 'b');
+  const auto read = ReadMessage(R"({"assumption": {"code": "a", "text": ")" + long_text + R"("}})");
+  ASSERT_TRUE(read);
+  EXPECT_EQ(std::get<Assumption>(*read).text.size(), 1000U);
+}
+
+TEST(WorkerProtocol, ShortensTextsBetweenCharacters) {
+  const auto error = ReadBack<Error>(Error{ErrorCode::kIo, "a" + Repeated("\xC3\xA9", 2000), ""});
+  EXPECT_EQ(error.message, "a" + Repeated("\xC3\xA9", 999));
 }
 
 TEST(WorkerProtocol, ReadsBackATask) {
