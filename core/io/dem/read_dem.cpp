@@ -15,12 +15,12 @@
 #include "core/io/dem/fill_cliffs.h"
 #include "core/io/dem/height_band.h"
 #include "core/io/dem/height_quantum.h"
-#include "core/io/dem/open_raster.h"
 #include "core/io/dem/raster_limits.h"
 #include "core/io/dem/raster_place.h"
 #include "core/io/dem/untagged_voids.h"
 #include "core/io/dem/value_scale.h"
 #include "core/io/gdal_session.h"
+#include "core/io/raster/open_raster.h"
 
 namespace farhorizon {
 
