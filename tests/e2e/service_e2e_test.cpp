@@ -212,6 +212,10 @@ TEST_F(ServiceE2e, AWorkerEndsItsOwnJobAlone) {
   }
   EXPECT_EQ(StatusOf(jobs[0])["attempt"], 2);      // a crash is forgiven once
   EXPECT_EQ(StatusOf(jobs.back())["attempt"], 1);  // a refusal is final
+  const std::string named = "no reference system; give crs=EPSG:4326";
+  EXPECT_EQ(StatusOf(jobs.back())["message"], named);
+  EXPECT_EQ(StatusOf(jobs.back())["exception"]["detail"], named);
+  EXPECT_EQ(json::parse(Ask(port_, "GET", jobs.back() + "/results").body)["detail"], named);
   EXPECT_EQ(Ask(port_, "GET", "/readyz").status, 200);
   EXPECT_EQ(LeftOver("work"), 0U);
 }

@@ -186,9 +186,13 @@ Result<Dem> ReadOpened(GDALDatasetH dataset, const std::filesystem::path& path,
 
 Result<Dem> ReadDem(const std::filesystem::path& path, const DemReadOptions& options) {
   GdalSession session(path);
-  Result<RasterPtr> dataset = OpenRaster(path, session);
-  if (!dataset) return std::move(dataset.error());
-  return ReadOpened(dataset->get(), path, options, session);
+  Result<OpenedRaster> raster = OpenRaster(path, options.max_posts, session);
+  if (!raster) return std::move(raster.error());
+  Result<Dem> dem = ReadOpened(raster->dataset.get(), path, options, session);
+  if (dem)
+    dem->assumptions.insert(dem->assumptions.begin(), raster->assumptions.begin(),
+                            raster->assumptions.end());
+  return dem;
 }
 
 }  // namespace farhorizon
