@@ -6,8 +6,6 @@
 
 #include <gdal.h>
 
-#include "core/io/dem/ascii_grid.h"
-
 namespace farhorizon {
 
 namespace {
@@ -57,7 +55,6 @@ Status CheckComplete(void* dataset, const std::filesystem::path& path, bool has_
       std::int64_t{GDALGetRasterBandXSize(band)} * GDALGetRasterBandYSize(band);
   const std::string_view driver = GDALGetDriverShortName(GDALGetDatasetDriver(dataset));
   if (driver == "GTiff") return CheckTiffBlocks(band, bytes, has_nodata);
-  if (driver == "AAIGrid") return CheckAsciiGrid(path, posts);
   if (driver == "ENVI") {
     const char* text = GDALGetMetadataItem(dataset, "header_offset", "ENVI");
     const std::uintmax_t start = text != nullptr ? std::strtoull(text, nullptr, 10) : 0;

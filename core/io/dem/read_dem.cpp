@@ -157,7 +157,8 @@ Result<Dem> ReadOpened(GDALDatasetH dataset, const std::filesystem::path& path,
   if (!transform) return std::move(transform.error());
   Result<std::string> crs = ReadCrs(dataset, options.crs);
   if (!crs) return std::move(crs.error());
-  Result<ValueScale> scale = ReadValueScale(dataset, band);
+  Assumptions assumptions;
+  Result<ValueScale> scale = ReadValueScale(dataset, band, options, assumptions);
   if (!scale) return std::move(scale.error());
   session.Forget();
   Result<std::vector<double>> values = ReadValues(band, nodata, *scale, session);
@@ -177,6 +178,7 @@ Result<Dem> ReadOpened(GDALDatasetH dataset, const std::filesystem::path& path,
   dem.quantized = scaled.quantized;
   dem.transform = *transform;
   dem.crs = *crs;
+  dem.assumptions = std::move(assumptions);
   return dem;
 }
 
@@ -184,9 +186,13 @@ Result<Dem> ReadOpened(GDALDatasetH dataset, const std::filesystem::path& path,
 
 Result<Dem> ReadDem(const std::filesystem::path& path, const DemReadOptions& options) {
   GdalSession session(path);
-  Result<RasterPtr> dataset = OpenRaster(path, session);
-  if (!dataset) return std::move(dataset.error());
-  return ReadOpened(dataset->get(), path, options, session);
+  Result<OpenedRaster> raster = OpenRaster(path, options.max_posts, session);
+  if (!raster) return std::move(raster.error());
+  Result<Dem> dem = ReadOpened(raster->dataset.get(), path, options, session);
+  if (dem)
+    dem->assumptions.insert(dem->assumptions.begin(), raster->assumptions.begin(),
+                            raster->assumptions.end());
+  return dem;
 }
 
 }  // namespace farhorizon

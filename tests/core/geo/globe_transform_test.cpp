@@ -1,4 +1,4 @@
-#include "core/geo/crs.h"
+#include "core/geo/globe_transform.h"
 
 #include <cmath>
 #include <random>
@@ -15,7 +15,8 @@ using ::testing::HasSubstr;
 
 GlobeTransform MustOpen(const std::string& crs, const std::string& datum = "",
                         std::optional<MapPoint> about = std::nullopt) {
-  Result<GlobeTransform> globe = GlobeTransform::Open(crs, datum, about);
+  Result<GlobeTransform> globe =
+      GlobeTransform::Open(crs, {.vertical_datum = datum, .about = about});
   if (!globe) throw std::runtime_error(globe.error().message);
   return std::move(*globe);
 }
@@ -27,7 +28,7 @@ Geodetic OnGlobe(const GlobeTransform& globe, MapPoint p) {
 }
 
 std::string KindOf(const std::string& crs, const std::string& datum = "") {
-  Result<GlobeTransform> globe = GlobeTransform::Open(crs, datum);
+  Result<GlobeTransform> globe = GlobeTransform::Open(crs, {.vertical_datum = datum});
   return globe ? "opened" : std::string(globe.error().kind);
 }
 
@@ -146,13 +147,14 @@ TEST(GlobeTransform, HeightsComeInMetresWhateverTheVerticalUnitOfTheSystem) {
       "0.0174532925199433],ID[\"EPSG\",4326]],VERTCRS[\"EGM96 height (ftUS)\",VDATUM[\"EGM96 "
       "geoid\",ID[\"EPSG\",5171]],CS[vertical,1],AXIS[\"gravity-related height (H)\",up,"
       "LENGTHUNIT[\"US survey foot\",0.304800609601219]]]]";
-  Result<GlobeTransform> globe = GlobeTransform::Open(feet, "");
+  Result<GlobeTransform> globe = GlobeTransform::Open(feet);
   ASSERT_TRUE(globe) << globe.error().message;
   EXPECT_NEAR(OnGlobe(*globe, {8, 46, 1000}).height_m, 1051.853, 0.002);
 }
 
 TEST(GlobeTransform, AMissingGeoidGridFailsAndIsNamed) {
-  Result<GlobeTransform> globe = GlobeTransform::Open("EPSG:4326", "EPSG:3855");  // EGM2008
+  Result<GlobeTransform> globe =
+      GlobeTransform::Open("EPSG:4326", {.vertical_datum = "EPSG:3855"});  // EGM2008
   ASSERT_FALSE(globe);
   EXPECT_EQ(globe.error().kind, "no-geoid-grid");
   EXPECT_THAT(globe.error().message, HasSubstr("egm08"));
@@ -185,7 +187,8 @@ TEST(GlobeTransform, RefusesPointsOutsideTheSystem) {
   EXPECT_EQ(there.error().kind, "outside-crs");
   EXPECT_THAT(there.error().message, HasSubstr("point 1 (8, 95)"));
   EXPECT_FALSE(MustOpen("EPSG:32644").ToGeodetic({{1e12, 1e12, 0}}));
-  Result<GlobeTransform> bad = GlobeTransform::Open("EPSG:32644", "", MapPoint{1e12, 1e12, 0});
+  Result<GlobeTransform> bad =
+      GlobeTransform::Open("EPSG:32644", {.about = MapPoint{1e12, 1e12, 0}});
   ASSERT_FALSE(bad);
   EXPECT_EQ(bad.error().kind, "outside-crs");
 }
