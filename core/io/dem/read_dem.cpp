@@ -14,10 +14,10 @@
 #include "core/io/dem/complete_raster.h"
 #include "core/io/dem/height_quantum.h"
 #include "core/io/dem/nodata_rule.h"
-#include "core/io/dem/open_raster.h"
 #include "core/io/dem/raster_place.h"
 #include "core/io/dem/value_scale.h"
 #include "core/io/gdal_session.h"
+#include "core/io/raster/open_raster.h"
 
 namespace farhorizon {
 
