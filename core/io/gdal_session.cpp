@@ -4,6 +4,7 @@
 
 #include <array>
 #include <mutex>
+#include <string_view>
 #include <utility>
 
 #include <cpl_conv.h>
@@ -33,11 +34,15 @@ void RegisterDrivers() {
   std::call_once(once, [] {
     OSRSetPROJEnableNetwork(0);
     GDALRegister_GTiff();
-    GDALRegister_AAIGrid();
     GDALRegister_SRTMHGT();
     GDALRegister_DTED();
     GDALRegister_USGSDEM();
     GDALRegister_ENVI();
+    GDALRegister_EHdr();
+    GDALRegister_HFA();
+    GDALRegister_GSBG();
+    GDALRegister_GS7BG();
+    GDALRegister_MEM();
     RegisterOGRFlatGeobuf();
     RegisterOGRGeoPackage();
   });
@@ -53,6 +58,15 @@ void Replace(std::string& text, const std::string& what, const std::string& with
   for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at)) {
     text.replace(at, what.size(), with);
     at += with.size();
+  }
+}
+
+// Takes the names of SealedFolders out: "/vsisealed/7/".
+void ForgetSealedFolders(std::string& text) {
+  constexpr std::string_view kSealed = "/vsisealed/";
+  for (std::size_t at = text.find(kSealed); at != std::string::npos; at = text.find(kSealed)) {
+    const std::size_t end = text.find('/', at + kSealed.size());
+    text.erase(at, end == std::string::npos ? kSealed.size() : end + 1 - at);
   }
 }
 
@@ -79,6 +93,7 @@ void GdalSession::Hear(const char* message) {
     Replace(first_failure_, directory + "/", "");
     Replace(first_failure_, directory, ".");
   }
+  ForgetSealedFolders(first_failure_);
   for (char& c : first_failure_) {
     if (static_cast<unsigned char>(c) < 0x20) c = ' ';
   }

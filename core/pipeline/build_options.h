@@ -41,8 +41,8 @@ std::vector<std::string_view> ParameterNames();
 std::string FlagOf(std::string_view parameter);
 
 /// Reads options from a job's parameters, by name, and checks them. Values are text: whole numbers
-/// may be written 3.0 or 3e0; the several values of `nodata` are separated by commas, each a number,
-/// inf, -inf or nan.
+/// may be written 3.0 or 3e0; the several values of `nodata` are separated by commas, each a
+/// number, inf, -inf or nan.
 /// Errors: kInvalidArgument, kind "unknown-parameter" or "invalid-parameter"; those of
 ///   CheckOptions.
 Result<BuildOptions> ParseOptions(const std::map<std::string, std::string>& parameters);

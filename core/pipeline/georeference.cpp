@@ -1,6 +1,6 @@
 // Grid points go to map coordinates by the geotransform, from there to degrees on the ellipsoid and
-// to ECEF by PROJ (core/geo/crs.h), and into the local frame by a rotation (core/geo/frames.h);
-// back the same way. PROJ is called for whole vectors of points.
+// to ECEF by PROJ (core/geo/globe_transform.h), and into the local frame by a rotation
+// (core/geo/frames.h); back the same way. PROJ is called for whole vectors of points.
 #include "core/pipeline/georeference.h"
 
 #include <cmath>
@@ -24,14 +24,14 @@ double Distance(const Ecef& a, const Ecef& b) {
 Georeference::Georeference(const Dem& dem, GlobeTransform transform, TangentFrame frame)
     : dem_(&dem), transform_(std::move(transform)), frame_(frame) {}
 
-Result<Georeference> Georeference::Of(const Terrain& terrain, const std::string& vertical_datum) {
+Result<Georeference> Georeference::Of(const Terrain& terrain, GlobeOptions options) {
   const Dem& dem = terrain.dem();
   // The frame's origin is the middle of the grid, on the ellipsoid; half a cell to each side gives
   // the cell's size.
   const double column = (dem.columns - 1) / 2.0;
   const double row = (dem.rows - 1) / 2.0;
-  Result<GlobeTransform> transform =
-      GlobeTransform::Open(dem.crs, vertical_datum, MapPointAt(dem, column, row, 0));
+  options.about = MapPointAt(dem, column, row, 0);
+  Result<GlobeTransform> transform = GlobeTransform::Open(dem.crs, options);
   if (!transform) return std::move(transform.error());
   Result<std::vector<Geodetic>> middle = transform->ToGeodetic(
       {MapPointAt(dem, column, row, 0), MapPointAt(dem, column - 0.5, row, 0),

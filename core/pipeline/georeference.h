@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "core/base/result.h"
-#include "core/geo/crs.h"
 #include "core/geo/frames.h"
+#include "core/geo/globe_transform.h"
 #include "core/pipeline/ground_step.h"
 #include "core/terrain/mesh.h"
 #include "core/terrain/terrain.h"
@@ -19,10 +19,10 @@ namespace farhorizon {
 /// Errors of all methods with points: kUnsupportedData, kind "outside-crs", where one has no image.
 class Georeference {
  public:
-  /// vertical_datum: as GlobeTransform::Open has it. Requires: the terrain's DEM outlives the
-  ///   result.
+  /// options: as GlobeTransform::Open has them, `about` aside. Requires: the terrain's DEM outlives
+  ///   the result.
   /// Errors: those of GlobeTransform::Open and ToGeodetic.
-  static Result<Georeference> Of(const Terrain& terrain, const std::string& vertical_datum);
+  static Result<Georeference> Of(const Terrain& terrain, GlobeOptions options);
 
   [[nodiscard]] const TangentFrame& frame() const { return frame_; }
   [[nodiscard]] std::string CrsName() const { return transform_.Name(); }

@@ -29,7 +29,8 @@ Result<std::unique_ptr<TerrainInput>> TerrainInput::Open(const std::filesystem::
   if (!terrain) return std::move(terrain.error()).WithContext("triangulate DEM");
   input->terrain_ = *terrain;
   Result<Georeference> georeference =
-      Georeference::Of(*input->terrain_, options.vertical_datum.value_or(""));
+      Georeference::Of(*input->terrain_, {.vertical_datum = options.vertical_datum.value_or(""),
+                                          .datum_operation = options.datum_operation.value_or("")});
   if (!georeference) return std::move(georeference.error()).WithContext("place DEM on the globe");
   input->georeference_.emplace(*std::move(georeference));
   input->Assume(input->georeference_->assumptions(), control);

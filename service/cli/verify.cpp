@@ -18,8 +18,9 @@ struct VerifyArguments {
 int Run(const VerifyArguments& arguments) {
   Result<std::vector<ClaimCheck>> checks =
       RunOnDem(arguments.dem, Workflow::kVerify, [&](const DemRun& run) {
-        return VerifyArtifacts(arguments.dem.path, arguments.directory, run.options,
-                               RunControl{run.control.progress, run.control.stop});
+        return VerifyArtifacts(
+            arguments.dem.path, arguments.directory, run.options,
+            RunControl{run.control.progress, run.control.stop, {}, run.control.on_assumption});
       });
   if (!checks) return ReportError(checks.error());
   std::size_t broken = 0;

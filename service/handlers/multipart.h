@@ -1,32 +1,13 @@
 #pragma once
 
 #include <functional>
-#include <map>
-#include <optional>
 #include <string>
 #include <string_view>
 
 #include "core/base/result.h"
+#include "service/handlers/part_head.h"
 
 namespace farhorizon {
-
-/// The boundary of a Content-Type multipart/form-data; nullopt if there is none, or if it is not
-/// one to 70 of the characters that [RFC 2046, section 5.1.1] allows.
-std::optional<std::string> MultipartBoundary(std::string_view content_type);
-
-/// The head of a part [RFC 7578, section 4.2].
-///
-/// filename: as the client means it. A backslash escapes a quote or a backslash and is itself
-/// before any other character, as in the paths that browsers on Windows send; %22, %0D and %0A are
-/// what browsers write for a quote and the ends of lines; filename* comes before filename
-/// [RFC 8187].
-struct PartHead {
-  std::string name;
-  std::optional<std::string> filename;
-  /// The part's Content-Encoding or Content-Transfer-Encoding; unset where its bytes are sent as
-  /// they are.
-  std::optional<std::string> coding;
-};
 
 /// Takes what the parser finds. An error of either function ends the parse.
 struct PartReceiver {

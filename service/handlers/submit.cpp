@@ -1,6 +1,6 @@
-// POST /jobs, cheapest checks first. From the head: media type and coding, length, Idempotency-Key, query,
-// room for a job. Then the body goes to disk. From the body: form, parameters, first bytes, a
-// worker's reading of the raster; then the stores.
+// POST /jobs, cheapest checks first. From the head: media type and coding, length, Idempotency-Key,
+// query, room for a job. Then the body goes to disk. From the body: form, parameters, first bytes,
+// a worker's reading of the raster; then the stores.
 #include "service/handlers/submit.h"
 
 #include <memory>
@@ -52,6 +52,14 @@ Status CheckParameters(const Parameters& parameters) {
   return CheckOptions(*options);
 }
 
+// Moves the file name out of the parameters of a build.
+void TakeFilename(SubmissionHead& head) {
+  const auto name = head.parameters.find("filename");
+  if (name == head.parameters.end()) return;
+  head.filename = name->second;
+  head.parameters.erase(name);
+}
+
 Result<SubmissionHead> ReadSubmissionHead(const HttpRequest& request) {
   Result<std::optional<std::string>> key = ReadIdempotencyKey(request);
   if (!key) return std::move(key.error());
@@ -63,26 +71,25 @@ Result<SubmissionHead> ReadSubmissionHead(const HttpRequest& request) {
         "invalid-parameter"};
   }
   SubmissionHead head{*std::move(query), {}, *std::move(key)};
-  if (const auto name = head.parameters.find("filename"); name != head.parameters.end()) {
-    head.filename = name->second;
-    head.parameters.erase(name);
-  }
+  TakeFilename(head);
   Status parameters = CheckParameters(head.parameters);
   if (!parameters) return std::move(parameters.error());
   return head;
 }
 
 // Adds the parameters of a form to those of the query.
-Status AddFormParameters(const std::string& json, Parameters& parameters) {
+Status AddFormParameters(const std::string& json, SubmissionHead& head) {
   Result<Parameters> form = ParametersOfJson(json);
   if (!form) return std::move(form.error());
   for (const auto& [name, value] : *form) {
-    if (parameters.emplace(name, value).second) continue;
+    const bool in_query = name == "filename" && head.filename;
+    if (!in_query && head.parameters.emplace(name, value).second) continue;
     return Error{ErrorCode::kInvalidArgument,
                  "the parameter " + name + " stands in the query and in the form",
                  "invalid-parameter"};
   }
-  return CheckParameters(parameters);
+  TakeFilename(head);
+  return CheckParameters(head.parameters);
 }
 
 class SubmitExchange : public Exchange {
@@ -109,13 +116,14 @@ class SubmitExchange : public Exchange {
 
 // Head and form joined.
 Result<Submission> SubmitExchange::ReadSubmission() const {
-  Parameters parameters = head_.parameters;
+  SubmissionHead head = head_;
   if (body_.params()) {
-    Status added = AddFormParameters(*body_.params(), parameters);
+    Status added = AddFormParameters(*body_.params(), head);
     if (!added) return std::move(added.error());
   }
-  const std::string name = head_.filename.value_or(body_.filename().value_or("dem"));
-  return Submission{SafeFilename(name), std::move(parameters), head_.idempotency_key};
+  const std::string name = head.filename.value_or(body_.filename().value_or("dem"));
+  return Submission{SafeFilename(name), std::move(head.parameters),
+                    std::move(head.idempotency_key)};
 }
 
 Result<Job> SubmitExchange::Submit() const {
@@ -124,14 +132,8 @@ Result<Job> SubmitExchange::Submit() const {
   Result<Submission> submission = ReadSubmission();
   if (!submission) return std::move(submission.error());
   const SpoolFile& spool = body_.spool();
-  if (!LooksLikeRaster(spool.beginning(), spool.bytes(), submission->filename)) {
-    return Error{ErrorCode::kUnsupportedData,
-                 spool.bytes() == 0
-                     ? "the DEM has no bytes"
-                     : "the DEM is of no format that is read: GeoTIFF, Arc/Info ASCII Grid, SRTM "
-                       "HGT (with its name, as ?filename=N46E007.hgt), DTED, USGS DEM",
-                 "not-a-raster"};
-  }
+  Status upload = CheckUpload(spool.beginning(), spool.bytes(), submission->filename);
+  if (!upload) return std::move(upload.error());
   Result<Assumptions> assumptions = context_.jobs.Probe(spool, *submission);
   if (!assumptions) return std::move(assumptions.error());
   submission->assumptions = *std::move(assumptions);

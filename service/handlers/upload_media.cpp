@@ -6,7 +6,7 @@
 #include <array>
 #include <string_view>
 
-#include "service/handlers/multipart.h"
+#include "service/handlers/part_head.h"
 #include "service/handlers/problem.h"
 
 namespace farhorizon {

@@ -50,8 +50,10 @@ AssumptionHandler SendAssumptions() {
   };
 }
 
-// What a build does before it begins its long work.
-Status Probe(const WorkerTask& task, const BuildOptions& options, const RunControl& control) {
+// What a build does before its long work. The plan of level 0, which puts every post on the globe,
+// refuses whatever those of further levels would.
+Status Probe(const WorkerTask& task, BuildOptions options, const RunControl& control) {
+  options.levels = 1;
   Result<std::unique_ptr<TerrainInput>> input = TerrainInput::Open(task.input, options, control);
   if (!input) return std::move(input.error());
   Result<std::vector<LevelPlan>> plans = PlanLevels(**input, options);
@@ -67,7 +69,7 @@ Status Run(bool probe_only, StageTimer& timer) {
   options->max_posts = task->max_posts;
   options->threads = task->threads;
   RunControl control{.on_assumption = SendAssumptions()};
-  if (probe_only) return Probe(*task, *options, control);
+  if (probe_only) return Probe(*task, *std::move(options), control);
   control.progress = timer.Listen(SendProgress());
   return BuildArtifacts(task->input, task->output, *options, control);
 }

@@ -70,7 +70,7 @@ int Misbehave(const WorkerTask& task) {
   }
   if (Named(task, "refused")) {
     Send(WriteMessage(
-        Error{ErrorCode::kUnsupportedData, "the DEM has no reference system", "no-crs"}));
+        Error{ErrorCode::kUnsupportedData, "no reference system; give --crs EPSG:4326", "no-crs"}));
     return 1;
   }
   if (Named(task, "slow")) {

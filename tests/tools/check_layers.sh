@@ -29,14 +29,18 @@ declare -A may=(
   [core/simplify]="$below_horizon core/horizon core/horizon/visibility"
   [core/geo]="core/base"
   [core/io]="core/base core/geometry core/terrain core/horizon core/horizon/lines_of_sight core/horizon/trace core/geo"
-  [core/io/dem]="core/base core/geometry core/terrain core/geo core/io"
+  # What a file is by its first bytes, and grids of text: neither knows GDAL.
+  [core/io/file_kind]="core/base core/io/text_grid"
+  [core/io/text_grid]="core/base"
+  [core/io/raster]="core/base core/io core/io/file_kind core/io/text_grid"
+  [core/io/dem]="core/base core/geometry core/terrain core/geo core/io core/io/text_grid core/io/raster"
   [core/pipeline]="$below_pipeline"
   [core/pipeline/verify]="$below_pipeline core/pipeline"
   # The service's own root: clock, log, and the wrapper header of Asio. main.cpp is below.
   [service]="core/base"
   [service/worker]="core/base core/io core/pipeline service"
   [service/jobs]="core/base core/io core/pipeline service service/worker"
-  [service/handlers]="core/base core/io core/pipeline service service/jobs"
+  [service/handlers]="core/base core/io core/io/file_kind core/pipeline service service/jobs"
   [service/http]="core/base service service/handlers"
   # The configuration consists of the options of the parts, so it stands above them.
   [service/config]="core/base service service/worker service/jobs service/http"
@@ -48,7 +52,7 @@ declare -A may=(
 # The first row that matches decides; a header with a dot or a slash that is in no row is an offence,
 # so that a new dependency has to be entered here.
 foreign=(
-  '(gdal|ogr|cpl_|vrt) @ ^core/io/(dem/)?[^/]+\.cpp$ ^service/jobs/[a-z_0-9]*object_store\.cpp$'
+  '(gdal|ogr|cpl_|vrt) @ ^core/io/(dem/|raster/)?[^/]+\.cpp$ ^service/jobs/[a-z_0-9]*object_store\.cpp$'
   'draco/ @ ^core/io/[^/]+\.cpp$'
   'proj(_[a-z]+)?(\.h$|/) @ ^core/geo/[^/]+\.cpp$'
   'boost/multiprecision/ @ ^core/exact/'

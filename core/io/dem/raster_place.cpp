@@ -178,9 +178,8 @@ Result<GeoTransform> ReadGeoTransform(void* dataset, const std::filesystem::path
                  "degenerate-geotransform");
 }
 
-Result<std::string> ReadCrs(void* dataset, const std::filesystem::path& path,
-                            const std::optional<std::string>& stated, Assumptions& assumptions) {
-  if (stated) return *stated;
+Result<std::string> ReadFileCrs(void* dataset, const std::filesystem::path& path,
+                                Assumptions& assumptions) {
   OGRSpatialReferenceH crs = GDALGetSpatialRef(dataset);
   if (crs == nullptr && GDALGetGCPCount(dataset) > 0) crs = GDALGetGCPSpatialRef(dataset);
   if (crs != nullptr) return TextOf(crs);

@@ -21,11 +21,11 @@ namespace farhorizon {
 Result<GeoTransform> ReadGeoTransform(void* dataset, const std::filesystem::path& path,
                                       Assumptions& assumptions);
 
-/// The reference system of `dataset` (a GDALDatasetH, of the file at `path`) as PROJ reads it:
-/// `stated` where that is set, else the file's own, else that of its control points, else that of
-/// the .prj beside it, which is said in `assumptions`.
+/// The reference system of `dataset` (a GDALDatasetH, of the file at `path`) as PROJ reads it: the
+/// file's own, else that of its control points, else that of the .prj beside it, which is said in
+/// `assumptions`.
 /// Errors: kUnsupportedData, kind "no-crs".
-Result<std::string> ReadCrs(void* dataset, const std::filesystem::path& path,
-                            const std::optional<std::string>& stated, Assumptions& assumptions);
+Result<std::string> ReadFileCrs(void* dataset, const std::filesystem::path& path,
+                                Assumptions& assumptions);
 
 }  // namespace farhorizon

@@ -1,64 +1,123 @@
-// What a band's raw values mean: metres by scale, offset and unit, or no data.
+// What a band's raw values mean: metres upwards, by scale, offset, unit and direction.
 #include "core/io/dem/value_scale.h"
 
-#include <algorithm>
-#include <cctype>
 #include <cmath>
+#include <optional>
 #include <string>
-#include <string_view>
 #include <utility>
 
 #include <gdal.h>
-#include <ogr_srs_api.h>
+
+#include "core/geo/height_system.h"
+#include "core/io/dem/band_values.h"
+#include "core/io/dem/height_unit.h"
+#include "core/io/dem/read_dem.h"
 
 namespace farhorizon {
 
 namespace {
 
-constexpr double kFoot = 0.3048;
-constexpr double kSurveyFoot = 1200.0 / 3937;
+// The vertical systems that the file and the call name.
+struct Systems {
+  std::optional<HeightSystem> file;
+  std::optional<HeightSystem> call;
+  std::string call_flag;     // the option that names the call's
+  bool names_datum = false;  // something says above what the heights are
+  std::string map_unit;      // of the horizontal axes, where that is no metre
+};
 
-Result<double> UnitInMetres(std::string name) {
-  std::ranges::transform(name, name.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  static constexpr std::pair<std::string_view, double> kUnits[] = {{"", 1},
-                                                                   {"m", 1},
-                                                                   {"metre", 1},
-                                                                   {"metres", 1},
-                                                                   {"meter", 1},
-                                                                   {"meters", 1},
-                                                                   {"ft", kFoot},
-                                                                   {"foot", kFoot},
-                                                                   {"feet", kFoot},
-                                                                   {"international foot", kFoot},
-                                                                   {"us-ft", kSurveyFoot},
-                                                                   {"ftus", kSurveyFoot},
-                                                                   {"us survey foot", kSurveyFoot},
-                                                                   {"foot_us", kSurveyFoot},
-                                                                   {"us_foot", kSurveyFoot},
-                                                                   {"sfoot", kSurveyFoot},
-                                                                   {"km", 1000},
-                                                                   {"dm", 0.1},
-                                                                   {"cm", 0.01},
-                                                                   {"mm", 0.001}};
-  for (const auto& [known, metres] : kUnits) {
-    if (name == known) return metres;
+Result<Systems> ReadSystems(const std::optional<std::string>& file_crs,
+                            const DemReadOptions& options) {
+  Systems systems;
+  CrsUnits file;
+  if (file_crs) {
+    Result<CrsUnits> units = ReadCrsUnits(*file_crs);
+    if (!units && !options.crs) return std::move(units.error());
+    if (units) file = *std::move(units);
   }
-  return Error{ErrorCode::kUnsupportedData,
-               "the band's values are in \"" + name.substr(0, 40) +
-                   "\", heights must be in metres or feet; set the unit with gdal_edit -units",
-               "unknown-unit"};
+  systems.file = file.heights;
+  CrsUnits map = file;
+  if (options.crs) {
+    Result<CrsUnits> units = ReadCrsUnits(*options.crs);
+    if (!units) return std::move(units.error());
+    map = *std::move(units);
+    if (map.heights) {
+      systems.call = map.heights;
+      systems.call_flag = "--crs";
+    }
+  }
+  systems.names_datum = map.heights && map.heights->names_datum;
+  if (options.vertical_datum && !options.vertical_datum->empty()) {
+    Result<std::optional<HeightSystem>> heights = ReadHeightSystem(*options.vertical_datum);
+    if (!heights) return std::move(heights.error());
+    systems.names_datum = true;
+    if (*heights) {
+      systems.call = *std::move(heights);
+      systems.call_flag = "--vertical-datum";
+    }
+  }
+  if (map.map_unit_m && *map.map_unit_m != 1) systems.map_unit = map.map_unit;
+  return systems;
+}
+
+std::optional<HeightUnit> UnitOf(const std::optional<HeightSystem>& system,
+                                 const std::string& source) {
+  if (!system || !(system->unit_m > 0) || !std::isfinite(system->unit_m)) return std::nullopt;
+  return HeightUnit{.name = system->unit,
+                    .metres = system->unit_m,
+                    .source = system->names_datum ? system->name + " of " + source : source};
+}
+
+// GDAL makes the band's unit of the vertical system's where the band has none of its own.
+Result<HeightUnit> DecideUnit(GDALRasterBandH band, const DemReadOptions& options,
+                              const Systems& systems, Assumptions& assumptions) {
+  HeightUnitSources sources{.call_system = UnitOf(systems.call, systems.call_flag),
+                            .file_system = UnitOf(systems.file, "the file"),
+                            .map_unit = systems.map_unit};
+  if (options.height_unit) {
+    Result<HeightUnit> stated = ReadHeightUnit(*options.height_unit);
+    if (!stated) return stated;
+    sources.stated = *std::move(stated);
+  } else if (const std::string name = GDALGetRasterUnitType(band); !name.empty()) {
+    Result<HeightUnit> unit = ReadHeightUnit(name);
+    if (!unit) return unit;
+    unit->source = "the band";
+    if (!sources.file_system || std::abs(sources.file_system->metres - unit->metres) > 1e-9) {
+      sources.band = *std::move(unit);
+    }
+  }
+  return DecideHeightUnit(sources, assumptions);
+}
+
+bool CountsDown(const Systems& systems) {
+  const bool replaced = systems.call_flag == "--crs";
+  return (systems.call && systems.call->down) || (systems.file && systems.file->down && !replaced);
+}
+
+// What the format itself has heights above, where GDAL does not say it.
+std::string DatumOfFormat(GDALDatasetH dataset) {
+  const std::string driver = GDALGetDriverShortName(GDALGetDatasetDriver(dataset));
+  if (driver == "SRTMHGT") return ", though heights of HGT are above EGM96 as a rule";
+  if (driver == "DTED") return ", though heights of DTED are above mean sea level as a rule";
+  return "";
+}
+
+void AssumeDatum(GDALDatasetH dataset, const Systems& systems, Assumptions& assumptions) {
+  const std::string lost =
+      systems.file && systems.file->names_datum
+          ? " beside --crs, which takes the place of the file's " + systems.file->name
+          : "";
+  assumptions.push_back(
+      {"vertical-datum",
+       "heights are taken as above the ellipsoid, for nothing names a vertical datum" + lost +
+           DatumOfFormat(dataset) +
+           "; state one with --vertical-datum, such as EPSG:5773 (EGM96 height) or ellipsoid"});
 }
 
 }  // namespace
 
-Result<ValueScale> ReadValueScale(void* dataset, void* band) {
-  Result<double> unit = UnitInMetres(GDALGetRasterUnitType(band));
-  if (!unit) return std::move(unit.error());
-  const OGRSpatialReferenceH crs = GDALGetSpatialRef(dataset);
-  if (*GDALGetRasterUnitType(band) == '\0' && crs != nullptr && OSRIsCompound(crs) != 0) {
-    unit = OSRGetTargetLinearUnits(crs, "VERT_CS", nullptr);
-  }
+Result<ValueScale> ReadValueScale(OpenedDem& dem, const std::optional<std::string>& file_crs) {
+  const GDALRasterBandH band = dem.band.heights;
   const double scale = GDALGetRasterScale(band, nullptr);
   const double offset = GDALGetRasterOffset(band, nullptr);
   if (!std::isfinite(scale) || scale == 0 || !std::isfinite(offset)) {
@@ -67,7 +126,22 @@ Result<ValueScale> ReadValueScale(void* dataset, void* band) {
                      std::to_string(offset) + ") is of no use; set them with gdal_edit",
                  "unsupported-type"};
   }
-  return ValueScale{scale * *unit, offset * *unit};
+  const Result<Systems> systems = ReadSystems(file_crs, dem.options);
+  if (!systems) return systems.error();
+  Result<HeightUnit> unit = DecideUnit(band, dem.options, *systems, dem.assumptions);
+  if (!unit) return std::move(unit.error());
+  double metres = unit->metres;
+  if (CountsDown(*systems)) {
+    metres = -metres;
+    const HeightSystem& down =
+        systems->call && systems->call->down ? *systems->call : *systems->file;
+    dem.assumptions.push_back(
+        {"depths", "values are depths, for " + down.name +
+                       " counts downwards: heights are their negatives; where they are heights "
+                       "already, name a system of heights with --crs, such as EPSG:4326+5773"});
+  }
+  if (!systems->names_datum) AssumeDatum(dem.dataset, *systems, dem.assumptions);
+  return ValueScale{scale * metres, offset * metres};
 }
 
 }  // namespace farhorizon

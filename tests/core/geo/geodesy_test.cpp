@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/geo/crs.h"
+#include "core/geo/globe_transform.h"
 
 namespace farhorizon {
 namespace {
@@ -68,7 +68,8 @@ void ExpectNear(const Triple& found, const Triple& expected, const Case& c) {
 void RunMap(const Case& c) {
   const std::string datum = c.operation.size() > 1 ? c.operation[1] : "";
   const MapPoint point = {c.accept.x, c.accept.y, c.accept.z};
-  Result<GlobeTransform> globe = GlobeTransform::Open(c.operation[0], datum, point);
+  Result<GlobeTransform> globe =
+      GlobeTransform::Open(c.operation[0], {.vertical_datum = datum, .about = point});
   ASSERT_TRUE(globe) << c.where << ": " << globe.error().message;
   Result<std::vector<Geodetic>> there = globe->ToGeodetic({point});
   ASSERT_TRUE(there) << c.where << ": " << there.error().message;
@@ -82,7 +83,7 @@ void RunMap(const Case& c) {
 }
 
 void RunEarthFixed(const Case& c) {
-  Result<GlobeTransform> globe = GlobeTransform::Open("EPSG:4326", "");
+  Result<GlobeTransform> globe = GlobeTransform::Open("EPSG:4326");
   ASSERT_TRUE(globe);
   const Geodetic point = {c.accept.x, c.accept.y, c.accept.z};
   Result<std::vector<Ecef>> there = globe->ToEcef({point});

@@ -32,7 +32,7 @@ struct Placed {
   explicit Placed(Dem with)
       : dem(std::move(with)),
         terrain(*Terrain::Build(dem)),
-        georeference(*Georeference::Of(terrain, "")) {
+        georeference(*Georeference::Of(terrain, {})) {
     for (VertexId v = 0; v < terrain.post_count(); ++v) {
       if (terrain.IsVertex(v)) vertices.push_back(v);
     }

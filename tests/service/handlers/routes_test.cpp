@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "core/pipeline/build_options.h"
 #include "tests/support/handlers_fixture.h"
 #include "tests/support/json_schema.h"
 
@@ -33,6 +34,22 @@ TEST_F(RoutesTest, AnswersWhatOpenapiSays) {
     kept.insert(LowerCase(route.method) + " " + route.pattern);
   }
   EXPECT_EQ(kept, promised);
+}
+
+TEST_F(RoutesTest, TakesTheParametersThatOpenapiLists) {
+  const std::string api = SlurpFile(std::string(FARHORIZON_SOURCE_DIR) + "/proto/openapi.yaml");
+  const std::string post = api.substr(0, api.find("    get:"));
+  std::set<std::string> listed;
+  const std::string row = "- {name: ";
+  for (std::size_t at = 0; (at = post.find(row, at)) != std::string::npos; at += row.size()) {
+    const std::size_t comma = post.find(',', at);
+    if (post.compare(comma, 11, ", in: query") == 0) {
+      listed.insert(post.substr(at + row.size(), comma - at - row.size()));
+    }
+  }
+  std::set<std::string> taken = {"filename"};
+  for (const std::string_view name : ParameterNames()) taken.emplace(name);
+  EXPECT_EQ(listed, taken);
 }
 
 TEST_F(RoutesTest, AnswersInTheShapesOfTheSchemas) {

@@ -144,6 +144,13 @@ TEST_F(SubmitTest, TakesFileNamesAsBrowsersSendThem) {
   EXPECT_EQ(name(R"(C:\dem\new\n38e007.hgt)"), "n38e007.hgt");
   EXPECT_EQ(name("a%22b.tif"), "ab.tif");
   EXPECT_EQ(name("H\xC3\xB6he.asc"), "Hhe.asc");
+  const std::string renamed =
+      "--B\r\nContent-Disposition: form-data; name=params\r\n\r\n{\"filename\": "
+      "\"N38E007.hgt\"}\r\n" +
+      FormOf("blob", tiff_);
+  const HttpResponse form = Post("/jobs", renamed, kForm);
+  EXPECT_EQ(json::parse(form.body)["filename"], "N38E007.hgt");
+  EXPECT_EQ(CodeOf(Post("/jobs?filename=a.tif", renamed, kForm)), "invalid-parameter");
   const HttpResponse query = Post("/jobs?filename=C:%5Cdem%5CMy+DEM.tif", tiff_);
   EXPECT_EQ(json::parse(query.body)["filename"], "MyDEM.tif");
 }

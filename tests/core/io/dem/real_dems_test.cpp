@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/geo/crs.h"
+#include "core/geo/globe_transform.h"
 #include "core/io/dem/read_dem.h"
 
 namespace farhorizon {
@@ -69,7 +69,7 @@ TEST_P(RealDems, LiesOnTheGlobeAndComesBack) {
                          dem->transform.origin_y + row * dem->transform.step_y, 100});
     }
   }
-  Result<GlobeTransform> globe = GlobeTransform::Open(dem->crs, "", corners[0]);
+  Result<GlobeTransform> globe = GlobeTransform::Open(dem->crs, {.about = corners[0]});
   ASSERT_TRUE(globe) << globe.error().message;
   Result<std::vector<Geodetic>> there = globe->ToGeodetic(corners);
   ASSERT_TRUE(there) << there.error().message;

@@ -1,4 +1,4 @@
-#include "core/geo/crs.h"
+#include "core/geo/globe_transform.h"
 
 #include <cmath>
 #include <random>
@@ -15,7 +15,8 @@ using ::testing::HasSubstr;
 
 GlobeTransform MustOpen(const std::string& crs, const std::string& datum = "",
                         std::optional<MapPoint> about = std::nullopt) {
-  Result<GlobeTransform> globe = GlobeTransform::Open(crs, datum, about);
+  Result<GlobeTransform> globe =
+      GlobeTransform::Open(crs, {.vertical_datum = datum, .about = about});
   if (!globe) throw std::runtime_error(globe.error().message);
   return std::move(*globe);
 }
@@ -27,7 +28,7 @@ Geodetic OnGlobe(const GlobeTransform& globe, MapPoint p) {
 }
 
 std::string KindOf(const std::string& crs, const std::string& datum = "") {
-  Result<GlobeTransform> globe = GlobeTransform::Open(crs, datum);
+  Result<GlobeTransform> globe = GlobeTransform::Open(crs, {.vertical_datum = datum});
   return globe ? "opened" : std::string(globe.error().kind);
 }
 
@@ -101,9 +102,9 @@ TEST(GlobeTransform, Nad27IsShiftedAndItsHeightsPass) {
   }
 }
 
-TEST(GlobeTransform, OneWayIsTakenForAllPointsOfADem) {
+TEST(GlobeTransform, OneWayIsTakenForAllPoints) {
   // Two points either side of the meridian where PROJ changes its NAD27 operation must not tear:
-  // ten centimetres apart on the map, ten centimetres apart on the globe.
+  // a hundredth of a degree apart on the map, as much apart on the globe.
   const MapPoint about = {-90, 40, 0};
   const GlobeTransform globe = MustOpen("EPSG:4267", "", about);
   std::vector<MapPoint> points;
@@ -146,13 +147,14 @@ TEST(GlobeTransform, HeightsComeInMetresWhateverTheVerticalUnitOfTheSystem) {
       "0.0174532925199433],ID[\"EPSG\",4326]],VERTCRS[\"EGM96 height (ftUS)\",VDATUM[\"EGM96 "
       "geoid\",ID[\"EPSG\",5171]],CS[vertical,1],AXIS[\"gravity-related height (H)\",up,"
       "LENGTHUNIT[\"US survey foot\",0.304800609601219]]]]";
-  Result<GlobeTransform> globe = GlobeTransform::Open(feet, "");
+  Result<GlobeTransform> globe = GlobeTransform::Open(feet);
   ASSERT_TRUE(globe) << globe.error().message;
   EXPECT_NEAR(OnGlobe(*globe, {8, 46, 1000}).height_m, 1051.853, 0.002);
 }
 
 TEST(GlobeTransform, AMissingGeoidGridFailsAndIsNamed) {
-  Result<GlobeTransform> globe = GlobeTransform::Open("EPSG:4326", "EPSG:3855");  // EGM2008
+  Result<GlobeTransform> globe =
+      GlobeTransform::Open("EPSG:4326", {.vertical_datum = "EPSG:3855"});  // EGM2008
   ASSERT_FALSE(globe);
   EXPECT_EQ(globe.error().kind, "no-geoid-grid");
   EXPECT_THAT(globe.error().message, HasSubstr("egm08"));
@@ -163,7 +165,39 @@ TEST(GlobeTransform, RefusesSystemsThatAreNotOnEarth) {
   EXPECT_EQ(KindOf("ENGCRS[\"site grid\",EDATUM[\"site\"],CS[Cartesian,2],AXIS[\"x\",east],"
                    "AXIS[\"y\",north],LENGTHUNIT[\"metre\",1]]"),
             "local-crs");
-  EXPECT_EQ(KindOf("ESRI:104903"), "unknown-crs");  // the Moon
+  for (const char* crs : {"ESRI:104903", "IAU_2015:49900", "+proj=longlat +R=1737400"}) {
+    Result<GlobeTransform> globe = GlobeTransform::Open(crs);  // the Moon, Mars
+    ASSERT_FALSE(globe) << crs;
+    EXPECT_EQ(globe.error().kind, "unknown-crs") << crs;
+    EXPECT_THAT(globe.error().message, HasSubstr("not one of the Earth")) << crs;
+  }
+  EXPECT_EQ(KindOf("+proj=longlat +R=6371000"), "opened");  // a sphere of the Earth's size
+}
+
+TEST(GlobeTransform, ReadsSystemsAsPeopleWriteThem) {
+  const Geodetic expected = OnGlobe(MustOpen("EPSG:32613"), {500000, 4500000, 0});
+  for (const char* crs : {"32613", "EPSG 32613", "+init=epsg:32613", "WGS 84 / UTM zone 13N",
+                          "+proj=utm +zone=13 +datum=WGS84 +units=m", "urn:ogc:def:crs:EPSG::32613",
+                          "proj=utm zone=13 datum=WGS84"}) {
+    const Geodetic g = OnGlobe(MustOpen(crs), {500000, 4500000, 0});
+    EXPECT_EQ(g.lon_deg, expected.lon_deg) << crs;
+    EXPECT_EQ(g.lat_deg, expected.lat_deg) << crs;
+  }
+  EXPECT_EQ(OnGlobe(MustOpen("OGC:CRS84"), {8, 46, 0}).lon_deg, 8);
+  // A rotated pole, as climate models have it: the grid's pole is at 39.25 north, 18 east + 180.
+  const Geodetic rotated = OnGlobe(
+      MustOpen("+proj=ob_tran +o_proj=longlat +o_lon_p=-162 +o_lat_p=39.25 +lon_0=180 +R=6371000"),
+      {0, 90, 0});
+  EXPECT_NEAR(rotated.lat_deg, 39.25, 1e-6);
+}
+
+TEST(GlobeTransform, NamesTheOperationWhoseGridEnds) {
+  // BETA2007, the grid of Germany, ends well before Spain.
+  Result<GlobeTransform> globe =
+      GlobeTransform::Open("EPSG:31467", {.about = MapPoint{3000000, 4300000, 0}});
+  ASSERT_FALSE(globe);
+  EXPECT_EQ(globe.error().kind, "outside-crs");
+  EXPECT_THAT(globe.error().message, HasSubstr("DHDN to WGS 84 (4)"));
 }
 
 TEST(GlobeTransform, RefusesWhatIsNoSystemOfMaps) {
@@ -185,16 +219,10 @@ TEST(GlobeTransform, RefusesPointsOutsideTheSystem) {
   EXPECT_EQ(there.error().kind, "outside-crs");
   EXPECT_THAT(there.error().message, HasSubstr("point 1 (8, 95)"));
   EXPECT_FALSE(MustOpen("EPSG:32644").ToGeodetic({{1e12, 1e12, 0}}));
-  Result<GlobeTransform> bad = GlobeTransform::Open("EPSG:32644", "", MapPoint{1e12, 1e12, 0});
+  Result<GlobeTransform> bad =
+      GlobeTransform::Open("EPSG:32644", {.about = MapPoint{1e12, 1e12, 0}});
   ASSERT_FALSE(bad);
   EXPECT_EQ(bad.error().kind, "outside-crs");
-}
-
-TEST(GlobeTransform, NamesItsSystemByCode) {
-  EXPECT_EQ(MustOpen("EPSG:4326").Name(), "EPSG:4326");
-  EXPECT_EQ(MustOpen("EPSG:4326", "EPSG:5773").Name(), "EPSG:4326+5773");
-  EXPECT_EQ(MustOpen("EPSG:4326+5773").Name(), "EPSG:4326+5773");
-  EXPECT_FALSE(MustOpen("+proj=utm +zone=10 +datum=WGS84 +type=crs").Name().empty());
 }
 
 }  // namespace

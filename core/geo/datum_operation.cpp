@@ -1,0 +1,194 @@
+// PROJ's list of operations between two systems, each taken apart into its steps: conversions are
+// exact, transformations are between datums and have a name, an accuracy and an area.
+#include "core/geo/datum_operation.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstdio>
+#include <iterator>
+#include <memory>
+#include <utility>
+
+#include <proj.h>
+
+#include "core/geo/crs_name.h"
+
+namespace farhorizon {
+
+namespace {
+
+using ListPtr = std::unique_ptr<PJ_OBJ_LIST, void (*)(PJ_OBJ_LIST*)>;
+constexpr double kWorldTolerance = 1e-6;  // degrees: EPSG's boxes of the world are exact
+
+// The names and codes of inverses are those of the operations themselves:
+// "Inverse of WGS 84 to EGM96 height (1)", "INVERSE(DERIVED_FROM(EPSG)):1149".
+std::string Forward(std::string name) {
+  constexpr std::string_view kInverse = "Inverse of ";
+  for (std::size_t at = name.find(kInverse); at != std::string::npos; at = name.find(kInverse)) {
+    name.erase(at, kInverse.size());
+  }
+  return name;
+}
+
+std::string PlainCode(const PJ* step) {
+  std::string code = CodeOf(step);
+  const std::size_t open = code.rfind('(');
+  const std::size_t close = code.find(')');
+  const std::size_t colon = code.find(':');
+  if (open != std::string::npos && close != std::string::npos && colon != std::string::npos) {
+    code = code.substr(open + 1, close - open - 1) + code.substr(colon);
+  }
+  return code;
+}
+
+std::string Joined(const std::vector<std::string>& parts) {
+  std::string all;
+  for (const std::string& part : parts) all += (all.empty() ? "" : " + ") + part;
+  return all;
+}
+
+// Conversions are exact, and so are the steps that PROJ puts between two forms of one datum.
+bool IsExact(const PJ* step, const std::string& name) {
+  return proj_get_type(step) == PJ_TYPE_CONVERSION || name.starts_with("Null geographic offset") ||
+         name.starts_with("axis order change") || name.starts_with("WGS 84 to WGS 84");
+}
+
+void AddStep(const PJ* step, DatumOperation& operation) {
+  const char* text = proj_get_name(step);
+  const std::string name = Forward(text != nullptr ? text : "");
+  if (IsExact(step, name)) return;
+  if (name.find("ballpark vertical") != std::string::npos) operation.ballpark_heights = true;
+  operation.names.push_back(name);
+  operation.codes.push_back(PlainCode(step));
+}
+
+// The steps of `way`, in their order: an inverse of a concatenated operation is a step of its own.
+std::vector<ProjObject> StepsOf(const ProjSession& session, const PJ* way) {
+  std::vector<ProjObject> steps;
+  steps.emplace_back(proj_clone(session.get(), way));
+  for (std::size_t i = 0; i < steps.size();) {
+    const PJ* whole = steps[i].get();
+    if (whole == nullptr || proj_get_type(whole) != PJ_TYPE_CONCATENATED_OPERATION) {
+      ++i;
+      continue;
+    }
+    std::vector<ProjObject> parts;
+    const int count = proj_concatoperation_get_step_count(session.get(), whole);
+    for (int k = 0; k < count; ++k) {
+      parts.emplace_back(proj_concatoperation_get_step(session.get(), whole, k));
+    }
+    steps.erase(steps.begin() + static_cast<std::ptrdiff_t>(i));
+    steps.insert(steps.begin() + static_cast<std::ptrdiff_t>(i),
+                 std::make_move_iterator(parts.begin()), std::make_move_iterator(parts.end()));
+  }
+  return steps;
+}
+
+void AddGrids(const ProjSession& session, DatumOperation& operation) {
+  const PJ* way = operation.way.get();
+  const int grids = proj_coordoperation_get_grid_used_count(session.get(), way);
+  for (int i = 0; i < grids; ++i) {
+    const char* name = nullptr;
+    int available = 1;
+    if (proj_coordoperation_get_grid_used(session.get(), way, i, &name, nullptr, nullptr, nullptr,
+                                          nullptr, nullptr, &available) != 0 &&
+        available == 0 && name != nullptr) {
+      operation.missing_grids.emplace_back(name);
+    }
+  }
+}
+
+DatumOperation Read(const ProjSession& session, ProjObject way) {
+  DatumOperation operation;
+  operation.way = std::move(way);
+  const PJ* whole = operation.way.get();
+  for (const ProjObject& step : StepsOf(session, whole)) {
+    if (step) AddStep(step.get(), operation);
+  }
+  operation.ballpark = proj_coordoperation_has_ballpark_transformation(session.get(), whole) != 0;
+  const double accuracy = proj_coordoperation_get_accuracy(session.get(), whole);
+  if (accuracy >= 0) operation.accuracy_m = accuracy;
+  AddGrids(session, operation);
+  const char* area = nullptr;
+  proj_get_area_of_use(session.get(), whole, &operation.west, &operation.south, &operation.east,
+                       &operation.north, &area);
+  if (area != nullptr) operation.area = area;
+  return operation;
+}
+
+}  // namespace
+
+bool DatumOperation::HoldsAt(double lon_deg, double lat_deg) const {
+  const bool between =
+      west <= east ? lon_deg >= west && lon_deg <= east : lon_deg >= west || lon_deg <= east;
+  return between && lat_deg >= south && lat_deg <= north;
+}
+
+bool DatumOperation::HoldsEverywhere() const {
+  return west <= -180 + kWorldTolerance && east >= 180 - kWorldTolerance &&
+         south <= -90 + kWorldTolerance && north >= 90 - kWorldTolerance;
+}
+
+std::string DatumOperation::Described() const {
+  char accuracy[40] = "accuracy unknown";
+  if (accuracy_m) std::snprintf(accuracy, sizeof accuracy, "accuracy %.3g m", *accuracy_m);
+  const std::string stated = Stated();
+  const std::string name = "\"" + Joined(names) + "\"";
+  return name + " (" + ("\"" + stated + "\"" == name ? "" : stated + ", ") + accuracy + ")";
+}
+
+std::string DatumOperation::Stated() const {
+  if (ballpark) return "ballpark";
+  const bool coded = std::ranges::none_of(codes, [](const std::string& c) { return c.empty(); });
+  return Joined(coded ? codes : names);
+}
+
+std::vector<DatumOperation> ListDatumOperations(const ProjSession& session, const PJ* source,
+                                                const PJ* globe) {
+  const std::unique_ptr<PJ_OPERATION_FACTORY_CONTEXT, void (*)(PJ_OPERATION_FACTORY_CONTEXT*)>
+      factory(proj_create_operation_factory_context(session.get(), nullptr),
+              proj_operation_factory_context_destroy);
+  proj_operation_factory_context_set_spatial_criterion(session.get(), factory.get(),
+                                                       PROJ_SPATIAL_CRITERION_PARTIAL_INTERSECTION);
+  proj_operation_factory_context_set_grid_availability_use(session.get(), factory.get(),
+                                                           PROJ_GRID_AVAILABILITY_USED_FOR_SORTING);
+  // A system that came without its code has no area of use of its own.
+  double west = 0, south = 0, east = 0, north = 0;
+  if (proj_get_area_of_use(session.get(), source, &west, &south, &east, &north, nullptr) == 0) {
+    const ProjObject known = Identified(session, source);
+    if (known && proj_get_area_of_use(session.get(), known.get(), &west, &south, &east, &north,
+                                      nullptr) != 0) {
+      proj_operation_factory_context_set_area_of_interest(session.get(), factory.get(), west, south,
+                                                          east, north);
+    }
+  }
+  const ListPtr ways(proj_create_operations(session.get(), source, globe, factory.get()),
+                     proj_list_destroy);
+  std::vector<DatumOperation> all;
+  const int count = ways ? proj_list_get_count(ways.get()) : 0;
+  for (int i = 0; i < count; ++i) {
+    all.push_back(Read(session, ProjObject(proj_list_get(session.get(), ways.get(), i))));
+  }
+  return all;
+}
+
+std::string OperationName(const ProjSession& session, const std::string& code) {
+  const std::size_t colon = code.find(':');
+  if (colon == std::string::npos) return "";
+  const ProjObject found(proj_create_from_database(session.get(), code.substr(0, colon).c_str(),
+                                                   code.substr(colon + 1).c_str(),
+                                                   PJ_CATEGORY_COORDINATE_OPERATION, 0, nullptr));
+  const char* name = found ? proj_get_name(found.get()) : nullptr;
+  return name != nullptr ? name : "";
+}
+
+bool IsOfTheWorld(const ProjSession& session, const PJ* crs) {
+  DatumOperation box;
+  const ProjObject known = CodeOf(crs).empty() ? Identified(session, crs) : nullptr;
+  return proj_get_area_of_use(session.get(), known ? known.get() : crs, &box.west, &box.south,
+                              &box.east, &box.north, nullptr) != 0 &&
+         box.HoldsEverywhere();
+}
+
+}  // namespace farhorizon

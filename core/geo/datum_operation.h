@@ -1,0 +1,46 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/geo/proj_session.h"
+
+namespace farhorizon {
+
+/// One of the ways that PROJ knows from a reference system to the globe.
+struct DatumOperation {
+  ProjObject way;
+  /// The transformations between datums on the way, without the exact conversions: "NAD27 to WGS 84
+  /// (4)". Empty where all is exact.
+  std::vector<std::string> names;
+  std::vector<std::string> codes;  ///< of `names`: "EPSG:1173", "" where one has none
+  bool ballpark = false;           ///< some datum is taken for WGS 84 for want of a transformation
+  bool ballpark_heights = false;   ///< heights of one datum are taken for those of another
+  std::optional<double> accuracy_m;  ///< nullopt where it is unknown
+  std::vector<std::string> missing_grids;
+  std::string area;  ///< where it holds, in words; "" where that is not stated
+  /// Degrees; west > east across the antimeridian.
+  double west = -180, south = -90, east = 180, north = 90;
+
+  [[nodiscard]] bool HoldsAt(double lon_deg, double lat_deg) const;
+  [[nodiscard]] bool HoldsEverywhere() const;
+  /// `"NAD27 to WGS 84 (4)" (EPSG:1173, accuracy 10 m)`
+  [[nodiscard]] std::string Described() const;
+  /// The value of --datum-operation that states it.
+  [[nodiscard]] std::string Stated() const;
+};
+
+/// The ways that PROJ knows from `source` to `globe`, in its order for the area where `source` is
+/// used: grids installed before missing, large areas before small ones, then by accuracy.
+std::vector<DatumOperation> ListDatumOperations(const ProjSession& session, const PJconsts* source,
+                                                const PJconsts* globe);
+
+/// The name of the operation that has the code `code`: "NAD27 to WGS 84 (4)" for "EPSG:1173"; ""
+/// where PROJ's database has none.
+std::string OperationName(const ProjSession& session, const std::string& code);
+
+/// True where `crs` is used in the whole world: a global frame, as WGS 84 and the ITRF.
+bool IsOfTheWorld(const ProjSession& session, const PJconsts* crs);
+
+}  // namespace farhorizon

@@ -1,0 +1,86 @@
+#include "core/io/text_grid/body_cells.h"
+
+#include <algorithm>
+#include <cctype>
+#include <limits>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "core/io/text_grid/grid_header.h"
+#include "core/io/text_grid/grid_lines.h"
+#include "core/io/text_grid/text_number.h"
+
+namespace farhorizon {
+
+namespace {
+
+// Reserved at once; a file with more cells grows as vectors do.
+constexpr std::int64_t kReservedCells = std::int64_t{1} << 22U;
+
+// A command that writes `with` where a cell is just `word`. Words that a shell could take for
+// something else are left for the user to write.
+std::string Replacement(const std::string& word, const std::string& with) {
+  const bool plain =
+      word.size() < 24 && std::ranges::all_of(word, [](unsigned char c) {
+        return std::isalnum(c) != 0 ||
+               std::string_view("+-.#*/_").find(static_cast<char>(c)) != std::string_view::npos;
+      });
+  return "awk '{sub(/\\r$/, \"\"); for (i = 1; i <= NF; ++i) if ($i == \"" +
+         (plain ? word : "WORD") + "\") $i = \"" + with + "\"} 1' IN > OUT";
+}
+
+Error NoNumber(const TextWord& word, const BodyRules& rules) {
+  std::string remedy;
+  if (word.text.find(',') != std::string::npos) {
+    remedy = "commas that part thousands must go (sed 's/,//g' IN > OUT)";
+  } else if (!rules.null_word.empty()) {
+    remedy = "a cell without data is " + QuotedWord(rules.null_word) +
+             " in this grid, as its header says";
+  } else if (!rules.nodata_number.empty()) {
+    remedy = "where it means no data, write the header's number for that: " +
+             Replacement(word.text, rules.nodata_number);
+  } else {
+    remedy =
+        "where it means no data, write a number that is no height for it and name that with "
+        "--nodata -9999: " +
+        Replacement(word.text, "-9999");
+  }
+  return BadGrid("the grid has " + QuotedWord(word.text) + " in " + PlaceOf(word) +
+                 ", where a number must stand; " + remedy);
+}
+
+}  // namespace
+
+Status CheckGridSize(const TextGrid& grid, std::int64_t max_cells) {
+  if (grid.columns * grid.rows <= max_cells) return Ok{};
+  return Error{ErrorCode::kResourceExhausted,
+               "the raster has " + std::to_string(grid.columns) + " x " +
+                   std::to_string(grid.rows) + " cells, the limit is " + std::to_string(max_cells) +
+                   "; cut it or make it coarser",
+               "raster-too-large"};
+}
+
+Status ReadBody(TextWords& words, TextWord first, const BodyRules& rules, TextGrid& grid) {
+  const std::int64_t wanted = grid.columns * grid.rows;
+  GridLines lines(grid.columns);
+  CommaRule commas;
+  grid.cells.Reserve(static_cast<std::size_t>(std::min(wanted, kReservedCells)));
+  TextWord word = std::move(first);
+  for (bool more = !word.text.empty(); more; more = words.Next(word)) {
+    std::optional<TextNumber> number = ParseNumber(word.text);
+    if (number) {
+      commas.Take(*number, word);
+    } else if (!rules.null_word.empty() && word.text == rules.null_word) {
+      number = TextNumber{.value = std::numeric_limits<double>::quiet_NaN()};
+    } else {
+      return NoNumber(word, rules);
+    }
+    lines.Take(word.line);
+    if (lines.cells() <= wanted) grid.cells.Add(number->value, number->whole);
+  }
+  if (Status judged = commas.Judge(); !judged) return judged;
+  return lines.Judge(grid.rows);
+}
+
+}  // namespace farhorizon
