@@ -157,6 +157,17 @@ std::string GlobeTransform::Name() const { return state_->way.name; }
 
 double GlobeTransform::FullTurn() const { return state_->way.full_turn; }
 
+std::optional<AreaOfUse> GlobeTransform::Area() const {
+  constexpr double kUnknown = -1000;  // PROJ's
+  AreaOfUse area;
+  if (proj_get_area_of_use(state_->session.get(), state_->way.crs.get(), &area.west, &area.south,
+                           &area.east, &area.north, nullptr) == 0 ||
+      area.west == kUnknown) {
+    return std::nullopt;
+  }
+  return area;
+}
+
 const Assumptions& GlobeTransform::assumptions() const { return state_->way.assumptions; }
 
 }  // namespace farhorizon

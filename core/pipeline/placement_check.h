@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/base/assumption.h"
 #include "core/base/result.h"
 #include "core/pipeline/georeference.h"
 #include "core/terrain/terrain.h"
@@ -18,7 +19,10 @@ inline constexpr double kMostDegreesFromMiddle = 20;
 /// Errors: kUnsupportedData: kind "too-large-extent"; kind "cells-too-narrow" where posts lie
 ///   closer to one another than positions can tell, as at a pole; kind "outside-crs" where posts
 ///   are beyond a pole or do not come back from the globe; each with a remedy.
+/// A DEM whose middle is far outside the area of use of its system is said in `assumptions`, and
+/// refused as "outside-crs" where its coordinates could be degrees.
 /// Cost: O(posts) for finding those with data, a few thousand points through PROJ.
-Status CheckPlacement(const Terrain& terrain, const Georeference& georeference);
+Status CheckPlacement(const Terrain& terrain, const Georeference& georeference,
+                      Assumptions& assumptions);
 
 }  // namespace farhorizon
