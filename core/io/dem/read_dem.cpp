@@ -79,8 +79,8 @@ Result<Dem> ReadOpened(OpenedDem opened) {
   Result<std::string> crs = ReadCrs(opened.dataset, opened.options.crs);
   if (!crs) return std::move(crs.error());
   dem.crs = *crs;
-  Result<ValueScale> scale = ReadValueScale(opened.dataset, opened.band.heights, opened.options,
-                                            opened.assumptions);
+  Result<ValueScale> scale = ReadValueScale(opened.dataset, opened.band.heights, opened.Tiff(),
+                                            opened.options, opened.assumptions);
   if (!scale) return std::move(scale.error());
 
   Result<std::vector<double>> values = ReadValues(opened, *tags);

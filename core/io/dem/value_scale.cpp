@@ -12,6 +12,7 @@
 #include "core/io/dem/height_unit.h"
 #include "core/io/dem/raster_place.h"
 #include "core/io/dem/read_dem.h"
+#include "core/io/dem/tiff_file.h"
 
 namespace farhorizon {
 
@@ -24,7 +25,33 @@ struct Systems {
   std::string call_flag;     // the option that names the call's
   bool names_datum = false;  // something says above what the heights are
   std::string map_unit;      // of the horizontal axes, where that is no metre
+  std::optional<HeightUnit> key;
 };
+
+// GDAL reads this key only where the file names no vertical system.
+std::optional<HeightUnit> UnitOfGeoKey(TiffFile* tiff) {
+  constexpr int kVerticalUnitsGeoKey = 4099;
+  const std::optional<int> code =
+      tiff != nullptr ? tiff->GeoKey(kVerticalUnitsGeoKey) : std::nullopt;
+  const char* name = nullptr;
+  switch (code.value_or(0)) {
+    case 9001:
+      name = "metre";
+      break;
+    case 9002:
+      name = "foot";
+      break;
+    case 9003:
+      name = "US survey foot";
+      break;
+    default:
+      return std::nullopt;
+  }
+  Result<HeightUnit> unit = ReadHeightUnit(name);
+  if (!unit) return std::nullopt;
+  unit->source = "the file's VerticalUnitsGeoKey";
+  return *std::move(unit);
+}
 
 Result<Systems> ReadSystems(GDALDatasetH dataset, const DemReadOptions& options) {
   Systems systems;
@@ -73,7 +100,7 @@ Result<HeightUnit> DecideUnit(GDALRasterBandH band, const DemReadOptions& option
   HeightUnitSources sources{.stated = {},
                             .band = {},
                             .call_system = UnitOf(systems.call, systems.call_flag),
-                            .file_key = {},
+                            .file_key = systems.key,
                             .file_system = UnitOf(systems.file, "the file"),
                             .map_unit = systems.map_unit};
   if (options.height_unit) {
@@ -118,8 +145,8 @@ void AssumeDatum(GDALDatasetH dataset, const Systems& systems, Assumptions& assu
 
 }  // namespace
 
-Result<ValueScale> ReadValueScale(void* dataset, void* band, const DemReadOptions& options,
-                                  Assumptions& assumptions) {
+Result<ValueScale> ReadValueScale(void* dataset, void* band, TiffFile* tiff,
+                                  const DemReadOptions& options, Assumptions& assumptions) {
   const double scale = GDALGetRasterScale(band, nullptr);
   const double offset = GDALGetRasterOffset(band, nullptr);
   if (!std::isfinite(scale) || scale == 0 || !std::isfinite(offset)) {
@@ -128,8 +155,9 @@ Result<ValueScale> ReadValueScale(void* dataset, void* band, const DemReadOption
                      std::to_string(offset) + ") is of no use; set them with gdal_edit",
                  "unsupported-type"};
   }
-  const Result<Systems> systems = ReadSystems(dataset, options);
-  if (!systems) return systems.error();
+  Result<Systems> systems = ReadSystems(dataset, options);
+  if (!systems) return std::move(systems.error());
+  systems->key = UnitOfGeoKey(tiff);
   Result<HeightUnit> unit = DecideUnit(band, options, *systems, assumptions);
   if (!unit) return std::move(unit.error());
   double metres = unit->metres;

@@ -6,6 +6,7 @@
 namespace farhorizon {
 
 struct DemReadOptions;
+class TiffFile;
 
 /// The bound on heights and on a band's raw values, exclusive: Dem's at a quantum of 1.
 inline constexpr double kMaxHeight = 1073741824;  // 2^30
@@ -18,7 +19,7 @@ struct ValueScale {
 };
 
 /// Reads scale, offset, unit and direction of the heights of `band` (a GDALRasterBandH) of
-/// `dataset` (a GDALDatasetH), which `options` states in part.
+/// `dataset` (a GDALDatasetH), which `options` states in part. tiff: nullptr for other formats.
 ///
 /// The unit is that of DecideHeightUnit. Values count downwards where the file's vertical system
 /// does, whatever --vertical-datum says, or where that of the call does; a system of --crs that has
@@ -26,7 +27,7 @@ struct ValueScale {
 /// they were turned; "vertical-datum", where nothing names one.
 /// Errors: kUnsupportedData, kind "unknown-unit"; kind "unsupported-type" where scale or offset is
 ///   of no use; those of ReadCrsUnits and ReadHeightSystem for what the call states.
-Result<ValueScale> ReadValueScale(void* dataset, void* band, const DemReadOptions& options,
-                                  Assumptions& assumptions);
+Result<ValueScale> ReadValueScale(void* dataset, void* band, TiffFile* tiff,
+                                  const DemReadOptions& options, Assumptions& assumptions);
 
 }  // namespace farhorizon
