@@ -12,6 +12,7 @@
 #include "core/io/dem/band_values.h"
 #include "core/io/dem/height_unit.h"
 #include "core/io/dem/read_dem.h"
+#include "core/io/dem/tiff_file.h"
 
 namespace farhorizon {
 
@@ -24,7 +25,33 @@ struct Systems {
   std::string call_flag;     // the option that names the call's
   bool names_datum = false;  // something says above what the heights are
   std::string map_unit;      // of the horizontal axes, where that is no metre
+  std::optional<HeightUnit> key;
 };
+
+// GDAL reads this key only where the file names no vertical system.
+std::optional<HeightUnit> UnitOfGeoKey(TiffFile* tiff) {
+  constexpr int kVerticalUnitsGeoKey = 4099;
+  const std::optional<int> code =
+      tiff != nullptr ? tiff->GeoKey(kVerticalUnitsGeoKey) : std::nullopt;
+  const char* name = nullptr;
+  switch (code.value_or(0)) {
+    case 9001:
+      name = "metre";
+      break;
+    case 9002:
+      name = "foot";
+      break;
+    case 9003:
+      name = "US survey foot";
+      break;
+    default:
+      return std::nullopt;
+  }
+  Result<HeightUnit> unit = ReadHeightUnit(name);
+  if (!unit) return std::nullopt;
+  unit->source = "the file's VerticalUnitsGeoKey";
+  return *std::move(unit);
+}
 
 Result<Systems> ReadSystems(const std::optional<std::string>& file_crs,
                             const DemReadOptions& options) {
@@ -71,7 +98,10 @@ std::optional<HeightUnit> UnitOf(const std::optional<HeightSystem>& system,
 // GDAL makes the band's unit of the vertical system's where the band has none of its own.
 Result<HeightUnit> DecideUnit(GDALRasterBandH band, const DemReadOptions& options,
                               const Systems& systems, Assumptions& assumptions) {
-  HeightUnitSources sources{.call_system = UnitOf(systems.call, systems.call_flag),
+  HeightUnitSources sources{.stated = {},
+                            .band = {},
+                            .call_system = UnitOf(systems.call, systems.call_flag),
+                            .file_key = systems.key,
                             .file_system = UnitOf(systems.file, "the file"),
                             .map_unit = systems.map_unit};
   if (options.height_unit) {
@@ -126,8 +156,9 @@ Result<ValueScale> ReadValueScale(OpenedDem& dem, const std::optional<std::strin
                      std::to_string(offset) + ") is of no use; set them with gdal_edit",
                  "unsupported-type"};
   }
-  const Result<Systems> systems = ReadSystems(file_crs, dem.options);
-  if (!systems) return systems.error();
+  Result<Systems> systems = ReadSystems(file_crs, dem.options);
+  if (!systems) return std::move(systems.error());
+  systems->key = UnitOfGeoKey(dem.Tiff());
   Result<HeightUnit> unit = DecideUnit(band, dem.options, *systems, dem.assumptions);
   if (!unit) return std::move(unit.error());
   double metres = unit->metres;
