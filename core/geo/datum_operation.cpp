@@ -3,8 +3,6 @@
 #include "core/geo/datum_operation.h"
 
 #include <algorithm>
-#include <cctype>
-#include <cmath>
 #include <cstdio>
 #include <iterator>
 #include <memory>
@@ -19,7 +17,6 @@ namespace farhorizon {
 namespace {
 
 using ListPtr = std::unique_ptr<PJ_OBJ_LIST, void (*)(PJ_OBJ_LIST*)>;
-constexpr double kWorldTolerance = 1e-6;  // degrees: EPSG's boxes of the world are exact
 
 // The names and codes of inverses are those of the operations themselves:
 // "Inverse of WGS 84 to EGM96 height (1)", "INVERSE(DERIVED_FROM(EPSG)):1149".
@@ -110,25 +107,11 @@ DatumOperation Read(const ProjSession& session, ProjObject way) {
   const double accuracy = proj_coordoperation_get_accuracy(session.get(), whole);
   if (accuracy >= 0) operation.accuracy_m = accuracy;
   AddGrids(session, operation);
-  const char* area = nullptr;
-  proj_get_area_of_use(session.get(), whole, &operation.west, &operation.south, &operation.east,
-                       &operation.north, &area);
-  if (area != nullptr) operation.area = area;
+  operation.area = AreaOfUseOf(session, whole).value_or(AreaOfUse());
   return operation;
 }
 
 }  // namespace
-
-bool DatumOperation::HoldsAt(double lon_deg, double lat_deg) const {
-  const bool between =
-      west <= east ? lon_deg >= west && lon_deg <= east : lon_deg >= west || lon_deg <= east;
-  return between && lat_deg >= south && lat_deg <= north;
-}
-
-bool DatumOperation::HoldsEverywhere() const {
-  return west <= -180 + kWorldTolerance && east >= 180 - kWorldTolerance &&
-         south <= -90 + kWorldTolerance && north >= 90 - kWorldTolerance;
-}
 
 std::string DatumOperation::Described() const {
   char accuracy[40] = "accuracy unknown";
@@ -153,15 +136,10 @@ std::vector<DatumOperation> ListDatumOperations(const ProjSession& session, cons
                                                        PROJ_SPATIAL_CRITERION_PARTIAL_INTERSECTION);
   proj_operation_factory_context_set_grid_availability_use(session.get(), factory.get(),
                                                            PROJ_GRID_AVAILABILITY_USED_FOR_SORTING);
-  // A system that came without its code has no area of use of its own.
-  double west = 0, south = 0, east = 0, north = 0;
-  if (proj_get_area_of_use(session.get(), source, &west, &south, &east, &north, nullptr) == 0) {
-    const ProjObject known = Identified(session, source);
-    if (known && proj_get_area_of_use(session.get(), known.get(), &west, &south, &east, &north,
-                                      nullptr) != 0) {
-      proj_operation_factory_context_set_area_of_interest(session.get(), factory.get(), west, south,
-                                                          east, north);
-    }
+  // PROJ does not know the area of a system that came without its code.
+  if (const std::optional<AreaOfUse> area = AreaOfUseOf(session, source)) {
+    proj_operation_factory_context_set_area_of_interest(session.get(), factory.get(), area->west,
+                                                        area->south, area->east, area->north);
   }
   const ListPtr ways(proj_create_operations(session.get(), source, globe, factory.get()),
                      proj_list_destroy);
@@ -181,14 +159,6 @@ std::string OperationName(const ProjSession& session, const std::string& code) {
                                                    PJ_CATEGORY_COORDINATE_OPERATION, 0, nullptr));
   const char* name = found ? proj_get_name(found.get()) : nullptr;
   return name != nullptr ? name : "";
-}
-
-bool IsOfTheWorld(const ProjSession& session, const PJ* crs) {
-  DatumOperation box;
-  const ProjObject known = CodeOf(crs).empty() ? Identified(session, crs) : nullptr;
-  return proj_get_area_of_use(session.get(), known ? known.get() : crs, &box.west, &box.south,
-                              &box.east, &box.north, nullptr) != 0 &&
-         box.HoldsEverywhere();
 }
 
 }  // namespace farhorizon

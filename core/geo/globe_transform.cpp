@@ -9,9 +9,30 @@
 
 #include <proj.h>
 
+#include "core/geo/datum_assumption.h"
 #include "core/geo/globe_way.h"
 
 namespace farhorizon {
+
+namespace {
+
+// Surveys go on a little beyond the area of their system: UTM zones are used by the next one's
+// neighbours. A place further off than half the area's size is one of another system.
+constexpr double kBeyondArea = 0.5;
+
+void AssumeSystem(GlobeWay& way, const std::optional<Geodetic>& middle) {
+  if (!middle || !way.area) return;
+  if (way.area->Widened(kBeyondArea).Contains(middle->lon_deg, middle->lat_deg)) return;
+  char place[80];
+  std::snprintf(place, sizeof place, "longitude %.4f, latitude %.4f", middle->lon_deg,
+                middle->lat_deg);
+  way.assumptions.push_back(
+      {"outside-area", "the DEM's middle is taken to lie at " + std::string(place) + ", far from " +
+                           way.area->ShortName() + ", where " + way.name +
+                           " is used; if it does not, name the right system with --crs"});
+}
+
+}  // namespace
 
 struct GlobeTransform::State {
   ProjSession session;
@@ -51,6 +72,7 @@ Result<GlobeTransform> GlobeTransform::Open(const std::string& crs, const GlobeO
     transform.state_->about_x = options.about->x;
   }
   GlobeWay& found = transform.state_->way;
+  AssumeSystem(found, middle);
   if (std::optional<Assumption> open =
           DatumAssumption(found.choice, found.name, middle, !options.datum_operation.empty())) {
     found.assumptions.push_back(*std::move(open));

@@ -103,6 +103,7 @@ Result<GlobeWay> FindGlobeWay(ProjSession& session, const std::string& crs,
   if (!read) return std::move(read.error());
   GlobeWay way{.crs = *std::move(read)};
   way.name = NameOf(session, way.crs.get());
+  way.area = AreaOfUseOf(session, plan.get());
   way.full_turn = FullTurn(session, plan.get());
   way.height_axis = HeightAxisOf(session, way.crs.get());
   // A system without heights says nothing of them, whatever its datum: heights stay as they are.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdio>
 #include <memory>
 #include <utility>
 
@@ -18,6 +19,12 @@ namespace {
 std::string Lower(std::string text) {
   std::ranges::transform(text, text.begin(),
                          [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+std::string Metres(double metres) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.9g m", metres);
   return text;
 }
 
@@ -47,7 +54,7 @@ Result<CrsUnits> ReadCrsUnits(const std::string& crs) {
   double factor = 1;
   if (system && proj_cs_get_axis_info(session.get(), system.get(), 0, nullptr, nullptr, nullptr,
                                       &factor, &unit, nullptr, nullptr) != 0) {
-    if (unit != nullptr) units.map_unit = unit;
+    units.map_unit = unit != nullptr && !IsUnnamed(unit) ? unit : Metres(factor);
     if (proj_get_type(plan.get()) == PJ_TYPE_PROJECTED_CRS) units.map_unit_m = factor;
   }
   return units;

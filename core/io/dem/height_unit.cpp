@@ -144,13 +144,17 @@ HeightUnit DecideHeightUnit(const HeightUnitSources& sources, Assumptions& assum
       if (decided == nullptr && *said && IsMetre(**said) == metre) decided = &**said;
     }
   }
-  if (decided == nullptr) {
+  // A datum that the call names in metres over a file that says nothing: is it the unit, too?
+  const bool weak = decided != nullptr &&
+                    decided == (sources.call_system ? &*sources.call_system : nullptr) &&
+                    IsMetre(*decided) && !sources.map_unit.empty() && !sources.file_system;
+  if (decided == nullptr || weak) {
+    const std::string why =
+        weak ? "as " + decided->source + " says" : "for nothing says their unit";
     const std::string map = sources.map_unit.empty()
                                 ? ""
                                 : ", though the map is in the unit \"" + sources.map_unit + "\"";
-    assumptions.push_back(
-        {"height-unit",
-         "heights are taken as metres, for nothing says their unit" + map + kRemedy});
+    assumptions.push_back({"height-unit", "heights are taken as metres, " + why + map + kRemedy});
     return HeightUnit{.name = std::string(kMetreName)};
   }
   std::string otherwise;
