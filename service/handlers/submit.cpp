@@ -132,14 +132,8 @@ Result<Job> SubmitExchange::Submit() const {
   Result<Submission> submission = ReadSubmission();
   if (!submission) return std::move(submission.error());
   const SpoolFile& spool = body_.spool();
-  if (!LooksLikeRaster(spool.beginning(), spool.bytes(), submission->filename)) {
-    return Error{ErrorCode::kUnsupportedData,
-                 spool.bytes() == 0
-                     ? "the DEM has no bytes"
-                     : "the DEM is of no format that is read: GeoTIFF, Arc/Info ASCII Grid, SRTM "
-                       "HGT (with its name, as ?filename=N46E007.hgt), DTED, USGS DEM",
-                 "not-a-raster"};
-  }
+  Status upload = CheckUpload(spool.beginning(), spool.bytes(), submission->filename);
+  if (!upload) return std::move(upload.error());
   Result<Assumptions> assumptions = context_.jobs.Probe(spool, *submission);
   if (!assumptions) return std::move(assumptions.error());
   submission->assumptions = *std::move(assumptions);

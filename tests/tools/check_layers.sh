@@ -32,7 +32,8 @@ declare -A may=(
   # What a file is by its first bytes, and grids of text: neither knows GDAL.
   [core/io/file_kind]="core/base core/io/text_grid"
   [core/io/text_grid]="core/base"
-  [core/io/dem]="core/base core/geometry core/terrain core/geo core/io core/io/file_kind core/io/text_grid"
+  [core/io/raster]="core/base core/io core/io/file_kind core/io/text_grid"
+  [core/io/dem]="core/base core/geometry core/terrain core/geo core/io core/io/text_grid core/io/raster"
   [core/pipeline]="$below_pipeline"
   [core/pipeline/verify]="$below_pipeline core/pipeline"
   # The service's own root: clock, log, and the wrapper header of Asio. main.cpp is below.
@@ -51,7 +52,7 @@ declare -A may=(
 # The first row that matches decides; a header with a dot or a slash that is in no row is an offence,
 # so that a new dependency has to be entered here.
 foreign=(
-  '(gdal|ogr|cpl_|vrt) @ ^core/io/(dem/)?[^/]+\.cpp$ ^service/jobs/[a-z_0-9]*object_store\.cpp$'
+  '(gdal|ogr|cpl_|vrt) @ ^core/io/(dem/|raster/)?[^/]+\.cpp$ ^service/jobs/[a-z_0-9]*object_store\.cpp$'
   'draco/ @ ^core/io/[^/]+\.cpp$'
   'proj(_[a-z]+)?(\.h$|/) @ ^core/geo/[^/]+\.cpp$'
   'boost/multiprecision/ @ ^core/exact/'

@@ -14,7 +14,10 @@ namespace {
 
 using namespace std::string_view_literals;
 
-constexpr char kReadFormats[] = "GeoTIFF, Arc/Info ASCII grid, SRTM HGT, DTED, USGS DEM or ENVI";
+constexpr char kReadFormats[] =
+    "GeoTIFF, SRTM HGT (by its name, such as N46E007.hgt, zipped, too), DTED, USGS DEM, Erdas "
+    "Imagine, Arc/Info or GRASS ASCII grid, Surfer grid, a list of x, y and height on a grid, or "
+    "numbers with the .hdr of ENVI or Esri beside";
 
 bool IsTiff(std::string_view bytes) {
   return bytes.starts_with("II\x2a\x00"sv) || bytes.starts_with("MM\x00\x2a"sv) ||
@@ -91,10 +94,10 @@ bool IsTextGrid(FileKind kind) {
 }
 
 Error UnreadFile(const FileFacts& file, const std::string& subject, const std::string& complaint) {
-  if (HasEnding(file.filename, ".hgt")) {
+  const UnreadFormat* format = FindUnreadFormat(file.beginning, file.bytes, file.filename);
+  if (HasEnding(file.filename, ".hgt") || (format == nullptr && IsHgtSize(file.bytes))) {
     if (std::optional<Error> fault = HgtFault(file.filename, file.bytes)) return *fault;
   }
-  const UnreadFormat* format = FindUnreadFormat(file.beginning, file.bytes, file.filename);
   const std::string what =
       format != nullptr
           ? " is " + std::string(format->name) + complaint + "; " + std::string(format->remedy)

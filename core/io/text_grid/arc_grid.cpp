@@ -4,8 +4,8 @@
 // or floats from the first cell with a point, a comma or an exponent on.
 #include "core/io/text_grid/arc_grid.h"
 
+#include <array>
 #include <cctype>
-#include <cmath>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -14,6 +14,7 @@
 
 #include "core/io/text_grid/body_cells.h"
 #include "core/io/text_grid/grid_header.h"
+#include "core/io/text_grid/grid_place.h"
 
 namespace farhorizon {
 
@@ -23,76 +24,8 @@ const std::vector<std::string_view> kKeys = {"ncols",     "nrows",        "xllco
                                              "yllcorner", "yllcenter",    "cellsize",  "dx",
                                              "dy",        "nodata_value", "nodata"};
 
-// Two statements of one length agree within a millionth of a cell: writers round them.
-bool Agree(double a, double b, double cell) { return std::abs(a - b) <= 1e-6 * cell; }
-
-Result<double> CellSize(const GridHeader& header, const std::string& axis) {
-  const std::string own = "d" + axis;
-  if (!header.Has("cellsize") && !header.Has(own)) {
-    return BadGrid("the grid's header has no cellsize (or dx and dy); it is missing, or misspelt");
-  }
-  const std::string key = header.Has(own) ? own : "cellsize";
-  Result<double> size = header.Number(key);
-  if (!size) return std::move(size.error());
-  if (*size <= 0) {
-    return BadGrid("the grid's header has " + QuotedWord(header.Find(key)->text) + " for " + key +
-                   " in line " + std::to_string(header.Find(key)->line) +
-                   "; cells must be larger than 0");
-  }
-  if (key == own && header.Has("cellsize")) {
-    Result<double> common = header.Number("cellsize");
-    if (!common) return std::move(common.error());
-    if (!Agree(*common, *size, *size)) {
-      return BadGrid("the grid's header says cellsize " + header.Find("cellsize")->text + " and " +
-                     own + " " + header.Find(own)->text + "; leave the true one");
-    }
-  }
-  return size;
-}
-
-// The western or southern edge of the grid.
-Result<double> Edge(const GridHeader& header, const std::string& axis, double cell) {
-  const std::string corner = axis + "llcorner";
-  const std::string center = axis + "llcenter";
-  if (!header.Has(corner) && !header.Has(center)) {
-    return BadGrid("the grid's header has no " + corner + " (or " + center +
-                   "); it is missing, or misspelt, and without it the place is not known");
-  }
-  std::optional<double> edge;
-  if (header.Has(corner)) {
-    Result<double> number = header.Number(corner);
-    if (!number) return std::move(number.error());
-    edge = *number;
-  }
-  if (header.Has(center)) {
-    Result<double> number = header.Number(center);
-    if (!number) return std::move(number.error());
-    if (edge && !Agree(*edge, *number - cell / 2, cell)) {
-      return BadGrid("the grid's header says " + corner + " " + header.Find(corner)->text +
-                     " and " + center + " " + header.Find(center)->text +
-                     ", which are not half a cell apart; leave the true one");
-    }
-    if (!edge) edge = *number - cell / 2;
-  }
-  return *edge;
-}
-
 const char* NoDataKey(const GridHeader& header) {
   return header.Has("nodata_value") ? "nodata_value" : "nodata";
-}
-
-Status ReadPlace(const GridHeader& header, TextGrid& grid) {
-  Result<double> width = CellSize(header, "x");
-  if (!width) return std::move(width.error());
-  Result<double> height = CellSize(header, "y");
-  if (!height) return std::move(height.error());
-  Result<double> west = Edge(header, "x", *width);
-  if (!west) return std::move(west.error());
-  Result<double> south = Edge(header, "y", *height);
-  if (!south) return std::move(south.error());
-  const double north = *south + static_cast<double>(grid.rows) * *height;
-  grid.geotransform = {*west, *width, 0, north, 0, -*height};
-  return Ok{};
 }
 
 }  // namespace
@@ -116,7 +49,9 @@ Result<TextGrid> ReadArcGrid(const std::filesystem::path& path, std::int64_t max
   Result<std::int64_t> rows = header->Count("nrows");
   if (!rows) return std::move(rows.error());
   TextGrid grid{.columns = *columns, .rows = *rows};
-  if (Status placed = ReadPlace(*header, grid); !placed) return std::move(placed.error());
+  Result<std::array<double, 6>> place = LowerLeftPlace(*header, *rows);
+  if (!place) return std::move(place.error());
+  grid.geotransform = *place;
   if (Status fits = CheckGridSize(grid, max_cells); !fits) return std::move(fits.error());
   BodyRules rules;
   if (nodata != nullptr) {

@@ -35,6 +35,29 @@ Error BadGrid(const std::string& what) {
   return {ErrorCode::kUnsupportedData, what, "not-a-raster"};
 }
 
+Status GridHeader::Add(const std::string& key, const TextWord& value) {
+  const auto [known, fresh] = values_.emplace(key, value);
+  if (fresh || SameValue(known->second.text, value.text)) return Ok{};
+  return BadGrid("the grid's header says " + key + " twice: " + QuotedWord(known->second.text) +
+                 " in line " + std::to_string(known->second.line) + " and " +
+                 QuotedWord(value.text) + " in line " + std::to_string(value.line) +
+                 "; leave the true one");
+}
+
+Result<GridHeader> GridHeader::ReadLines(TextWords& words) {
+  GridHeader header;
+  TextWord word;
+  TextWord key;
+  int in_line = 0;
+  while (words.Next(word)) {
+    in_line = word.line == key.line ? in_line + 1 : 0;
+    if (in_line == 0) key = word;
+    if (in_line != 1) continue;
+    if (Status added = header.Add(Lower(key.text), word); !added) return std::move(added.error());
+  }
+  return header;
+}
+
 Result<GridHeader> GridHeader::Read(TextWords& words, const std::vector<std::string_view>& keys) {
   GridHeader header;
   TextWord word;
@@ -49,13 +72,7 @@ Result<GridHeader> GridHeader::Read(TextWords& words, const std::vector<std::str
       return BadGrid("the grid's header has no value for " + key + " in line " +
                      std::to_string(word.line) + "; write it there, or make the file again");
     }
-    const auto [known, fresh] = header.values_.emplace(key, value);
-    if (!fresh && !SameValue(known->second.text, value.text)) {
-      return BadGrid("the grid's header says " + key + " twice: " + QuotedWord(known->second.text) +
-                     " in line " + std::to_string(known->second.line) + " and " +
-                     QuotedWord(value.text) + " in line " + std::to_string(value.line) +
-                     "; leave the true one");
-    }
+    if (Status added = header.Add(key, value); !added) return std::move(added.error());
   }
   return header;
 }

@@ -25,6 +25,10 @@ class GridHeader {
   /// Errors: kUnsupportedData "not-a-raster" for a key without a value, or with two that differ.
   static Result<GridHeader> Read(TextWords& words, const std::vector<std::string_view>& keys);
 
+  /// Reads a file that is all header: a key and a value on each line, whatever the keys, and
+  /// whatever follows on a line. Lines of one word are passed over.
+  static Result<GridHeader> ReadLines(TextWords& words);
+
   [[nodiscard]] const TextWord& body() const { return body_; }
   [[nodiscard]] bool Has(const std::string& key) const { return values_.contains(key); }
   /// The value of `key` as it is written, or nullptr.
@@ -38,6 +42,8 @@ class GridHeader {
   [[nodiscard]] Result<std::int64_t> Count(const std::string& key) const;
 
  private:
+  Status Add(const std::string& key, const TextWord& value);
+
   std::map<std::string, TextWord> values_;
   TextWord body_;
 };

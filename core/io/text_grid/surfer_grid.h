@@ -9,7 +9,7 @@
 namespace farhorizon {
 
 /// Reads a text grid of Golden Software's Surfer 6 ("DSAA"): columns and rows, the first and the
-/// last x, y and height, then the cells, row by row from the south. Cells of 1.70141e38 are no data.
+/// last x, y and height, then the cells, row by row from the south. 1.70141e38 is no data.
 /// Errors and cost: as ReadArcGrid.
 Result<TextGrid> ReadSurferGrid(const std::filesystem::path& path, std::int64_t max_cells);
 

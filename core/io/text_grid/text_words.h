@@ -33,7 +33,7 @@ class TextWords {
 
   /// Makes white space of `separator`, too.
   void SeparateAt(char separator) { separator_ = separator; }
-  /// What of the file lies ahead in the buffer: all of its beginning, before the first word is read.
+  /// What of the file lies ahead in the buffer; before the first word: its beginning.
   [[nodiscard]] std::string_view Ahead() const {
     return std::string_view(buffer_.data(), filled_).substr(at_);
   }

@@ -1,6 +1,6 @@
 // The first pass finds the extent and the spacing, the second puts each height into its cell.
-// Spacing: the mean of the steps that are about as long as the shortest, since rounding makes single
-// steps too short or too long; then the extent is divided into whole cells.
+// Spacing: the mean of the steps that are about as long as the shortest, since rounding makes
+// single steps too short or too long; then the extent is divided into whole cells.
 #include "core/io/text_grid/xyz_list.h"
 
 #include <algorithm>

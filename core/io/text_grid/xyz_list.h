@@ -15,7 +15,7 @@ struct XyzGrid {
   bool order_is_stated = false;  ///< a first line names the columns
 };
 
-/// Whether `beginning`, the first bytes of a file, are lines of three numbers, after a line of three
+/// Whether `beginning`, the first bytes of a file, are lines of three numbers, after one of three
 /// words at most. Blanks, commas or semicolons part them.
 bool LooksLikeXyz(std::string_view beginning);
 

@@ -4,8 +4,8 @@
 #include <filesystem>
 
 #include "core/base/result.h"
-#include "core/io/dem/open_raster.h"
 #include "core/io/file_kind/file_kind.h"
+#include "core/io/raster/open_raster.h"
 
 namespace farhorizon {
 

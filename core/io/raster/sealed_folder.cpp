@@ -1,7 +1,7 @@
-// A file system of GDAL's ("/vsisealed/") whose files are those of a list. GDAL joins names found in
-// a raster to the raster's folder and asks the file system for them; what is not listed, word for
-// word, does not exist.
-#include "core/io/dem/sealed_folder.h"
+// A file system of GDAL's ("/vsisealed/") whose files are those of a list. GDAL joins names found
+// in a raster to the raster's folder and asks the file system for them; what is not listed, word
+// for word, does not exist.
+#include "core/io/raster/sealed_folder.h"
 
 #include <cstdint>
 #include <cstdio>
@@ -84,14 +84,14 @@ void Install() {
 
 }  // namespace
 
-SealedFolder::SealedFolder(const std::vector<std::filesystem::path>& files) {
+SealedFolder::SealedFolder(const std::vector<Member>& members) {
   Install();
   Listing& listing = TheListing();
   const std::lock_guard lock(listing.mutex);
   prefix_ = std::to_string(++listing.folders) + "/";
-  for (const std::filesystem::path& file : files) {
-    names_.push_back(prefix_ + file.filename().string());
-    listing.files.insert_or_assign(names_.back(), std::filesystem::absolute(file));
+  for (const Member& member : members) {
+    names_.push_back(prefix_ + member.name);
+    listing.files.insert_or_assign(names_.back(), std::filesystem::absolute(member.path));
   }
 }
 
@@ -101,8 +101,6 @@ SealedFolder::~SealedFolder() {
   for (const std::string& name : names_) listing.files.erase(name);
 }
 
-std::string SealedFolder::NameOf(const std::filesystem::path& file) const {
-  return kPrefix + prefix_ + file.filename().string();
-}
+std::string SealedFolder::PathOf(const std::string& name) const { return kPrefix + prefix_ + name; }
 
 }  // namespace farhorizon

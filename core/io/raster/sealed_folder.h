@@ -13,14 +13,18 @@ namespace farhorizon {
 /// has by then stay good.
 class SealedFolder {
  public:
-  /// files: all of one folder, under different names.
-  explicit SealedFolder(const std::vector<std::filesystem::path>& files);
+  /// A file and the name that it has for GDAL.
+  struct Member {
+    std::string name;
+    std::filesystem::path path;
+  };
+  explicit SealedFolder(const std::vector<Member>& members);
   ~SealedFolder();
   SealedFolder(const SealedFolder&) = delete;
   SealedFolder& operator=(const SealedFolder&) = delete;
 
-  /// The name of `file` for GDAL.
-  [[nodiscard]] std::string NameOf(const std::filesystem::path& file) const;
+  /// The path of the member `name` for GDAL.
+  [[nodiscard]] std::string PathOf(const std::string& name) const;
 
  private:
   std::string prefix_;  ///< with the number of this folder

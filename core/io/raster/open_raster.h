@@ -2,20 +2,13 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <memory>
 
 #include "core/base/assumption.h"
 #include "core/base/result.h"
 #include "core/io/gdal_session.h"
+#include "core/io/raster/driver_open.h"
 
 namespace farhorizon {
-
-/// Closes a GDALDatasetH.
-struct CloseRaster {
-  void operator()(void* dataset) const;
-};
-/// A GDALDatasetH, closed with its owner.
-using RasterPtr = std::unique_ptr<void, CloseRaster>;
 
 /// A raster, and what was decided to open it.
 struct OpenedRaster {
@@ -25,9 +18,9 @@ struct OpenedRaster {
 
 /// Opens the raster at `path` in the way that its first bytes, or its name, call for: GeoTIFF,
 /// DTED, USGS DEM and SRTM HGT by GDAL's driver; Erdas Imagine, Surfer's binary grids and zipped
-/// HGT by the driver in a SealedFolder; ENVI and Esri's rasters (.bil, .bip, .bsq, .flt) there, too,
-/// with the .hdr beside, and Esri's .prj; text grids (Arc/Info, GRASS, Surfer, lists of points) in
-/// memory, with at most `max_cells` cells, and the .prj beside an Arc/Info grid.
+/// HGT by the driver in a SealedFolder; ENVI and Esri's rasters (.bil, .bip, .bsq, .flt) there,
+/// too, with the .hdr beside, and Esri's .prj; text grids (Arc/Info, GRASS, Surfer, lists of
+/// points) in memory, with at most `max_cells` cells, and the .prj beside an Arc/Info grid.
 ///
 /// No other file is opened: names inside a file are never followed.
 /// Errors: kNotFound; kInvalidArgument "virtual-path"; kUnsupportedData "not-a-raster", which names

@@ -1,6 +1,6 @@
 // Hands grids that core/io/text_grid reads to the rest of the reader as datasets of GDAL's driver
 // for memory, so that text goes the way of all other formats from there.
-#include "core/io/dem/text_raster.h"
+#include "core/io/raster/text_raster.h"
 
 #include <array>
 #include <string>
