@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <proj.h>
+#include <proj_experimental.h>  // demotion to 2-D; GDAL builds on it too
 
 namespace farhorizon {
 
@@ -19,8 +20,15 @@ constexpr int kCandidate = 70;
 std::string NameOfPart(const ProjSession& session, const PJ* crs) {
   if (std::string code = CodeOf(crs); !code.empty()) return code;
   if (const ProjObject known = Identified(session, crs)) return CodeOf(known.get());
+  // A map with heights above the ellipsoid has the name of the map.
+  const ProjObject plan(proj_crs_demote_to_2D(session.get(), nullptr, crs));
+  if (plan && !CodeOf(plan.get()).empty()) return CodeOf(plan.get());
+  if (const ProjObject known = plan ? Identified(session, plan.get()) : nullptr) {
+    return CodeOf(known.get());
+  }
   const char* name = proj_get_name(crs);
   if (name != nullptr && !IsUnnamed(name)) return name;
+  if (proj_get_type(crs) == PJ_TYPE_VERTICAL_CRS) return DatumName(session, crs);
   const char* text = proj_as_proj_string(session.get(), crs, PJ_PROJ_5, nullptr);
   if (text == nullptr || *text == '\0') return name != nullptr ? name : "";
   std::string shown = text;

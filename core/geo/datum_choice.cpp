@@ -23,19 +23,12 @@ std::string Lower(std::string text) {
   return text;
 }
 
-// The names by which `operation` may be stated, in lower case: its own, its code, and those of its
-// transformations. PROJ joins the names of some with " + ".
+// The names by which `operation` may be stated, in lower case: its own, and the codes and names of
+// its transformations.
 std::vector<std::string> NamesOf(const DatumOperation& operation) {
-  std::vector<std::string> names = operation.codes;
+  std::vector<std::string> names = operation.names;
+  names.insert(names.end(), operation.codes.begin(), operation.codes.end());
   names.push_back(operation.Stated());
-  for (const std::string& joined : operation.names) {
-    names.push_back(joined);
-    for (std::size_t from = 0; from < joined.size();) {
-      const std::size_t plus = std::min(joined.find(" + ", from), joined.size());
-      names.push_back(joined.substr(from, plus - from));
-      from = plus + 3;
-    }
-  }
   for (std::string& name : names) name = Lower(name);
   return names;
 }

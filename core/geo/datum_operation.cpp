@@ -3,9 +3,11 @@
 #include "core/geo/datum_operation.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <iterator>
 #include <memory>
+#include <string_view>
 #include <utility>
 
 #include <proj.h>
@@ -45,19 +47,29 @@ std::string Joined(const std::vector<std::string>& parts) {
   return all;
 }
 
-// Conversions are exact, and so are the steps that PROJ puts between two forms of one datum.
-bool IsExact(const PJ* step, const std::string& name) {
-  return proj_get_type(step) == PJ_TYPE_CONVERSION || name.starts_with("Null geographic offset") ||
-         name.starts_with("axis order change") || name.starts_with("WGS 84 to WGS 84");
+// Exact are conversions, and what PROJ puts between two forms of one datum.
+bool IsExact(const std::string& name) {
+  constexpr std::array<std::string_view, 4> kExact = {"Null geographic offset", "axis order change",
+                                                      "Conversion from ", "WGS 84 to WGS 84"};
+  return std::ranges::any_of(kExact, [&](std::string_view e) { return name.starts_with(e); });
 }
 
+// PROJ joins several transformations to one where they go by one pipeline, and their names.
 void AddStep(const PJ* step, DatumOperation& operation) {
+  if (proj_get_type(step) == PJ_TYPE_CONVERSION) return;
+  constexpr std::string_view kJoint = " + ";
   const char* text = proj_get_name(step);
-  const std::string name = Forward(text != nullptr ? text : "");
-  if (IsExact(step, name)) return;
-  if (name.find("ballpark vertical") != std::string::npos) operation.ballpark_heights = true;
-  operation.names.push_back(name);
-  operation.codes.push_back(PlainCode(step));
+  const std::string joined = Forward(text != nullptr ? text : "");
+  const std::string code = joined.find(kJoint) == std::string::npos ? PlainCode(step) : "";
+  for (std::size_t from = 0; from < joined.size();) {
+    const std::size_t end = std::min(joined.find(kJoint, from), joined.size());
+    const std::string name = joined.substr(from, end - from);
+    from = end + kJoint.size();
+    if (IsExact(name)) continue;
+    if (name.find("ballpark vertical") != std::string::npos) operation.ballpark_heights = true;
+    operation.names.push_back(name);
+    operation.codes.push_back(code);
+  }
 }
 
 // The steps of `way`, in their order: an inverse of a concatenated operation is a step of its own.

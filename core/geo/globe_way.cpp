@@ -40,7 +40,8 @@ Result<ProjObject> WithStatedHeights(ProjSession& session, ProjObject crs,
     const std::optional<HeightAxis> axis = HeightAxisOf(session, crs.get());
     if (!axis) return crs;
     if (!NamesHeightDatum(session, crs.get())) return WithoutHeights(session, std::move(crs));
-    if (axis->unit_m == 1 || HeightsOf(session, crs.get())) return crs;
+    const bool vertical = HeightsOf(session, crs.get()) != nullptr;
+    if (vertical ? !IsAboveEllipsoid(session, crs.get()) : axis->unit_m == 1) return crs;
     return WithEllipsoidalHeights(session, std::move(crs));
   }
   if (IsEllipsoid(vertical_datum)) return WithoutHeights(session, std::move(crs));
@@ -64,8 +65,7 @@ Error NoWay(const ProjSession& session, const GlobeWay& way, const PJ* globe) {
       way.height_axis ? std::string(": PROJ knows no more than the name of its vertical datum; ") +
                             kHeightRemedy
                       : "; give another system with --crs";
-  return Unusable("there is no way from " + way.name + " to the globe" + session.Complaint() + why,
-                  "unknown-crs");
+  return Unusable("there is no way from " + way.name + " to the globe" + why, "unknown-crs");
 }
 
 // Puts EGM96 height in the place of the heights of `way`, which are above some mean sea level.

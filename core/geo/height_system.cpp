@@ -68,16 +68,18 @@ Result<std::optional<HeightSystem>> ReadHeightSystem(const std::string& vertical
   return Described(session, heights->get());
 }
 
-std::optional<double> ListedLengthUnit(const std::string& name) {
+std::optional<LengthUnit> ListedLengthUnit(const std::string& name_or_code) {
   const ProjSession session;
   int count = 0;
   const std::unique_ptr<PROJ_UNIT_INFO*, void (*)(PROJ_UNIT_INFO**)> units(
       proj_get_units_from_database(session.get(), "EPSG", "linear", 0, &count),
       proj_unit_list_destroy);
-  const std::string wanted = Lower(name);
+  const std::string wanted = Lower(name_or_code);
   for (int i = 0; units && i < count; ++i) {
     const PROJ_UNIT_INFO& unit = *units.get()[i];
-    if (Lower(unit.name) == wanted && unit.conv_factor > 0) return unit.conv_factor;
+    if ((Lower(unit.name) == wanted || unit.code == wanted) && unit.conv_factor > 0) {
+      return LengthUnit{unit.name, unit.conv_factor};
+    }
   }
   return std::nullopt;
 }

@@ -48,6 +48,13 @@ ProjObject HeightPart(const ProjSession& session, const PJ* crs) {
   return part;
 }
 
+// The name of the datum of the vertical part of `crs` in small letters; "" where it has none.
+std::string VerticalDatum(const ProjSession& session, const PJ* crs) {
+  const ProjObject part = HeightPart(session, crs);
+  if (!part || proj_get_type(part.get()) != PJ_TYPE_VERTICAL_CRS) return "";
+  return Lower(DatumName(session, part.get()));
+}
+
 // Without blanks, and in small letters: "NAVD 88" and "navd88" are one.
 std::string Bare(const std::string& name) {
   std::string bare = Lower(name);
@@ -118,10 +125,12 @@ bool NamesHeightDatum(const ProjSession& session, const PJ* crs) {
          !IsUnnamed(DatumName(session, part.get()));
 }
 
+bool IsAboveEllipsoid(const ProjSession& session, const PJ* crs) {
+  return VerticalDatum(session, crs).find("ellipsoid") != std::string::npos;
+}
+
 bool IsMeanSeaLevel(const ProjSession& session, const PJ* crs) {
-  const ProjObject part = HeightPart(session, crs);
-  return part && proj_get_type(part.get()) == PJ_TYPE_VERTICAL_CRS &&
-         Lower(DatumName(session, part.get())) == "mean sea level";
+  return VerticalDatum(session, crs) == "mean sea level";
 }
 
 Result<ProjObject> ReadVerticalSystem(ProjSession& session, const std::string& text) {

@@ -125,8 +125,8 @@ Result<HeightUnit> ReadHeightUnit(const std::string& name) {
       return HeightUnit{.name = std::string(spelling.unit), .metres = spelling.metres};
     }
   }
-  if (const std::optional<double> listed = ListedLengthUnit(name)) {
-    return HeightUnit{.name = name, .metres = *listed};
+  if (const std::optional<LengthUnit> listed = ListedLengthUnit(name)) {
+    return HeightUnit{.name = listed->name, .metres = listed->metres};
   }
   return Error{ErrorCode::kUnsupportedData,
                "the band's values are in \"" + name.substr(0, 40) +
