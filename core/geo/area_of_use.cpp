@@ -5,6 +5,7 @@
 #include <proj.h>
 
 #include "core/geo/crs_name.h"
+#include "core/geo/short_text.h"
 
 namespace farhorizon {
 
@@ -55,12 +56,7 @@ AreaOfUse AreaOfUse::Widened(double share) const {
 }
 
 std::string AreaOfUse::ShortName() const {
-  if (name.size() <= kMaxNameBytes) {
-    return name.ends_with('.') ? name.substr(0, name.size() - 1) : name;
-  }
-  std::size_t end = kMaxNameBytes;  // back to the first byte of a character of UTF-8
-  while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xC0) == 0x80) --end;
-  return name.substr(0, end) + "...";
+  return ShortText(name.ends_with('.') ? name.substr(0, name.size() - 1) : name, kMaxNameBytes);
 }
 
 std::optional<AreaOfUse> AreaOfUseOf(const ProjSession& session, const PJ* object) {

@@ -1,12 +1,11 @@
 #include "core/geo/crs_name.h"
 
-#include <algorithm>
-#include <cctype>
 #include <memory>
-#include <utility>
 
 #include <proj.h>
 #include <proj_experimental.h>  // demotion to 2-D; GDAL builds on it too
+
+#include "core/geo/short_text.h"
 
 namespace farhorizon {
 
@@ -59,7 +58,8 @@ ProjObject Identified(const ProjSession& session, const PJ* crs) {
     ProjObject one(proj_list_get(session.get(), known.get(), i));
     if (one && proj_is_equivalent_to_with_ctx(session.get(), crs, one.get(),
                                               PJ_COMP_EQUIVALENT_EXCEPT_AXIS_ORDER_GEOGCRS) != 0) {
-      found = std::move(one);
+      // As the database has it: what proj_identify returns may lack the area of use.
+      found.reset(proj_create(session.get(), CodeOf(one.get()).c_str()));
     }
   }
   proj_int_list_destroy(confidence);
@@ -94,9 +94,7 @@ std::string DatumName(const ProjSession& session, const PJ* crs) {
 }
 
 bool IsUnnamed(const std::string& name) {
-  std::string lower = name;
-  std::ranges::transform(lower, lower.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string lower = Lower(name);
   return lower.empty() || lower == "unknown" || lower == "unnamed" || lower == "undefined" ||
          lower == "user-defined" || lower == "n/a" || lower.starts_with("unknown ");
 }

@@ -6,6 +6,8 @@
 #include <regex>
 #include <string_view>
 
+#include "core/geo/short_text.h"
+
 namespace farhorizon {
 
 namespace {
@@ -19,13 +21,6 @@ constexpr std::size_t kMaxCompletedBytes = 500;
 constexpr std::array<std::string_view, 12> kNamesAFile = {
     "proj=pipeline", "+step",         "init=",       "+file=",   " file=",   "+model=",
     " model=",       "parameterfile", "proj4_grids", "tinshift", "defmodel", "@http"};
-
-std::string Lower(std::string_view text) {
-  std::string lower(text);
-  std::ranges::transform(lower, lower.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return lower;
-}
 
 bool IsSpace(unsigned char c) { return std::isspace(c) != 0; }
 
@@ -74,8 +69,7 @@ std::string CodeIn(const std::string& text) {
   if (std::regex_match(text, number)) return "EPSG:" + text;
   if (!std::regex_match(text, part, code)) return "";
   std::string authority = part[1];
-  std::ranges::transform(authority, authority.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  for (char& c : authority) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
   return authority + ":" + part[2].str();
 }
 
@@ -135,7 +129,12 @@ Status CheckCrsText(const std::string& text, CrsRole role) {
       return Refused(text, role, "names a pipeline or a file, which is not allowed");
     }
   }
-  if (NamesAGrid(lower)) return Refused(text, role, "names a grid file, which is not allowed");
+  if (NamesAGrid(lower)) {
+    return Refused(text, role,
+                   lower.find("geoidgrids") == std::string::npos
+                       ? "names a grid file, which is not allowed"
+                       : "names a geoid's file, which is not allowed: --vertical-datum names it");
+  }
   if (lower.starts_with('{') && HasJsonFile(lower)) {
     return Refused(text, role, "has a parameter that is a text, as names of files are");
   }
@@ -149,12 +148,8 @@ Status CheckCrsText(const std::string& text, CrsRole role) {
 }
 
 std::string ShownCrsText(const std::string& text, CrsRole role) {
-  std::string shown = text.substr(0, kMaxShownBytes);
-  for (char& c : shown) {
-    if (static_cast<unsigned char>(c) < 0x20) c = ' ';
-  }
-  if (text.size() > kMaxShownBytes) shown += "...";
-  return (role == CrsRole::kHeights ? "vertical datum \"" : "reference system \"") + shown + "\"";
+  return (role == CrsRole::kHeights ? "vertical datum \"" : "reference system \"") +
+         ShortText(text, kMaxShownBytes) + "\"";
 }
 
 const char* RemedyFor(CrsRole role) {

@@ -72,16 +72,18 @@ std::optional<Assumption> DatumAssumption(const DatumChoice& choice, const std::
   std::string text = name + " is placed on the globe by the datum operation " + taken.Described();
   if (!stated) text += ", every tile alike";
   if (taken.ballpark) {
-    text += choice.global ? ", which takes two global frames, metres apart at most, for one"
-                          : ", which leaves a shift of up to some hundred metres undone";
+    text += choice.global
+                ? ", which takes two global frames, metres apart at most, for one"
+                : ", which leaves out a shift that PROJ does not know: up to some hundred "
+                  "metres, where the datum is an old one";
   }
   if (outside) text += "; it is made for " + taken.area.ShortName() + ", the DEM lies elsewhere";
   const DatumOperation* best = middle && !choice.global ? BestAt(choice, *middle) : nullptr;
   const bool better =
       best != nullptr && best != &taken && (outside || (!stated && IsBetter(*best, taken)));
   if (better) {
-    text += "; where this DEM lies, " + best->Described() + " for " + best->area.ShortName() +
-            " is known, too: state it for all tiles of a survey with --datum-operation " +
+    text += "; " + best->Described() + " is made for " + best->area.ShortName() +
+            ": if the survey lies there, state it for all tiles with --datum-operation " +
             Quoted(best->Stated());
   }
   if (!grids.empty()) text += "; better ones need grids that are not installed: " + grids;

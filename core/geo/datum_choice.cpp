@@ -3,25 +3,19 @@
 #include "core/geo/datum_choice.h"
 
 #include <algorithm>
-#include <cctype>
 #include <optional>
 #include <utility>
 
 #include "core/geo/crs_name.h"
 #include "core/geo/crs_text.h"
 #include "core/geo/parse_crs.h"
+#include "core/geo/short_text.h"
 
 namespace farhorizon {
 
 namespace {
 
 constexpr std::size_t kMaxListed = 8;  // operations in a message
-
-std::string Lower(std::string text) {
-  std::ranges::transform(text, text.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
 
 // The names by which `operation` may be stated, in lower case: its own, and the codes and names of
 // its transformations.
@@ -83,7 +77,7 @@ Result<DatumChoice> TakeStated(const ProjSession& session, DatumChoice choice,
   }
   if (listed > kMaxListed) known += " and " + std::to_string(listed - kMaxListed) + " more";
   return Error{ErrorCode::kInvalidArgument,
-               "there is no datum operation \"" + stated.substr(0, 60) +
+               "there is no datum operation \"" + ShortText(stated, 60) +
                    "\" from this reference system to the globe; " +
                    (known.empty() ? "none is needed: leave --datum-operation out"
                                   : "--datum-operation takes one of " + known),

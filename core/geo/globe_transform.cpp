@@ -41,10 +41,12 @@ struct GlobeTransform::State {
   std::optional<double> about_x;
 
   // The operation is named, too: one by a grid ends where the grid does.
-  [[nodiscard]] std::string InSystem() const {
+  [[nodiscard]] std::string NotInSystem() const {
     const DatumOperation& taken = way.choice.Taken();
-    return " in " + way.name +
-           (taken.names.empty() ? "" : " by the datum operation " + taken.Described());
+    const std::string nowhere = " has no place on the globe in " + way.name;
+    if (taken.names.empty()) return nowhere + "; is --crs right?";
+    return nowhere + " by the datum operation " + taken.Described() +
+           "; is --crs right, and is the DEM where that holds? --datum-operation states another";
   }
 };
 
@@ -117,8 +119,7 @@ Result<std::vector<Geodetic>> GlobeTransform::ToGeodetic(
     Geodetic& g = result[i];
     // Where PROJ has nothing to compute, it lets latitudes beyond a pole pass.
     if (!std::isfinite(g.lon_deg) || !std::isfinite(g.height_m) || !(std::abs(g.lat_deg) <= 90)) {
-      return Outside(i, points[i].x, points[i].y,
-                     " has no place on the globe" + state_->InSystem() + "; is --crs right?");
+      return Outside(i, points[i].x, points[i].y, state_->NotInSystem());
     }
     if (std::abs(g.lon_deg) > 180) g.lon_deg = std::remainder(g.lon_deg, 360);
   }

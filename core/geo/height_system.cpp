@@ -1,7 +1,5 @@
 #include "core/geo/height_system.h"
 
-#include <algorithm>
-#include <cctype>
 #include <cstdio>
 #include <memory>
 #include <utility>
@@ -10,17 +8,12 @@
 
 #include "core/geo/crs_name.h"
 #include "core/geo/parse_crs.h"
+#include "core/geo/short_text.h"
 #include "core/geo/vertical_system.h"
 
 namespace farhorizon {
 
 namespace {
-
-std::string Lower(std::string text) {
-  std::ranges::transform(text, text.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
 
 std::string Metres(double metres) {
   char text[40];

@@ -3,8 +3,6 @@
 #include "core/geo/vertical_system.h"
 
 #include <algorithm>
-#include <array>
-#include <cctype>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -14,6 +12,7 @@
 
 #include "core/geo/crs_name.h"
 #include "core/geo/parse_crs.h"
+#include "core/geo/short_text.h"
 
 namespace farhorizon {
 
@@ -23,12 +22,6 @@ constexpr std::size_t kMaxCandidates = 5;  // in a message
 
 Error Unusable(const std::string& message) {
   return {ErrorCode::kUnsupportedData, message, "unknown-crs"};
-}
-
-std::string Lower(std::string text) {
-  std::ranges::transform(text, text.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
 }
 
 ProjObject Unbound(const ProjSession& session, const PJ* crs) {

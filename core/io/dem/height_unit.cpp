@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/geo/height_system.h"
+#include "core/geo/short_text.h"
 
 namespace farhorizon {
 
@@ -129,7 +130,7 @@ Result<HeightUnit> ReadHeightUnit(const std::string& name) {
     return HeightUnit{.name = listed->name, .metres = listed->metres};
   }
   return Error{ErrorCode::kUnsupportedData,
-               "the band's values are in \"" + name.substr(0, 40) +
+               "the band's values are in \"" + ShortText(name, 40) +
                    "\", which is no unit of heights that is known" + kRemedy,
                "unknown-unit"};
 }

@@ -113,5 +113,14 @@ TEST(VerticalSystem, AnUnknownDatumIsRefusedWithARemedyThatWorks) {
   EXPECT_TRUE(GlobeTransform::Open("EPSG:4326+5861", {.vertical_datum = "ellipsoid"}));
 }
 
+TEST(VerticalSystem, AMissingGeoidGridHasARemedyThatWorks) {
+  Result<GlobeTransform> globe = GlobeTransform::Open("EPSG:26913+5703");
+  ASSERT_FALSE(globe);
+  EXPECT_EQ(globe.error().kind, "no-geoid-grid");
+  EXPECT_THAT(globe.error().message, HasSubstr("--vertical-datum EPSG:5773"));
+  EXPECT_TRUE(GlobeTransform::Open("EPSG:26913+5703", {.vertical_datum = "EPSG:5773"}));
+  EXPECT_TRUE(GlobeTransform::Open("EPSG:26913+5703", {.vertical_datum = "ellipsoid"}));
+}
+
 }  // namespace
 }  // namespace farhorizon
