@@ -78,7 +78,7 @@ std::optional<LengthUnit> ListedLengthUnit(const std::string& name_or_code) {
 }
 
 bool IsEllipsoid(const std::string& vertical_datum) {
-  const std::string lower = Lower(vertical_datum);
+  const std::string lower = Lower(CompletedCrsText(vertical_datum));  // without blanks around it
   return lower == "ellipsoid" || lower == "ellipsoidal";
 }
 
