@@ -10,7 +10,6 @@
 
 #include "core/geo/height_system.h"
 #include "core/io/dem/band_values.h"
-#include "core/io/dem/geo_keys.h"
 #include "core/io/dem/height_unit.h"
 #include "core/io/dem/read_dem.h"
 
@@ -69,10 +68,13 @@ std::optional<HeightUnit> UnitOf(const std::optional<HeightSystem>& system,
                     .source = system->names_datum ? system->name + " of " + source : source};
 }
 
+// GDAL reads this key only where the file names no vertical system.
 std::optional<HeightUnit> UnitOfKey(TiffFile* tiff) {
-  const std::optional<int> code = tiff != nullptr ? VerticalUnitsKey(*tiff) : std::nullopt;
-  if (!code) return std::nullopt;
-  const std::optional<LengthUnit> unit = ListedLengthUnit(std::to_string(*code));
+  constexpr int kVerticalUnitsGeoKey = 4099;  // OGC 19-008r4, 7.5.1
+  const std::optional<int> code =
+      tiff != nullptr ? tiff->GeoKey(kVerticalUnitsGeoKey) : std::nullopt;
+  const std::optional<LengthUnit> unit =
+      code ? ListedLengthUnit(std::to_string(*code)) : std::nullopt;
   if (!unit) return std::nullopt;
   return HeightUnit{
       .name = unit->name, .metres = unit->metres, .source = "the file's VerticalUnitsGeoKey"};
