@@ -25,8 +25,8 @@ class HorizonE2e : public testing::Test {
  protected:
   void SetUp() override { SpillFile(folder_ / "hills.asc", HillyGrid(40, 30)); }
 
-  /// The exit status of `farhorizon horizon hills.asc -o FILE` with all that a text grid leaves open,
-  /// and what is added.
+  /// The exit status of `farhorizon horizon hills.asc -o FILE` with all that a text grid leaves
+  /// open, and what is added.
   int Run(const std::string& file, const std::vector<std::string>& added) {
     std::vector<std::string> words = {FARHORIZON_PROGRAM,
                                       "horizon",

@@ -13,7 +13,6 @@ namespace farhorizon {
 namespace {
 
 using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 
 class DemReader : public DemFixture {
  protected:
@@ -137,17 +136,10 @@ TEST_F(DemReader, ReferenceSystemOfTheCallReplacesTheFiles) {
   EXPECT_EQ(MustRead({.crs = ""}, {.crs = "EPSG:26910"}).crs, "EPSG:26910");
 }
 
-TEST_F(DemReader, SideCarFilesAreNotOpened) {
+TEST_F(DemReader, WorldFilesAreNotOpened) {
   WriteTiff(dir_ / "dem.tif", {.geotransform = std::nullopt});
   SpillFile(dir_ / "dem.tfw", "30\n0\n0\n-30\n500015\n5099985\n");
   EXPECT_EQ(KindOf(ReadDem(dir_ / "dem.tif", {})), "degenerate-geotransform");
-  WriteTiff(dir_ / "dem.tif", {});
-  SpillFile(dir_ / "dem.tif.aux.xml",
-            "<PAMDataset><PAMRasterBand band=\"1\"><NoDataValue>1</NoDataValue></PAMRasterBand>"
-            "</PAMDataset>");
-  Result<Dem> dem = ReadDem(dir_ / "dem.tif", {});
-  ASSERT_TRUE(dem);
-  EXPECT_EQ(dem->heights[0], 1);
 }
 
 TEST_F(DemReader, ReadingLeavesNothingBehind) {

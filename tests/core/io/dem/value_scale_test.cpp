@@ -116,7 +116,7 @@ TEST_F(ValueScaleOf, ADatumInMetresMakesNoMetresOfFeet) {
   EXPECT_THAT(codes_, IsEmpty());
 }
 
-// The file says EGM96 height, which is in metres, and VerticalUnitsGeoKey: GDAL passes over the key.
+// The file says EGM96 height, in metres, and VerticalUnitsGeoKey: GDAL passes over the key.
 TEST_F(ValueScaleOf, AKeyInFeetCountsBeforeASystemInMetres) {
   WriteTiff(dir_ / "dem.tif", {.crs = "EPSG:32610+5773", .options = {"GEOTIFF_VERSION=1.0"}});
   const std::pair<int, double> kUnits[] = {
