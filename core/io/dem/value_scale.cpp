@@ -12,7 +12,6 @@
 #include "core/io/dem/band_values.h"
 #include "core/io/dem/height_unit.h"
 #include "core/io/dem/read_dem.h"
-#include "core/io/dem/tiff_file.h"
 
 namespace farhorizon {
 
@@ -25,33 +24,7 @@ struct Systems {
   std::string call_flag;     // the option that names the call's
   bool names_datum = false;  // something says above what the heights are
   std::string map_unit;      // of the horizontal axes, where that is no metre
-  std::optional<HeightUnit> key;
 };
-
-// GDAL reads this key only where the file names no vertical system.
-std::optional<HeightUnit> UnitOfGeoKey(TiffFile* tiff) {
-  constexpr int kVerticalUnitsGeoKey = 4099;
-  const std::optional<int> code =
-      tiff != nullptr ? tiff->GeoKey(kVerticalUnitsGeoKey) : std::nullopt;
-  const char* name = nullptr;
-  switch (code.value_or(0)) {
-    case 9001:
-      name = "metre";
-      break;
-    case 9002:
-      name = "foot";
-      break;
-    case 9003:
-      name = "US survey foot";
-      break;
-    default:
-      return std::nullopt;
-  }
-  Result<HeightUnit> unit = ReadHeightUnit(name);
-  if (!unit) return std::nullopt;
-  unit->source = "the file's VerticalUnitsGeoKey";
-  return *std::move(unit);
-}
 
 Result<Systems> ReadSystems(const std::optional<std::string>& file_crs,
                             const DemReadOptions& options) {
@@ -95,20 +68,30 @@ std::optional<HeightUnit> UnitOf(const std::optional<HeightSystem>& system,
                     .source = system->names_datum ? system->name + " of " + source : source};
 }
 
+// GDAL reads this key only where the file names no vertical system.
+std::optional<HeightUnit> UnitOfKey(TiffFile* tiff) {
+  constexpr int kVerticalUnitsGeoKey = 4099;  // OGC 19-008r4, 7.5.1
+  const std::optional<int> code =
+      tiff != nullptr ? tiff->GeoKey(kVerticalUnitsGeoKey) : std::nullopt;
+  const std::optional<LengthUnit> unit =
+      code ? ListedLengthUnit(std::to_string(*code)) : std::nullopt;
+  if (!unit) return std::nullopt;
+  return HeightUnit{
+      .name = unit->name, .metres = unit->metres, .source = "the file's VerticalUnitsGeoKey"};
+}
+
 // GDAL makes the band's unit of the vertical system's where the band has none of its own.
-Result<HeightUnit> DecideUnit(GDALRasterBandH band, const DemReadOptions& options,
-                              const Systems& systems, Assumptions& assumptions) {
-  HeightUnitSources sources{.stated = {},
-                            .band = {},
-                            .call_system = UnitOf(systems.call, systems.call_flag),
-                            .file_key = systems.key,
+Result<HeightUnit> DecideUnit(OpenedDem& dem, const Systems& systems) {
+  const DemReadOptions& options = dem.options;
+  HeightUnitSources sources{.call_system = UnitOf(systems.call, systems.call_flag),
+                            .file_key = UnitOfKey(dem.Tiff()),
                             .file_system = UnitOf(systems.file, "the file"),
                             .map_unit = systems.map_unit};
   if (options.height_unit) {
     Result<HeightUnit> stated = ReadHeightUnit(*options.height_unit);
     if (!stated) return stated;
     sources.stated = *std::move(stated);
-  } else if (const std::string name = GDALGetRasterUnitType(band); !name.empty()) {
+  } else if (const std::string name = GDALGetRasterUnitType(dem.band.heights); !name.empty()) {
     Result<HeightUnit> unit = ReadHeightUnit(name);
     if (!unit) return unit;
     unit->source = "the band";
@@ -116,7 +99,7 @@ Result<HeightUnit> DecideUnit(GDALRasterBandH band, const DemReadOptions& option
       sources.band = *std::move(unit);
     }
   }
-  return DecideHeightUnit(sources, assumptions);
+  return DecideHeightUnit(sources, dem.assumptions);
 }
 
 bool CountsDown(const Systems& systems) {
@@ -156,10 +139,9 @@ Result<ValueScale> ReadValueScale(OpenedDem& dem, const std::optional<std::strin
                      std::to_string(offset) + ") is of no use; set them with gdal_edit",
                  "unsupported-type"};
   }
-  Result<Systems> systems = ReadSystems(file_crs, dem.options);
-  if (!systems) return std::move(systems.error());
-  systems->key = UnitOfGeoKey(dem.Tiff());
-  Result<HeightUnit> unit = DecideUnit(band, dem.options, *systems, dem.assumptions);
+  const Result<Systems> systems = ReadSystems(file_crs, dem.options);
+  if (!systems) return systems.error();
+  Result<HeightUnit> unit = DecideUnit(dem, *systems);
   if (!unit) return std::move(unit.error());
   double metres = unit->metres;
   if (CountsDown(*systems)) {
