@@ -155,6 +155,12 @@ TEST_F(SubmitTest, TakesFileNamesAsBrowsersSendThem) {
   EXPECT_EQ(json::parse(query.body)["filename"], "MyDEM.tif");
 }
 
+TEST_F(SubmitTest, SaysWhereTheNameGoesThatAFormatIsKnownBy) {
+  EXPECT_THAT(DetailOf(Post("/jobs", "hello", "image/tiff")), HasSubstr("?filename=N46E007.hgt"));
+  EXPECT_THAT(DetailOf(Post("/jobs?filename=a.tif", "hello", "image/tiff")),
+              testing::Not(HasSubstr("?filename")));
+}
+
 TEST_F(SubmitTest, TakesNoDataAsAListInEachForm) {
   const auto nodata = [&](const HttpResponse& response) {
     const std::string id = json::parse(response.body).value("jobID", "");
