@@ -70,10 +70,7 @@ std::optional<HeightUnit> UnitOf(const std::optional<HeightSystem>& system,
 // GDAL makes the band's unit of the vertical system's where the band has none of its own.
 Result<HeightUnit> DecideUnit(GDALRasterBandH band, const DemReadOptions& options,
                               const Systems& systems, Assumptions& assumptions) {
-  HeightUnitSources sources{.stated = {},
-                            .band = {},
-                            .call_system = UnitOf(systems.call, systems.call_flag),
-                            .file_key = {},
+  HeightUnitSources sources{.call_system = UnitOf(systems.call, systems.call_flag),
                             .file_system = UnitOf(systems.file, "the file"),
                             .map_unit = systems.map_unit};
   if (options.height_unit) {
