@@ -211,7 +211,8 @@ const UnreadFormat* FindUnreadFormat(std::string_view beginning, std::int64_t by
   for (const Opening& ending : kEndings) {
     if (HasEnding(filename, ending.text)) return &ending.format;
   }
-  if (beginning.find_first_not_of('\0') == std::string_view::npos) return &kZeros;
+  const bool zeros = beginning.find_first_not_of('\0') == std::string_view::npos;
+  if (zeros && !IsHgtSize(bytes)) return &kZeros;  // a tile of sea is all zeros
   return nullptr;
 }
 

@@ -166,7 +166,9 @@ class Axis {
   }
   // The cell at `at`; nullopt where that is further off than rounding explains.
   [[nodiscard]] std::optional<std::int64_t> CellAt(double at) const {
-    constexpr double kOff = 1.0 / 40;
+    // Five decimals of a degree move a point by 1/55 of an arc second at most, and the ends of the
+    // axis likewise.
+    constexpr double kOff = 1.0 / 20;
     const double cell = (at - low_) / step_;
     if (std::abs(cell - std::round(cell)) > kOff) return std::nullopt;
     return static_cast<std::int64_t>(std::round(cell));
