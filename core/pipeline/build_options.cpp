@@ -7,7 +7,7 @@
 #include <sstream>
 #include <utility>
 
-#include "core/pipeline/number_text.h"
+#include "core/pipeline/option_numbers.h"
 
 namespace farhorizon {
 
