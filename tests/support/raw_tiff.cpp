@@ -115,8 +115,7 @@ class Writer {
     std::string entries;
     for (const RawTag& tag : tags) {
       std::string values = Values(tag);
-      const std::size_t count =
-          tag.type == 2 ? values.size() : tag.numbers.size();
+      const std::size_t count = tag.type == 2 ? values.size() : tag.numbers.size();
       entries += Number(tag.tag, 2) + Number(tag.type, 2) + Number(count, place_bytes());
       if (values.size() <= place_bytes()) {
         values.resize(place_bytes(), '\0');

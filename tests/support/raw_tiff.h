@@ -19,7 +19,7 @@ struct RawImage {
   int columns = 3;
   int rows = 2;
   int bits = 16;
-  int format = 1;                ///< SampleFormat; 0 leaves the tag out
+  int format = 1;                    ///< SampleFormat; 0 leaves the tag out
   std::vector<double> samples = {};  ///< integers, of any number of bits
   std::vector<RawTag> more = {};
 };

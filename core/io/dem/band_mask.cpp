@@ -10,7 +10,7 @@
 #include <gdal.h>
 
 #include "core/io/dem/complete_raster.h"
-#include "core/io/dem/open_raster.h"
+#include "core/io/raster/open_raster.h"
 
 namespace farhorizon {
 

@@ -133,8 +133,8 @@ void SayFillsWithCliffs(const std::vector<double>& values, int columns, const Sa
         {"cliffs-around-value",
          std::to_string(suspect.posts) + (suspect.posts == 1 ? " post is" : " posts are") +
              " exactly " + text + " and may be a fill: " + std::to_string(suspect.cliffs) +
-             " of the " + std::to_string(suspect.rim) + " steps at the rim are cliffs of more than " +
-             NumberText(std::round(cliff_m)) +
+             " of the " + std::to_string(suspect.rim) +
+             " steps at the rim are cliffs of more than " + NumberText(std::round(cliff_m)) +
              " m; kept as ground; if that value means no data, state it with --nodata=" + text});
   }
 }

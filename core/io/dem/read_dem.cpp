@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <optional>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -67,20 +70,24 @@ void SetHeights(std::vector<double> values, ValueScale scale, Dem& dem) {
 }
 
 Result<Dem> ReadOpened(OpenedDem opened) {
+  const DemReadOptions& options = opened.options;
   Dem dem;
   dem.columns = GDALGetRasterXSize(opened.dataset);
   dem.rows = GDALGetRasterYSize(opened.dataset);
   if (Status found = FindHeights(opened); !found) return std::move(found.error());
   Result<ValueTags> tags = ReadValueTags(opened);
   if (!tags) return std::move(tags.error());
-  Result<GeoTransform> transform = ReadGeoTransform(opened.dataset);
+  Result<GeoTransform> transform =
+      ReadGeoTransform(opened.dataset, opened.path, opened.assumptions);
   if (!transform) return std::move(transform.error());
   dem.transform = *transform;
-  Result<std::string> crs = ReadCrs(opened.dataset, opened.options.crs);
-  if (!crs) return std::move(crs.error());
-  dem.crs = *crs;
-  Result<ValueScale> scale = ReadValueScale(opened.dataset, opened.band.heights, opened.options,
-                                            opened.assumptions);
+  Assumptions about_crs;
+  const Result<std::string> crs = ReadFileCrs(opened.dataset, opened.path, about_crs);
+  if (!crs && !options.crs) return crs.error();
+  dem.crs = options.crs ? *options.crs : *crs;
+  if (!options.crs) std::ranges::copy(about_crs, std::back_inserter(opened.assumptions));
+  Result<ValueScale> scale =
+      ReadValueScale(opened, crs ? std::optional(*crs) : std::optional<std::string>());
   if (!scale) return std::move(scale.error());
 
   Result<std::vector<double>> values = ReadValues(opened, *tags);
