@@ -269,6 +269,7 @@ TEST_F(ServiceE2e, WhatNoJobCouldBuildIsRefusedAtOnce) {
   };
   for (const Case& one :
        std::initializer_list<Case>{{"crs=EPSG:999999", 422, "unknown-crs"},
+                                   {"crs=EPSG:4326%20nothing", 422, "unknown-crs"},
                                    {"crs=EPSG:4326&maxError=1e-9", 400, "max-error-too-small"},
                                    {"crs=EPSG:4326&nodata=-inf&nodata=x", 400, "invalid-parameter"},
                                    {"crs=EPSG:4326&heightUnit=yd", 400, "invalid-parameter"}}) {

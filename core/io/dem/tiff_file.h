@@ -29,6 +29,7 @@ enum class TiffTag : std::uint16_t {
   kSampleFormat = 339,
   kModelPixelScale = 33550,
   kModelTiepoint = 33922,
+  kGeoKeyDirectory = 34735,
   kGdalNodata = 42113,
 };
 
