@@ -63,7 +63,9 @@ void AddBuildFlags(CLI::App& command, BuildFlags& flags) {
 
 void AddReadFlags(CLI::App& command, BuildFlags& flags) {
   Add(command, flags, "crs", "CRS", "reference system, instead of the file's");
-  Add(command, flags, "verticalDatum", "CRS", "vertical reference system, instead of the file's");
+  Add(command, flags, "verticalDatum", "CRS",
+      "vertical reference system, instead of the file's: a code, a datum's name such as EGM96, or "
+      "ellipsoid");
   Add(command, flags, "heightUnit", "U",
       "m, ft or us-ft: unit of the heights, instead of the file's");
   Add(command, flags, "datumOperation", "OP",
