@@ -3,6 +3,7 @@
 #include "core/pipeline/build.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string_view>
 #include <utility>
@@ -15,6 +16,7 @@
 #include "core/pipeline/build_features.h"
 #include "core/pipeline/level_artifact.h"
 #include "core/pipeline/level_plan.h"
+#include "core/pipeline/mesh_region.h"
 #include "core/pipeline/report.h"
 #include "core/pipeline/terrain_input.h"
 #include "core/pipeline/version.h"
@@ -44,36 +46,32 @@ std::vector<int> LevelsKept(const Horizon& horizon, const std::vector<Lod>& chai
   return level_kept;
 }
 
-// The terrain's region, with room for what the coarsest level may add to it.
-Result<BoundingRegion> RegionWithMargin(const TerrainInput& input, const LevelReport& coarsest) {
-  Result<BoundingRegion> region = input.Region();
-  if (!region) return region;
+// The levels as they were written, and what they cover.
+struct WrittenLevels {
+  std::vector<LevelReport> reports;
+  MeshRegion region;
+};
+
+// The levels' region, with the terrain's heights and room for what the coarsest level may add.
+Result<BoundingRegion> RegionOf(const TerrainInput& input, const WrittenLevels& levels) {
+  const LevelReport& coarsest = levels.reports.back();
+  BoundingRegion region = levels.region.Sides(coarsest.quantization_step_m);
+  Result<std::array<double, 2>> heights = input.EllipsoidalHeights();
+  if (!heights) return std::move(heights.error());
   // Flat triangles sink below the curved earth, and vertices are rounded: by no more than this.
   const double margin = coarsest.geometric_error_m + coarsest.quantization_step_m;
-  region->min_height_m -= margin;
-  region->max_height_m += margin;
-  // Vertices are rounded by less than a step in plan. No radian of latitude is shorter than this:
-  // a (1 - e^2) of WGS 84, at the equator, is 6335439 m. A radian of longitude is shorter by the
-  // cosine of the latitude; the floor keeps the margin finite at the poles.
-  constexpr double kLeastMetresPerRadian = 6335000;
-  region->south -= coarsest.quantization_step_m / kLeastMetresPerRadian;
-  region->north += coarsest.quantization_step_m / kLeastMetresPerRadian;
-  const double across =
-      coarsest.quantization_step_m /
-      (kLeastMetresPerRadian *
-       std::max(0.01, std::cos(std::max(std::abs(region->south), std::abs(region->north)))));
-  region->west -= across;
-  region->east += across;
+  region.min_height_m = (*heights)[0] - margin;
+  region.max_height_m = (*heights)[1] + margin;
   return region;
 }
 
-Status WriteTilesetFor(const TerrainInput& input, const std::vector<LevelReport>& levels,
+Status WriteTilesetFor(const TerrainInput& input, const WrittenLevels& levels,
                        ArtifactWriter& writer) {
-  Result<BoundingRegion> region = RegionWithMargin(input, levels.back());
+  Result<BoundingRegion> region = RegionOf(input, levels);
   if (!region) return std::move(region.error());
   std::vector<TilesetLevel> tiles;
-  tiles.reserve(levels.size());
-  for (const LevelReport& level : levels) {
+  tiles.reserve(levels.reports.size());
+  for (const LevelReport& level : levels.reports) {
     tiles.push_back({"lod" + std::to_string(level.level) + ".glb", level.geometric_error_m});
   }
   const Georeference& georeference = input.georeference();
@@ -97,11 +95,11 @@ Status WriteFeatures(const std::vector<HorizonFeature>& features, const BuildOpt
   return Ok{};
 }
 
-Result<std::vector<LevelReport>> WriteLevels(const LevelContext& context,
-                                             const std::vector<LevelPlan>& plans,
-                                             const std::vector<Lod>& chain,
-                                             const BuildOptions& options, ArtifactWriter& writer) {
-  std::vector<LevelReport> reports;
+Result<WrittenLevels> WriteLevels(const LevelContext& context, const std::vector<LevelPlan>& plans,
+                                  const std::vector<Lod>& chain, const BuildOptions& options,
+                                  ArtifactWriter& writer) {
+  WrittenLevels written = {{}, MeshRegion(context.georeference)};
+  std::vector<LevelReport>& reports = written.reports;
   for (std::size_t i = 0; i < chain.size(); ++i) {
     const RunControl control = LevelControl(context.control, i, chain.size());
     Result<LevelArtifact> level = EncodeLevel(context.With(control), chain[i], static_cast<int>(i),
@@ -128,8 +126,9 @@ Result<std::vector<LevelReport>> WriteLevels(const LevelContext& context,
           std::max(level->report.geometric_error_m, reports.back().geometric_error_m);
     }
     reports.push_back(level->report);
+    if (Status added = written.region.Add(level->mesh); !added) return std::move(added.error());
   }
-  return reports;
+  return written;
 }
 
 }  // namespace
@@ -161,7 +160,7 @@ Status BuildArtifacts(const fs::path& dem, const fs::path& directory, const Buil
   if (!opened) return opened;
   const LevelContext context{(*input)->terrain(), *horizon, (*input)->georeference(), *normals,
                              control};
-  Result<std::vector<LevelReport>> levels = WriteLevels(context, *plans, *chain, options, writer);
+  Result<WrittenLevels> levels = WriteLevels(context, *plans, *chain, options, writer);
   if (!levels) return std::move(levels.error());
   if (Asks(options, "3dtiles")) {
     Status tileset = WriteTilesetFor(**input, *levels, writer);
@@ -178,7 +177,7 @@ Status BuildArtifacts(const fs::path& dem, const fs::path& directory, const Buil
                       (*input)->assumptions(),
                       static_cast<std::int64_t>(horizon->edges.size()),
                       horizon->statistics,
-                      *levels};
+                      levels->reports};
   Status reported = writer.Add("report.json", WriteReport(report));
   if (!reported) return reported;
   Status finished = writer.Finish();

@@ -86,11 +86,15 @@ Result<std::vector<Enu>> Georeference::ToEnu(const std::vector<VertexId>& posts)
   return ToEnu(*geodetic);
 }
 
-Result<std::vector<GridPoint>> Georeference::ToGrid(const std::vector<Enu>& points) const {
+Result<std::vector<Geodetic>> Georeference::ToGeodetic(const std::vector<Enu>& points) const {
   std::vector<Ecef> ecef;
   ecef.reserve(points.size());
   for (const Enu& p : points) ecef.push_back(frame_.ToEcef(p));
-  Result<std::vector<Geodetic>> geodetic = transform_.FromEcef(ecef);
+  return transform_.FromEcef(ecef);
+}
+
+Result<std::vector<GridPoint>> Georeference::ToGrid(const std::vector<Enu>& points) const {
+  Result<std::vector<Geodetic>> geodetic = ToGeodetic(points);
   if (!geodetic) return std::move(geodetic.error());
   Result<std::vector<MapPoint>> map = transform_.FromGeodetic(*geodetic);
   if (!map) return std::move(map.error());

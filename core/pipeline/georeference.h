@@ -39,6 +39,7 @@ class Georeference {
   /// For points that may lie between posts.
   [[nodiscard]] Result<std::vector<Geodetic>> ToGeodetic(
       const std::vector<GridPoint>& points) const;
+  [[nodiscard]] Result<std::vector<Geodetic>> ToGeodetic(const std::vector<Enu>& points) const;
   [[nodiscard]] Result<std::vector<Enu>> ToEnu(const std::vector<Geodetic>& points) const;
   [[nodiscard]] Result<std::vector<Enu>> ToEnu(const std::vector<VertexId>& posts) const;
   [[nodiscard]] Result<std::vector<GridPoint>> ToGrid(const std::vector<Enu>& points) const;

@@ -156,6 +156,7 @@ Result<LevelArtifact> EncodeLevel(const LevelContext& context, const Lod& lod, i
   artifact.report.horizon_edges = static_cast<std::int64_t>(lod.kept.size());
   artifact.report.glb_bytes = static_cast<std::int64_t>(artifact.glb.size());
   artifact.report.drc_bytes = static_cast<std::int64_t>(artifact.drc.size());
+  artifact.mesh = std::move(decoded->mesh);
   return artifact;
 }
 

@@ -42,6 +42,7 @@ inline RunControl LevelControl(const RunControl& control, std::size_t i, std::si
 struct LevelArtifact {
   std::vector<std::uint8_t> drc;
   std::vector<std::uint8_t> glb;
+  LocalMesh mesh;      ///< what both decode to
   LevelReport report;  ///< all but asked_vertical_m and asked_silhouette_m
 };
 

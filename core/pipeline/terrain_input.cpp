@@ -3,7 +3,7 @@
 #include "core/pipeline/terrain_input.h"
 
 #include <algorithm>
-#include <numbers>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,21 +12,6 @@
 #include "core/io/file.h"
 
 namespace farhorizon {
-
-namespace {
-
-constexpr double kRadiansPerDegree = std::numbers::pi / 180;
-
-void Include(BoundingRegion& region, const Geodetic& p) {
-  region.west = std::min(region.west, p.lon_deg * kRadiansPerDegree);
-  region.east = std::max(region.east, p.lon_deg * kRadiansPerDegree);
-  region.south = std::min(region.south, p.lat_deg * kRadiansPerDegree);
-  region.north = std::max(region.north, p.lat_deg * kRadiansPerDegree);
-  region.min_height_m = std::min(region.min_height_m, p.height_m);
-  region.max_height_m = std::max(region.max_height_m, p.height_m);
-}
-
-}  // namespace
 
 Result<std::unique_ptr<TerrainInput>> TerrainInput::Open(const std::filesystem::path& path,
                                                          const BuildOptions& options,
@@ -83,9 +68,9 @@ void TerrainInput::Describe() {
   }
 }
 
-Result<BoundingRegion> TerrainInput::Region() const {
-  BoundingRegion region;
-  bool first = true;
+Result<std::array<double, 2>> TerrainInput::EllipsoidalHeights() const {
+  std::array<double, 2> range = {std::numeric_limits<double>::infinity(),
+                                 -std::numeric_limits<double>::infinity()};
   std::vector<VertexId> row;
   for (VertexId v = 0; v < terrain_->post_count(); ++v) {
     if (dem_.HasData(v)) row.push_back(v);
@@ -94,16 +79,10 @@ Result<BoundingRegion> TerrainInput::Region() const {
     if (!points) return std::move(points.error());
     row.clear();
     for (const Geodetic& p : *points) {
-      if (first) {
-        const double lon = p.lon_deg * kRadiansPerDegree;
-        const double lat = p.lat_deg * kRadiansPerDegree;
-        region = {lon, lat, lon, lat, p.height_m, p.height_m};
-        first = false;
-      }
-      Include(region, p);
+      range = {std::min(range[0], p.height_m), std::max(range[1], p.height_m)};
     }
   }
-  return region;
+  return range;
 }
 
 }  // namespace farhorizon

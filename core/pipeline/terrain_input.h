@@ -1,12 +1,12 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <optional>
 
 #include "core/base/result.h"
 #include "core/base/run_control.h"
-#include "core/io/tileset.h"
 #include "core/pipeline/build_options.h"
 #include "core/pipeline/georeference.h"
 #include "core/pipeline/report.h"
@@ -32,8 +32,9 @@ class TerrainInput {
   /// What was assumed about the heights and their place, in the order in which it was met.
   [[nodiscard]] const Assumptions& assumptions() const { return assumptions_; }
 
-  /// The least region with all posts that have data. Errors: those of Georeference::ToGeodetic.
-  [[nodiscard]] Result<BoundingRegion> Region() const;
+  /// The least and the greatest height of a post above the ellipsoid, metres.
+  /// Errors: those of Georeference::ToGeodetic.
+  [[nodiscard]] Result<std::array<double, 2>> EllipsoidalHeights() const;
 
  private:
   TerrainInput() = default;
