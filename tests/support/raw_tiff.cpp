@@ -36,7 +36,7 @@ class Writer {
 
   // Rows of samples, the highest bit first, each row from a byte of its own.
   [[nodiscard]] std::string Samples(const RawImage& image) const {
-    if (image.bits % 8 == 0) {
+    if (image.bits % 8 == 0 && image.bits != 24) {  // those of 24 as GDAL writes them
       std::string bytes;
       for (const double sample : image.samples) {
         bytes += Number(static_cast<std::uint64_t>(static_cast<std::int64_t>(sample)),

@@ -90,23 +90,32 @@ class AuxReader {
   }
 
   void ReadScale(const CPLXMLNode* node) {
-    const auto read = [&](const char* key, const char* what, auto get, auto set) {
+    // Both are read before one is set: GDAL then reports both as given.
+    int has_scale = 0;
+    int has_offset = 0;
+    const double scale = GDALGetRasterScale(band_, &has_scale);
+    const double offset = GDALGetRasterOffset(band_, &has_offset);
+    const auto read = [&](const char* key, const std::string& what, std::optional<double> own,
+                          auto get, auto set) {
       const std::optional<std::string> text = Text(node, key);
       if (!text) return;
-      const std::optional<TextNumber> value = ParseNumber(*text);
-      int given = 0;
-      const double own = get(band_, &given);
-      if (!value) {
-        Say("gives " + std::string(what) + " that is no number; it was passed over");
+      const std::optional<TextNumber> number = ParseNumber(*text);
+      if (!number) {
+        Say("gives " + what + " that is no number; it was passed over");
         return;
       }
-      const double there = value->value;
-      if (given != 0 && own != there) SayBoth(what, NumberText(there), NumberText(own));
+      const double there = number->value;
+      if (own && *own != there) SayBoth(what, NumberText(there), NumberText(*own));
       set(band_, there);
-      if (get(band_, &given) != there) SayUnread(what);
+      if (get(band_, nullptr) != there) SayUnread(what);
     };
-    read("Scale", "the scale of the heights", GDALGetRasterScale, GDALSetRasterScale);
-    read("Offset", "the offset of the heights", GDALGetRasterOffset, GDALSetRasterOffset);
+    const auto given = [](double value, int has) {
+      return has != 0 ? std::optional<double>(value) : std::nullopt;
+    };
+    read("Scale", "the scale of the heights", given(scale, has_scale), GDALGetRasterScale,
+         GDALSetRasterScale);
+    read("Offset", "the offset of the heights", given(offset, has_offset), GDALGetRasterOffset,
+         GDALSetRasterOffset);
   }
 
   void ReadUnit(const CPLXMLNode* node) {

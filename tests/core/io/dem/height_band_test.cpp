@@ -27,7 +27,8 @@ TEST_F(HeightBands, SeveralBandsAreRefusedWithWhatTakesOneOut) {
 
 TEST_F(HeightBands, TheRemedyForSeveralBandsKeepsAnAlphaBand) {
   TestRaster raster = {.bands = 3, .type = "Float32", .options = {"ALPHA=YES"}};
-  raster.band_values = {{1, 2, 3, 4, 5, 6}, {7, 7, 7, 7, 7, 7}, {255, 0, 255, 255, 255, 0}};
+  // ALPHA=YES makes alpha of the band after the first.
+  raster.band_values = {{1, 2, 3, 4, 5, 6}, {255, 0, 255, 255, 255, 0}, {7, 7, 7, 7, 7, 7}};
   const Result<Dem> dem = Read(raster);
   EXPECT_EQ(KindOf(dem), "several-bands");
   const Dem one = Remedied(dem, "gdal_translate");
