@@ -40,10 +40,10 @@ bool IsStructured(std::string_view lower) {
   return lower.starts_with('{') || lower.find('[') != std::string_view::npos;
 }
 
-// "EPSG:4326" of "epsg: 4326", "EPSG 4326", "4326"; "" of anything else.
+// "EPSG:4326" of "epsg: 4326", "EPSG::4326", "EPSG 4326", "4326"; "" of anything else.
 std::string CodeIn(const std::string& text) {
   static const std::regex number(R"(\d{4,6})");
-  static const std::regex code(R"((epsg|esri|ignf|ogc)\s*[:\s]\s*([a-z0-9]+))",
+  static const std::regex code(R"((epsg|esri|ignf|ogc)\s*(?::{1,2}|\s)\s*([a-z0-9]+))",
                                std::regex::icase | std::regex::optimize);
   std::smatch part;
   if (std::regex_match(text, number)) return "EPSG:" + text;
@@ -67,7 +67,10 @@ std::string CompletedCrsText(const std::string& text) {
   if (std::string code = CodeIn(trimmed); !code.empty()) return code;
   const std::string lower = Lower(trimmed);
   if (IsStructured(lower)) return trimmed;
-  if (const std::size_t joint = trimmed.find_first_of("+,"); joint != std::string::npos) {
+  // A blank is what became of a plus in a URL.
+  for (const char* joints : {"+,", " "}) {
+    const std::size_t joint = trimmed.find_last_of(joints);
+    if (joint == std::string::npos) continue;
     const std::string plan = CodeIn(Trimmed(trimmed.substr(0, joint)));
     const std::string heights = CodeIn(Trimmed(trimmed.substr(joint + 1)));
     if (!plan.empty() && !heights.empty()) {

@@ -13,9 +13,9 @@ enum class CrsRole {
 };
 
 /// What `text` lacks to be read by PROJ, put right: a number alone becomes EPSG's code of that
-/// number, "EPSG 4326" gets its colon, "EPSG:4326,EPSG:5773" its plus, "+init=epsg:4326" its colon
-/// form (the file that it would name holds the same systems), and a PROJ string "+type=crs", which
-/// GDAL does not ask for. Any other text stays as it is.
+/// number, "EPSG 4326" gets its colon, "EPSG:4326,EPSG:5773" and "EPSG:4326 5773" their plus,
+/// "+init=epsg:4326" its colon form (the file that it would name holds the same systems), and a
+/// PROJ string "+type=crs", which GDAL does not ask for. Any other text stays as it is.
 std::string CompletedCrsText(const std::string& text);
 
 /// Checks that `text` is safe to pass to PROJ, which opens the files and URLs that a definition

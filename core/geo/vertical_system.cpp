@@ -48,29 +48,40 @@ ProjObject HeightPart(const ProjSession& session, const PJ* crs) {
   return part;
 }
 
+// Without blanks, and in small letters: "NAVD 88" and "navd88" are one.
+std::string Bare(const std::string& name) {
+  std::string bare = Lower(name);
+  std::erase(bare, ' ');
+  return bare == "meansealevel" ? "msl" : bare;
+}
+
 // The vertical system whose name is `name`, or `name` and "height"; else the only one that has
-// `name` in its name; else an error that lists those that do.
+// `name` in its name; else an error that lists those that do, heights first; null where none does.
 Result<ProjObject> FindByName(ProjSession& session, const std::string& name) {
   const PJ_TYPE type = PJ_TYPE_VERTICAL_CRS;
   const std::unique_ptr<PJ_OBJ_LIST, void (*)(PJ_OBJ_LIST*)> found(
       proj_create_from_name(session.get(), nullptr, name.c_str(), &type, 1, 1, 0, nullptr),
       proj_list_destroy);
   const int count = found ? proj_list_get_count(found.get()) : 0;
-  std::vector<std::string> candidates;
+  std::vector<std::string> heights;
+  std::vector<std::string> depths;
   for (int i = 0; i < count; ++i) {
     ProjObject one(proj_list_get(session.get(), found.get(), i));
     const std::string full = proj_get_name(one.get());
-    if (Lower(full) == Lower(name) || Lower(full) == Lower(name) + " height") return one;
-    candidates.push_back(CodeOf(one.get()) + " (" + full + ")");
+    if (Bare(full) == Bare(name) || Bare(full) == Bare(name) + "height") return one;
+    const bool depth = Bare(full).find("depth") != std::string::npos;
+    (depth ? depths : heights).push_back(CodeOf(one.get()) + " (" + full + ")");
   }
-  if (candidates.empty()) return ProjObject();
-  if (candidates.size() == 1) return ProjObject(proj_list_get(session.get(), found.get(), 0));
+  if (count == 0) return ProjObject();
+  if (count == 1) return ProjObject(proj_list_get(session.get(), found.get(), 0));
+  heights.insert(heights.end(), depths.begin(), depths.end());
   std::string list;
-  for (std::size_t i = 0; i < std::min(candidates.size(), kMaxCandidates); ++i) {
-    list += (i == 0 ? "" : ", ") + candidates[i];
+  for (std::size_t i = 0; i < std::min(heights.size(), kMaxCandidates); ++i) {
+    list += (i == 0 ? "" : ", ") + heights[i];
   }
   return Unusable(ShownCrsText(name, CrsRole::kHeights) +
-                  " fits several; give --vertical-datum the code of one, such as " + list);
+                  " fits several; give --vertical-datum the code of one, such as " + list +
+                  ", or \"ellipsoid\"");
 }
 
 }  // namespace

@@ -40,8 +40,8 @@ Result<ProjObject> ReadVerticalSystem(ProjSession& session, const std::string& t
 /// Errors: kUnsupportedData, kind "unknown-crs".
 Result<ProjObject> WithoutHeights(const ProjSession& session, ProjObject crs);
 
-/// The horizontal part of `crs` with heights above its ellipsoid in metres. PROJ knows no way from a
-/// 3-D system that counts them in another unit.
+/// The horizontal part of `crs` with heights above its ellipsoid in metres: PROJ knows no way from
+/// a 3-D system that counts them in another unit.
 /// Errors: kUnsupportedData, kind "unknown-crs".
 Result<ProjObject> WithEllipsoidalHeights(const ProjSession& session, ProjObject crs);
 

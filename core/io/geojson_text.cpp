@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "core/base/result.h"
+#include "core/io/antimeridian.h"
 
 namespace farhorizon {
 
@@ -38,6 +39,17 @@ std::string Bracketed(std::initializer_list<std::string> parts) {
 std::string Coordinates(const Geodetic& g) {
   return Bracketed({Rounded(g.lon_deg, kDegreeDecimals), Rounded(g.lat_deg, kDegreeDecimals),
                     Rounded(g.height_m, kMetreDecimals)});
+}
+
+std::string LineGeometry(const Geodetic& from, const Geodetic& to) {
+  std::string lines;
+  const auto parts = CutAtAntimeridian(from, to);
+  for (const auto& [a, b] : parts) {
+    if (!lines.empty()) lines += ',';
+    lines += Bracketed({Coordinates(a), Coordinates(b)});
+  }
+  if (parts.size() == 1) return R"({"type":"LineString","coordinates":)" + lines + "}";
+  return R"({"type":"MultiLineString","coordinates":[)" + lines + "]}";
 }
 
 std::string Pair(std::int64_t first, std::int64_t second) {

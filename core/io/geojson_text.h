@@ -24,6 +24,10 @@ std::string Bracketed(std::initializer_list<std::string> parts);
 /// "[longitude,latitude,height]".
 std::string Coordinates(const Geodetic& g);
 
+/// The geometry of the line from `from` to `to`: a LineString, or where it crosses the meridian of
+/// 180 degrees a MultiLineString of the parts on both sides of it (CutAtAntimeridian).
+std::string LineGeometry(const Geodetic& from, const Geodetic& to);
+
 /// "[first,second]".
 std::string Pair(std::int64_t first, std::int64_t second);
 

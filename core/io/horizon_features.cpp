@@ -19,9 +19,8 @@ constexpr int kMeasureDecimals = 9;
 constexpr int kSkylineDropDecimals = 3;
 
 std::string FeatureText(const HorizonFeature& feature) {
-  std::string text = R"({"type":"Feature","geometry":{"type":"LineString","coordinates":)";
-  text += Bracketed({Coordinates(feature.from), Coordinates(feature.to)});
-  text += R"(},"properties":{"a":)" + Pair(feature.a[0], feature.a[1]);
+  std::string text = R"({"type":"Feature","geometry":)" + LineGeometry(feature.from, feature.to);
+  text += R"(,"properties":{"a":)" + Pair(feature.a[0], feature.a[1]);
   text += R"(,"b":)" + Pair(feature.b[0], feature.b[1]);
   if (feature.undecided) {
     text += R"(,"undecided":true)";
@@ -45,14 +44,23 @@ Geodetic ReadPosition(const Json& position) {
   return {position.at(0).get<double>(), position.at(1).get<double>(), position.at(2).get<double>()};
 }
 
+// The ends of a line, whether it is cut or not.
+std::array<Geodetic, 2> ReadLine(const Json& geometry) {
+  const Json& lines = geometry.at("coordinates");
+  if (geometry.at("type") == "LineString") {
+    return {ReadPosition(lines.at(0)), ReadPosition(lines.at(1))};
+  }
+  return {ReadPosition(lines.at(0).at(0)), ReadPosition(lines.at(1).at(1))};
+}
+
 HorizonFeature ReadFeature(const Json& feature) {
-  const Json& line = feature.at("geometry").at("coordinates");
+  const std::array<Geodetic, 2> line = ReadLine(feature.at("geometry"));
   const Json& properties = feature.at("properties");
   HorizonFeature result{};
   result.a = properties.at("a").get<std::array<std::int32_t, 2>>();
   result.b = properties.at("b").get<std::array<std::int32_t, 2>>();
-  result.from = ReadPosition(line.at(0));
-  result.to = ReadPosition(line.at(1));
+  result.from = line[0];
+  result.to = line[1];
   result.undecided = properties.value("undecided", false);
   if (!result.undecided) {
     result.measures.azimuths = properties.at("azimuths").get<std::vector<std::array<double, 2>>>();

@@ -58,7 +58,8 @@ struct HorizonFeature {
 };
 
 /// The text of horizon.geojson: an RFC 7946 FeatureCollection with a LineString for each edge, one
-/// feature to a line of text. Measures of lines are printed to 10^-9, skyline drops to 10^-3.
+/// feature to a line of text; an edge across the meridian of 180 degrees is cut there into a
+/// MultiLineString of two. Measures of lines are printed to 10^-9, skyline drops to 10^-3.
 ///
 /// Where some edges are undecided, the collection has `approximate` and their number as
 /// `undecided`, and each of them has `undecided` instead of measures and witness.

@@ -1,7 +1,9 @@
-// One layer of line strings, a feature for each edge in the order given, in one transaction where
+// One layer of lines, a feature for each edge in the order given, in one transaction where
 // the format has them. Fields are set by their place in kFields.
 #include "core/io/horizon_vector.h"
 
+#include <algorithm>
+#include <array>
 #include <memory>
 #include <utility>
 
@@ -10,6 +12,7 @@
 #include <ogr_api.h>
 #include <ogr_srs_api.h>
 
+#include "core/io/antimeridian.h"
 #include "core/io/gdal_session.h"
 
 namespace farhorizon {
@@ -45,6 +48,22 @@ bool AddFields(OGRLayerH layer) {
   return true;
 }
 
+bool CrossesAntimeridian(const HorizonFeature& edge) {
+  return CutAtAntimeridian(edge.from, edge.to).size() > 1;
+}
+
+// The edge as a geometry of the layer's type.
+OGRGeometryH LineOf(const HorizonFeature& edge, OGRwkbGeometryType type) {
+  const bool multi = type == wkbMultiLineString25D;
+  const OGRGeometryH lines = OGR_G_CreateGeometry(type);
+  for (const std::array<Geodetic, 2>& part : CutAtAntimeridian(edge.from, edge.to)) {
+    const OGRGeometryH line = multi ? OGR_G_CreateGeometry(wkbLineString25D) : lines;
+    for (const Geodetic& g : part) OGR_G_AddPoint(line, g.lon_deg, g.lat_deg, g.height_m);
+    if (multi) OGR_G_AddGeometryDirectly(lines, line);
+  }
+  return lines;
+}
+
 bool AddFeature(OGRLayerH layer, const HorizonFeature& edge) {
   const std::unique_ptr<void, DestroyFeature> feature(OGR_F_Create(OGR_L_GetLayerDefn(layer)));
   const std::int32_t numbers[] = {edge.a[0], edge.a[1], edge.b[0], edge.b[1]};
@@ -62,10 +81,7 @@ bool AddFeature(OGRLayerH layer, const HorizonFeature& edge) {
     for (int i = 0; i < 3; ++i) OGR_F_SetFieldDouble(feature.get(), 10 + i, weights[i]);
   }
   if (edge.level_kept) OGR_F_SetFieldInteger(feature.get(), 7, *edge.level_kept);
-  const OGRGeometryH line = OGR_G_CreateGeometry(wkbLineString25D);
-  for (const Geodetic& g : {edge.from, edge.to}) {
-    OGR_G_AddPoint(line, g.lon_deg, g.lat_deg, g.height_m);
-  }
+  const OGRGeometryH line = LineOf(edge, OGR_L_GetGeomType(layer));
   return OGR_F_SetGeometryDirectly(feature.get(), line) == OGRERR_NONE &&
          OGR_L_CreateFeature(layer, feature.get()) == OGRERR_NONE;
 }
@@ -79,8 +95,10 @@ bool WriteLayer(const char* driver, const std::string& path,
   const std::unique_ptr<void, ReleaseCrs> crs(OSRNewSpatialReference(nullptr));
   if (OSRImportFromEPSG(crs.get(), 4326) != OGRERR_NONE) return false;
   OSRSetAxisMappingStrategy(crs.get(), OAMS_TRADITIONAL_GIS_ORDER);
+  const bool multi = std::any_of(features.begin(), features.end(), CrossesAntimeridian);
   const OGRLayerH layer =
-      GDALDatasetCreateLayer(dataset.get(), "horizon", crs.get(), wkbLineString25D, nullptr);
+      GDALDatasetCreateLayer(dataset.get(), "horizon", crs.get(),
+                             multi ? wkbMultiLineString25D : wkbLineString25D, nullptr);
   if (layer == nullptr || !AddFields(layer)) return false;
   const bool transacted = GDALDatasetTestCapability(dataset.get(), ODsCTransactions) != 0;
   if (transacted && GDALDatasetStartTransaction(dataset.get(), FALSE) != OGRERR_NONE) return false;

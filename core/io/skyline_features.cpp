@@ -11,9 +11,8 @@ std::string Metres(const std::array<double, 2>& pair) {
 }
 
 std::string PartText(const SkylineFeature& part) {
-  std::string text = R"({"type":"Feature","geometry":{"type":"LineString","coordinates":)";
-  text += Bracketed({Coordinates(part.left), Coordinates(part.right)});
-  text += R"(},"properties":{"a":)" + Pair(part.a[0], part.a[1]);
+  std::string text = R"({"type":"Feature","geometry":)" + LineGeometry(part.left, part.right);
+  text += R"(,"properties":{"a":)" + Pair(part.a[0], part.a[1]);
   text += R"(,"b":)" + Pair(part.b[0], part.b[1]);
   text += R"(,"t":)" + Bracketed({Exact(part.t[0]), Exact(part.t[1])});
   text += R"(,"offset_m":)" + Metres(part.offset_m);

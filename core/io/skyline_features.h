@@ -39,8 +39,9 @@ struct SkylineOfDirection {
   std::vector<SkylineFeature> parts;
 };
 
-/// An RFC 7946 FeatureCollection with a LineString for each part, one part to a line of text. t is
-/// printed without loss, longitude and latitude to 10^-9 degrees, metres to 10^-4.
+/// An RFC 7946 FeatureCollection with a LineString for each part, one part to a line of text; a
+/// part across the meridian of 180 degrees is cut there into a MultiLineString of two. t is printed
+/// without loss, longitude and latitude to 10^-9 degrees, metres to 10^-4.
 std::string WriteSkylineGeoJson(const SkylineOfDirection& skyline);
 
 }  // namespace farhorizon

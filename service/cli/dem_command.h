@@ -17,7 +17,9 @@
 namespace farhorizon {
 
 /// The formats of the positional argument DEM, for help.
-constexpr const char* kDemFormats = "GeoTIFF, ASCII grid, SRTM HGT, DTED, USGS DEM or ENVI";
+constexpr const char* kDemFormats =
+    "GeoTIFF, text grid (Arc/Info, GRASS, Surfer, x y z), SRTM HGT, also zipped, DTED, USGS DEM, "
+    "Erdas Imagine, Surfer, ENVI or Esri .flt and .bil";
 
 /// The arguments that every command on a DEM has.
 struct DemArguments {

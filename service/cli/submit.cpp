@@ -196,7 +196,9 @@ void AddSubmit(CLI::App& app, SelectedCommand& selected) {
   const auto arguments = std::make_shared<SubmitArguments>();
   CLI::App* command =
       app.add_subcommand("submit", "Send a DEM to a service and fetch the artifacts");
-  AddDem(*command, arguments->dem, "GeoTIFF, ASCII grid, SRTM HGT, DTED or USGS DEM");
+  AddDem(*command, arguments->dem,
+         "GeoTIFF, text grid (Arc/Info, GRASS, Surfer, x y z), SRTM HGT, also zipped, DTED, USGS "
+         "DEM, Erdas Imagine or Surfer");
   command->add_option("--url", arguments->url, "the service: http://HOST:PORT")
       ->required()
       ->type_name("URL");

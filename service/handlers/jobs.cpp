@@ -1,8 +1,9 @@
 #include "service/handlers/jobs.h"
 
-#include <charconv>
+#include <optional>
 #include <string_view>
 
+#include "core/pipeline/number_text.h"
 #include "service/handlers/json.h"
 #include "service/handlers/problem.h"
 #include "service/handlers/status_info.h"
@@ -18,13 +19,9 @@ Error BadQuery(const std::string& what) {
 }
 
 Result<int> ReadLimit(const std::string& text) {
-  int limit = 0;
-  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), limit);
-  if (failure != std::errc() || end != text.data() + text.size() || limit < 1 ||
-      limit > kMaxPageSize) {
-    return BadQuery("limit must be a number from 1 to 10000");
-  }
-  return limit;
+  const std::optional<std::int64_t> limit = WholeNumberIn(text);
+  if (limit && *limit >= 1 && *limit <= kMaxPageSize) return static_cast<int>(*limit);
+  return BadQuery("limit must be a whole number from 1 to 10000");
 }
 
 Result<std::vector<JobState>> ReadStates(std::string_view text) {

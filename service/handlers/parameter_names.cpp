@@ -29,7 +29,8 @@ bool BeginsWithValue(std::string_view text) {
   const char first = text[0];
   if ((first >= '0' && first <= '9') || (first >= 'A' && first <= 'Z') || first == '-') return true;
   const std::string_view word = text.substr(0, text.find_first_of(" ,;.:)\"'"));
-  return std::find(kSmallWords.begin(), kSmallWords.end(), word) != kSmallWords.end();
+  const bool list = text.substr(word.size(), 1) == ",";  // "--height-unit m, ft or us-ft"
+  return !list && std::find(kSmallWords.begin(), kSmallWords.end(), word) != kSmallWords.end();
 }
 
 }  // namespace

@@ -16,16 +16,16 @@ using nlohmann::json;
 constexpr const char* kTaskFile = "task.json";
 constexpr std::uintmax_t kLargestTask = 1U << 20U;
 constexpr std::size_t kLongestText = 2000;
-constexpr std::size_t kLongestAssumption = 1000;
 constexpr std::size_t kLongestCode = 64;
 
 std::string Line(const json& object) {
   return object.dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
 }
 
-// The beginning of `text`, at most `most` bytes, that ends with a whole character of UTF-8.
-std::string Beginning(std::string text, std::size_t most) {
-  if (text.size() <= most) return text;
+// The beginning of `text`, at most kLongestText bytes, that ends with a whole character of UTF-8.
+std::string Beginning(std::string text) {
+  if (text.size() <= kLongestText) return text;
+  std::size_t most = kLongestText;
   const auto continues = [&](std::size_t at) {
     return (static_cast<unsigned char>(text[at]) & 0xC0U) == 0x80U;
   };
@@ -34,10 +34,10 @@ std::string Beginning(std::string text, std::size_t most) {
   return text;
 }
 
-std::string TextOf(const json& object, const char* key, std::size_t most = kLongestText) {
+std::string TextOf(const json& object, const char* key) {
   const auto found = object.find(key);
   if (found == object.end() || !found->is_string()) return {};
-  return Beginning(found->get<std::string>(), most);
+  return Beginning(found->get<std::string>());
 }
 
 // An empty name is an error of no kind but its code.
@@ -62,7 +62,7 @@ bool IsAssumptionCode(const std::string& code) {
 
 std::optional<WorkerMessage> ReadAssumption(const json& assumption) {
   if (!assumption.is_object()) return std::nullopt;
-  Assumption read{TextOf(assumption, "code"), TextOf(assumption, "text", kLongestAssumption)};
+  Assumption read{TextOf(assumption, "code"), TextOf(assumption, "text")};
   if (!IsAssumptionCode(read.code) || read.text.empty()) return std::nullopt;
   return read;
 }
@@ -124,15 +124,14 @@ std::string WriteMessage(const WorkerMessage& message) {
     return Line({{"timings", done->timings}});
   }
   if (const auto* assumption = std::get_if<Assumption>(&message)) {
-    return Line({{"assumption",
-                  {{"code", assumption->code},
-                   {"text", Beginning(assumption->text, kLongestAssumption)}}}});
+    return Line(
+        {{"assumption", {{"code", assumption->code}, {"text", Beginning(assumption->text)}}}});
   }
   const Error& error = std::get<Error>(message);
   return Line({{"error",
                 {{"code", ErrorCodeName(error.code)},
                  {"kind", error.kind.name()},
-                 {"message", Beginning(error.message, kLongestText)}}}});
+                 {"message", Beginning(error.message)}}}});
 }
 
 std::optional<WorkerMessage> ReadMessage(std::string_view line) {

@@ -51,8 +51,7 @@ struct WorkerDone {
 };
 using WorkerMessage = std::variant<WorkerProgress, Assumption, WorkerDone, Error>;
 
-/// One line, with its newline. A text is cut where it is too long: after 2000 bytes, of an
-/// assumption after 1000.
+/// One line, with its newline. A text is cut after 2000 bytes.
 std::string WriteMessage(const WorkerMessage& message);
 /// nullopt for anything that WriteMessage does not write: a hostile raster may have taken control
 /// of the worker.

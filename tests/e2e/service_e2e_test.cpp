@@ -115,6 +115,11 @@ TEST_F(ServiceE2e, AJobLeavesTheBytesThatBuildLeaves) {
                  (folder_ / "sent").string(), "--crs", "EPSG:4326", "--levels", "2"}),
             0)
       << SlurpFile(folder_ / "stderr");
+  // The grid says nothing of the unit of its heights. The service names the parameter that would,
+  // the report the flag, so that it is the same.
+  EXPECT_THAT(SlurpFile(folder_ / "stderr"),
+              testing::AllOf(testing::HasSubstr("assumed: "), testing::HasSubstr("heightUnit")));
+  EXPECT_THAT(SlurpFile(folder_ / "sent" / "report.json"), testing::HasSubstr("--height-unit"));
   std::size_t files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder_ / "built")) {
     const std::string name = entry.path().filename().string();

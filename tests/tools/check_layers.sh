@@ -33,7 +33,7 @@ declare -A may=(
   [core/io/file_kind]="core/base core/io/text_grid"
   [core/io/text_grid]="core/base"
   [core/io/raster]="core/base core/io core/io/file_kind core/io/text_grid"
-  [core/io/dem]="core/base core/geometry core/terrain core/geo core/io core/io/raster"
+  [core/io/dem]="core/base core/geometry core/terrain core/geo core/io core/io/text_grid core/io/raster"
   [core/pipeline]="$below_pipeline"
   [core/pipeline/verify]="$below_pipeline core/pipeline"
   # The service's own root: clock, log, and the wrapper header of Asio. main.cpp is below.

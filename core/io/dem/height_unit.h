@@ -23,19 +23,19 @@ Result<HeightUnit> ReadHeightUnit(const std::string& name);
 
 /// What is said of the unit of a DEM's heights.
 struct HeightUnitSources {
-  std::optional<HeightUnit> stated;       ///< --height-unit
-  std::optional<HeightUnit> band;         ///< the band's own
-  std::optional<HeightUnit> call_system;  ///< of the vertical system that the call names
-  std::optional<HeightUnit> file_key;     ///< VerticalUnitsGeoKey
-  std::optional<HeightUnit> file_system;  ///< of the file's vertical system
-  std::string map_unit = {};              ///< of the horizontal system, where that is no metre
+  std::optional<HeightUnit> stated = {};       ///< --height-unit
+  std::optional<HeightUnit> band = {};         ///< the band's own
+  std::optional<HeightUnit> call_system = {};  ///< of the vertical system that the call names
+  std::optional<HeightUnit> file_key = {};     ///< VerticalUnitsGeoKey
+  std::optional<HeightUnit> file_system = {};  ///< of the file's vertical system
+  std::string map_unit = {};                   ///< of the horizontal system, where that is no metre
 };
 
 /// The unit of heights, by one rule: what --height-unit states; else the band's own unit; else, of
 /// the call's vertical system, the file's VerticalUnitsGeoKey and the file's vertical system, the
 /// first that is not the metre, for a system that counts metres is often named for its datum alone;
-/// else the metre. Adds to `assumptions`, with the code "height-unit", what a source says otherwise,
-/// and the metre where none says anything.
+/// else the metre. Adds to `assumptions`, with the code "height-unit", what a source says
+/// otherwise, and the metre where none says anything.
 HeightUnit DecideHeightUnit(const HeightUnitSources& sources, Assumptions& assumptions);
 
 }  // namespace farhorizon

@@ -1,16 +1,42 @@
 // Which of a band's raw values mean no data.
 #include "core/io/dem/nodata_rule.h"
 
+#include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include <gdal.h>
 
+#include "core/io/dem/number_text.h"
 #include "core/io/dem/value_scale.h"
+#include "core/io/text_grid/text_number.h"
 
 namespace farhorizon {
 
-NoDataRule::NoDataRule(void* band, const std::vector<double>& stated)
-    : is_float_(GDALGetRasterDataType(band) == GDT_Float32) {
+std::vector<double> ParseNodataText(const std::string& text, const std::string& where,
+                                    Assumptions& assumptions) {
+  std::vector<double> values;
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    const std::optional<TextNumber> number = ParseNumber(word);
+    if (!number) {
+      std::string shown = text.substr(0, 40);
+      std::ranges::replace_if(
+          shown, [](unsigned char c) { return c < 0x20 || c > 0x7e; }, '?');
+      assumptions.push_back({"nodata-tag", where + " names \"" + shown +
+                                               "\" as the value that means no data, which is no "
+                                               "number; it was passed over, --nodata names one"});
+      return {};
+    }
+    values.push_back(number->value);
+  }
+  return values;
+}
+
+std::vector<double> ReadNodataTags(void* band, TiffFile* tiff, Assumptions& assumptions) {
+  if (tiff != nullptr) {
+    return ParseNodataText(tiff->Text(0, TiffTag::kGdalNodata), "the file", assumptions);
+  }
   int given = 0;
   double value = 0;
   switch (GDALGetRasterDataType(band)) {
@@ -23,19 +49,43 @@ NoDataRule::NoDataRule(void* band, const std::vector<double>& stated)
     default:
       value = GDALGetRasterNoDataValue(band, &given);
   }
-  if (given != 0) value_ = value;
-  if (!stated.empty()) value_ = stated.front();
+  return given != 0 ? std::vector<double>{value} : std::vector<double>{};
+}
+
+NoDataRule::NoDataRule(const SampleType& samples, const std::vector<double>& values)
+    : is_float_(samples.is_float) {
+  for (const double value : values) {
+    if (!std::isnan(value)) nodata_.push_back({value, samples.AsStored(value)});
+  }
 }
 
 bool NoDataRule::Matches(double value) const {
-  if (std::isnan(value)) return true;
-  if (!value_) return false;
-  if (value == *value_) return true;
-  if (std::abs(*value_) >= kMaxHeight && std::isfinite(*value_)) {
-    return std::abs(value - *value_) <= 1e-5 * std::abs(*value_);
+  return std::isnan(value) ||
+         std::ranges::any_of(nodata_, [&](const Nodata& nodata) { return Matches(value, nodata); });
+}
+
+bool NoDataRule::Matches(double value, const Nodata& nodata) const {
+  if (value == nodata.value || value == nodata.stored) return true;
+  if (std::abs(nodata.value) < kMaxHeight) {
+    // Doubles that were floats before: -9999.9 is then -9999.900390625.
+    return is_float_ && std::abs(value) < kMaxHeight &&
+           static_cast<float>(value) == static_cast<float>(nodata.value);
   }
-  return is_float_ && std::isfinite(*value_) &&
-         static_cast<float>(value) == static_cast<float>(*value_);
+  return std::isfinite(nodata.value) &&
+         std::abs(value - nodata.value) <= 1e-5 * std::abs(nodata.value);
+}
+
+void SayTagsWithoutSamples(const std::vector<double>& tags, const SampleType& samples,
+                           Assumptions& assumptions) {
+  for (const double tag : tags) {
+    if (samples.is_float || !std::isnan(samples.AsStored(tag))) continue;
+    assumptions.push_back(
+        {"nodata-tag", "the file names " + NumberText(tag) +
+                           " as the value that means no data, which no sample of its type (" +
+                           samples.name +
+                           ") can have, so that it hides no post; if another value means no data, "
+                           "name it with --nodata"});
+  }
 }
 
 }  // namespace farhorizon

@@ -1,62 +1,124 @@
-// Where a raster's cells lie, as the file says: the geotransform and the reference system.
+// Where a raster's cells lie: the geotransform and the reference system that the file states, or
+// the files beside it that GIS programs write for formats without a place of their own.
 #include "core/io/dem/raster_place.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <memory>
+#include <utility>
 
 #include <cpl_conv.h>
+#include <cpl_string.h>
 #include <gdal.h>
 #include <ogr_srs_api.h>
+
+#include "core/io/dem/world_file.h"
+#include "core/io/file.h"
 
 namespace farhorizon {
 
 namespace {
 
+// GDAL's: x = c[0] + c[1] * P + c[2] * L and y = c[3] + c[4] * P + c[5] * L, at column P and row L
+// of the raster, counted from the corner of its first cell.
+using Coefficients = std::array<double, 6>;
+
+// The share of a cell by which a post may be off. Cells are said to a millimetre for steps of a
+// metre at best; the encoded mesh rounds positions by far more.
+constexpr double kMostOff = 1e-3;
+
+// Bilinear: the nearest cell's height moves posts by half a cell. Cells that the warped raster has
+// and this one has not get a value that is no height; without -dstnodata they are ground at zero.
+constexpr const char* kWarp = "gdalwarp -r bilinear -ot Float32 -dstnodata -9999 IN OUT.tif";
+
+constexpr const char* kStateCorners =
+    "if you know its corners, state them with gdal_translate -a_ullr WEST NORTH EAST SOUTH";
+
 Error BadData(const std::string& message, ErrorKind kind) {
   return {ErrorCode::kUnsupportedData, message, kind};
 }
 
-}  // namespace
+Error Degenerate(const std::string& whose) {
+  return BadData(whose + " is degenerate (cell size zero or not a number); " + kStateCorners,
+                 "degenerate-geotransform");
+}
 
-Result<GeoTransform> ReadGeoTransform(void* dataset) {
-  double g[6] = {0, 0, 0, 0, 0, 0};
-  if (GDALGetGeoTransform(dataset, g) != CE_None) {
-    return BadData(
-        "the raster does not say where its cells lie (no geotransform); give it one "
-        "with gdal_translate -a_ullr",
-        "degenerate-geotransform");
-  }
-  const bool finite = std::ranges::all_of(g, [](double x) { return std::isfinite(x); });
-  if (finite && (g[2] != 0 || g[4] != 0)) {
-    return BadData("the raster is rotated or sheared; make it north up with gdalwarp",
+// The grid along the axes that goes through the middle of the grid of `c`. There the distance is
+// zero and it grows evenly to the sides, so that it is greatest at the corners:
+//   |c[2]| * (rows - 1) / 2 along x, |c[4]| * (columns - 1) / 2 along y.
+// whose: what the coefficients are of, for messages.
+Result<GeoTransform> AlongTheAxes(const Coefficients& c, int columns, int rows,
+                                  const std::string& whose) {
+  if (!std::ranges::all_of(c, [](double x) { return std::isfinite(x); })) return Degenerate(whose);
+  const double off_x = std::abs(c[2]) * (rows - 1) / 2;
+  const double off_y = std::abs(c[4]) * (columns - 1) / 2;
+  if (off_x > kMostOff * std::abs(c[1]) || off_y > kMostOff * std::abs(c[5])) {
+    return BadData(whose + " is rotated or sheared; make it north up with " + kWarp,
                    "rotated-geotransform");
   }
-  if (finite && g[1] < 0) {
-    return BadData("the raster's columns run from east to west; turn it round with gdalwarp",
-                   "rotated-geotransform");
-  }
-  // GDAL's coefficients are those of cell corners, for PixelIsPoint files too (it shifts them).
-  const GeoTransform transform = {g[0] + 0.5 * g[1], g[3] + 0.5 * g[5], g[1], g[5]};
-  const double last_x = transform.origin_x + (GDALGetRasterXSize(dataset) - 1) * g[1];
-  const double last_y = transform.origin_y + (GDALGetRasterYSize(dataset) - 1) * g[5];
-  const bool apart = transform.origin_x + g[1] != transform.origin_x && last_x - g[1] != last_x &&
-                     transform.origin_y + g[5] != transform.origin_y && last_y - g[5] != last_y;
-  if (!finite || !apart || !std::isfinite(last_x) || !std::isfinite(last_y)) {
-    return BadData(
-        "the raster's geotransform is degenerate (cell size zero or not a number); give "
-        "it one with gdal_translate -a_ullr",
-        "degenerate-geotransform");
-  }
+  // Posts are the centres of cells, for PixelIsPoint files too: GDAL shifts their coefficients.
+  const GeoTransform transform = {c[0] + 0.5 * c[1] + 0.5 * rows * c[2],
+                                  c[3] + 0.5 * c[5] + 0.5 * columns * c[4], c[1], c[5]};
+  const double last_x = transform.origin_x + (columns - 1) * c[1];
+  const double last_y = transform.origin_y + (rows - 1) * c[5];
+  const bool apart = transform.origin_x + c[1] != transform.origin_x && last_x - c[1] != last_x &&
+                     transform.origin_y + c[5] != transform.origin_y && last_y - c[5] != last_y;
+  if (!apart || !std::isfinite(last_x) || !std::isfinite(last_y)) return Degenerate(whose);
   return transform;
 }
 
-Result<std::string> ReadCrs(void* dataset, const std::optional<std::string>& stated) {
-  if (stated) return *stated;
-  const OGRSpatialReferenceH crs = GDALGetSpatialRef(dataset);
-  if (crs == nullptr) {
-    return BadData("the DEM has no reference system; name it with --crs, for example EPSG:4326",
-                   "no-crs");
+// How far, in cells, `c` misses the control point.
+double Miss(const GDAL_GCP& point, const Coefficients& c) {
+  const double x = c[0] + c[1] * point.dfGCPPixel + c[2] * point.dfGCPLine;
+  const double y = c[3] + c[4] * point.dfGCPPixel + c[5] * point.dfGCPLine;
+  return std::max(std::abs((x - point.dfGCPX) / c[1]), std::abs((y - point.dfGCPY) / c[5]));
+}
+
+Result<GeoTransform> FromControlPoints(GDALDatasetH dataset) {
+  const int count = GDALGetGCPCount(dataset);
+  const GDAL_GCP* points = GDALGetGCPs(dataset);
+  const std::string whose = "the raster, placed by " + std::to_string(count) + " control points,";
+  Coefficients c{};
+  if (count < 3) {
+    return BadData("the raster is placed by " + std::to_string(count) +
+                       " control points (GCPs), at least 3 are needed; " + kStateCorners,
+                   "degenerate-geotransform");
   }
+  if (GDALGCPsToGeoTransform(count, points, c.data(), TRUE) == FALSE) return Degenerate(whose);
+  if (std::all_of(points, points + count,
+                  [&c](const GDAL_GCP& point) { return Miss(point, c) <= kMostOff; })) {
+    return AlongTheAxes(c, GDALGetRasterXSize(dataset), GDALGetRasterYSize(dataset), whose);
+  }
+  return BadData(whose + " is warped; make it north up with " + kWarp, "rotated-geotransform");
+}
+
+bool SamePlace(const GeoTransform& a, const GeoTransform& b, int columns, int rows) {
+  const auto near = [](double p, double q, double step) {
+    return std::abs(p - q) <= kMostOff * std::abs(step);
+  };
+  return near(a.origin_x, b.origin_x, a.step_x) && near(a.origin_y, b.origin_y, a.step_y) &&
+         near(a.step_x * columns, b.step_x * columns, a.step_x) &&
+         near(a.step_y * rows, b.step_y * rows, a.step_y);
+}
+
+struct ReleaseCrs {
+  void operator()(void* crs) const { OSRRelease(crs); }
+};
+using CrsPtr = std::unique_ptr<void, ReleaseCrs>;
+
+// The reference system that the text of a .prj states; null where it states none.
+CrsPtr FromPrj(const std::filesystem::path& prj) {
+  constexpr std::uintmax_t kMostBytes = 65536;  // as CheckCrsText
+  const Result<std::string> text = ReadFile(prj, kMostBytes);
+  if (!text) return nullptr;
+  CrsPtr crs(OSRNewSpatialReference(nullptr));
+  CPLStringList lines(CSLTokenizeString2(text->c_str(), "\r\n", 0));
+  const bool read = lines.Count() > 0 && OSRImportFromESRI(crs.get(), lines.List()) == OGRERR_NONE;
+  return read ? std::move(crs) : nullptr;
+}
+
+Result<std::string> TextOf(OGRSpatialReferenceH crs) {
   const char* authority = OSRGetAuthorityName(crs, nullptr);
   const char* code = OSRGetAuthorityCode(crs, nullptr);
   if (authority != nullptr && code != nullptr) return std::string(authority) + ":" + code;
@@ -69,6 +131,73 @@ Result<std::string> ReadCrs(void* dataset, const std::optional<std::string>& sta
     return BadData("the DEM's reference system cannot be read; name it with --crs", "no-crs");
   }
   return wkt;
+}
+
+}  // namespace
+
+Result<GeoTransform> ReadGeoTransform(void* dataset, const std::filesystem::path& path,
+                                      Assumptions& assumptions) {
+  const int columns = GDALGetRasterXSize(dataset);
+  const int rows = GDALGetRasterYSize(dataset);
+  const std::optional<WorldFile> world = FindWorldFile(path);
+  Coefficients own{};
+  if (GDALGetGeoTransform(dataset, own.data()) == CE_None) {
+    Result<GeoTransform> place = AlongTheAxes(own, columns, rows, "the raster");
+    if (!place || !world || !world->geotransform) return place;
+    const Result<GeoTransform> other =
+        AlongTheAxes(*world->geotransform, columns, rows, world->name);
+    if (!other || !SamePlace(*place, *other, columns, rows)) {
+      assumptions.push_back({"world-file", world->name + " beside the raster places it elsewhere " +
+                                               "than the raster itself, which was taken; move " +
+                                               "away the one that is wrong"});
+    }
+    return place;
+  }
+  if (GDALGetGCPCount(dataset) > 0) return FromControlPoints(dataset);
+  if (world && !world->geotransform) {
+    return BadData("the raster does not say where its cells lie, and the world file " +
+                       world->name + " beside it has not the six numbers of one; " + kStateCorners,
+                   "degenerate-geotransform");
+  }
+  if (world) {
+    assumptions.push_back(
+        {"world-file", "the raster does not say where its cells lie; " + world->name +
+                           " beside it was taken (gdal_translate IN OUT.tif puts it in)"});
+    return AlongTheAxes(*world->geotransform, columns, rows, world->name);
+  }
+  if (GDALGetMetadata(dataset, "RPC") != nullptr) {
+    return BadData(
+        std::string("the raster is placed by rational polynomials (RPC), which depend on the "
+                    "heights; make it north up with ") +
+            "gdalwarp -rpc -r bilinear -ot Float32 -dstnodata -9999 IN OUT.tif",
+        "rotated-geotransform");
+  }
+  return BadData(std::string("the raster does not say where its cells lie (no geotransform); put "
+                             "its world file (.tfw) beside it under the same name, or ") +
+                     kStateCorners,
+                 "degenerate-geotransform");
+}
+
+Result<std::string> ReadFileCrs(void* dataset, const std::filesystem::path& path,
+                                Assumptions& assumptions) {
+  OGRSpatialReferenceH crs = GDALGetSpatialRef(dataset);
+  if (crs == nullptr && GDALGetGCPCount(dataset) > 0) crs = GDALGetGCPSpatialRef(dataset);
+  if (crs != nullptr) return TextOf(crs);
+  const std::optional<std::filesystem::path> prj = FindBeside(path, ".prj");
+  if (!prj) {
+    return BadData("the DEM has no reference system; name it with --crs, for example EPSG:4326",
+                   "no-crs");
+  }
+  const std::string name = prj->filename().string();
+  const CrsPtr beside = FromPrj(*prj);
+  if (!beside) {
+    return BadData("the DEM has no reference system, and " + name +
+                       " beside it cannot be read; name it with --crs, for example EPSG:4326",
+                   "no-crs");
+  }
+  assumptions.push_back({"prj-file", "the DEM has no reference system; " + name +
+                                         " beside it was taken (--crs states another)"});
+  return TextOf(beside.get());
 }
 
 }  // namespace farhorizon

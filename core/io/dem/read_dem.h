@@ -16,19 +16,27 @@ struct DemReadOptions {
   std::int64_t max_posts = 64'000'000;
   std::optional<std::string> crs = {};             ///< overrides the file's
   std::optional<std::string> vertical_datum = {};  ///< overrides what `crs` or the file says
-  std::vector<double> nodata = {};                 ///< beside the file's own
+  std::vector<double> nodata = {};                 ///< raw values, beside the file's own
   std::optional<std::string> height_unit = {};     ///< "m", "ft" or "us-ft": overrides the file's
 };
 
-/// Reads the one band of a raster (GTiff, AAIGrid, SRTMHGT, DTED, USGSDEM, ENVI) as a DEM.
+/// Reads the band of heights of a raster (GTiff, AAIGrid, SRTMHGT, DTED, USGSDEM, ENVI) as a DEM.
 ///
-/// Heights are exact: integers as they are, floats scaled where they are multiples of one power of
-/// two, others rounded to a stated quantum (`Dem::quantized`). Nodata, NaN and cells hidden by an
-/// internal mask become kNoHeight. The band's scale, offset and unit (metres or feet) go into
-/// quantum_m and height_offset_m. Rows and columns stay as the file has them (step_y > 0: south
-/// first); posts are cell centres, whether the file calls its pixels areas or points.
-/// Overviews, side-car files and redirections are never opened, except the .prj of an AAIGrid and
-/// the .hdr that describes an ENVI raster. Messages name the file, not its folder.
+/// Heights are exact: integers as they are, signed ones of any number of bits too; floats scaled
+/// where they are multiples of one power of two, others rounded to a stated quantum
+/// (`Dem::quantized`). The band's scale, offset and unit go into quantum_m and height_offset_m.
+/// Rows and columns stay as the file has them (step_y > 0: south first); posts are cell centres,
+/// whether the file calls its pixels areas or points.
+///
+/// kNoHeight are: NaN, the nodata values of the file, of its auxiliary file and of `options`, cells
+/// that a mask hides (internal, an alpha band, FILE.msk), and values that no tag names but that no
+/// ground on Earth has and that are customary for no data (untagged_voids.h).
+///
+/// `Dem::assumptions` has what the file leaves open or says twice; it is empty for a file that
+/// states everything. Its codes, and how each is stated otherwise: proto/assumptions.md.
+///
+/// Of files beside, only FILE.aux.xml, FILE.msk, the .prj of an AAIGrid and the .hdr of an ENVI
+/// raster are read; no name in any file is followed. Messages name the file, not its folder.
 /// Errors: kNotFound no such file; kInvalidArgument "virtual-path"; kUnsupportedData, by kind:
 ///   "not-a-raster", "several-bands", "no-crs", "rotated-geotransform", "degenerate-geotransform",
 ///   "too-small", "all-nodata", "infinite-height", "height-out-of-range", "unsupported-type",

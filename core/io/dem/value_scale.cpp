@@ -9,8 +9,8 @@
 #include <gdal.h>
 
 #include "core/geo/height_system.h"
+#include "core/io/dem/band_values.h"
 #include "core/io/dem/height_unit.h"
-#include "core/io/dem/raster_place.h"
 #include "core/io/dem/read_dem.h"
 
 namespace farhorizon {
@@ -26,11 +26,12 @@ struct Systems {
   std::string map_unit;      // of the horizontal axes, where that is no metre
 };
 
-Result<Systems> ReadSystems(GDALDatasetH dataset, const DemReadOptions& options) {
+Result<Systems> ReadSystems(const std::optional<std::string>& file_crs,
+                            const DemReadOptions& options) {
   Systems systems;
   CrsUnits file;
-  if (Result<std::string> crs = ReadCrs(dataset, std::nullopt); crs) {
-    Result<CrsUnits> units = ReadCrsUnits(*crs);
+  if (file_crs) {
+    Result<CrsUnits> units = ReadCrsUnits(*file_crs);
     if (!units && !options.crs) return std::move(units.error());
     if (units) file = *std::move(units);
   }
@@ -70,10 +71,7 @@ std::optional<HeightUnit> UnitOf(const std::optional<HeightSystem>& system,
 // GDAL makes the band's unit of the vertical system's where the band has none of its own.
 Result<HeightUnit> DecideUnit(GDALRasterBandH band, const DemReadOptions& options,
                               const Systems& systems, Assumptions& assumptions) {
-  HeightUnitSources sources{.stated = {},
-                            .band = {},
-                            .call_system = UnitOf(systems.call, systems.call_flag),
-                            .file_key = {},
+  HeightUnitSources sources{.call_system = UnitOf(systems.call, systems.call_flag),
                             .file_system = UnitOf(systems.file, "the file"),
                             .map_unit = systems.map_unit};
   if (options.height_unit) {
@@ -118,8 +116,8 @@ void AssumeDatum(GDALDatasetH dataset, const Systems& systems, Assumptions& assu
 
 }  // namespace
 
-Result<ValueScale> ReadValueScale(void* dataset, void* band, const DemReadOptions& options,
-                                  Assumptions& assumptions) {
+Result<ValueScale> ReadValueScale(OpenedDem& dem, const std::optional<std::string>& file_crs) {
+  const GDALRasterBandH band = dem.band.heights;
   const double scale = GDALGetRasterScale(band, nullptr);
   const double offset = GDALGetRasterOffset(band, nullptr);
   if (!std::isfinite(scale) || scale == 0 || !std::isfinite(offset)) {
@@ -128,21 +126,21 @@ Result<ValueScale> ReadValueScale(void* dataset, void* band, const DemReadOption
                      std::to_string(offset) + ") is of no use; set them with gdal_edit",
                  "unsupported-type"};
   }
-  const Result<Systems> systems = ReadSystems(dataset, options);
+  const Result<Systems> systems = ReadSystems(file_crs, dem.options);
   if (!systems) return systems.error();
-  Result<HeightUnit> unit = DecideUnit(band, options, *systems, assumptions);
+  Result<HeightUnit> unit = DecideUnit(band, dem.options, *systems, dem.assumptions);
   if (!unit) return std::move(unit.error());
   double metres = unit->metres;
   if (CountsDown(*systems)) {
     metres = -metres;
     const HeightSystem& down =
         systems->call && systems->call->down ? *systems->call : *systems->file;
-    assumptions.push_back(
+    dem.assumptions.push_back(
         {"depths", "values are depths, for " + down.name +
                        " counts downwards: heights are their negatives; where they are heights "
                        "already, name a system of heights with --crs, such as EPSG:4326+5773"});
   }
-  if (!systems->names_datum) AssumeDatum(dataset, *systems, assumptions);
+  if (!systems->names_datum) AssumeDatum(dem.dataset, *systems, dem.assumptions);
   return ValueScale{scale * metres, offset * metres};
 }
 

@@ -67,8 +67,8 @@ PublishedEdges VerifyFeatures(const TerrainInput& input,
   for (std::size_t i = 0; points && i < published.edges.size() && misplaced == 0; ++i) {
     // Some ten times what the decimals of the file round: 1e-9 degrees, 1e-4 metres.
     const auto near = [](const Geodetic& a, const Geodetic& b) {
-      return std::abs(a.lon_deg - b.lon_deg) < 1e-8 && std::abs(a.lat_deg - b.lat_deg) < 1e-8 &&
-             std::abs(a.height_m - b.height_m) < 1e-3;
+      return std::abs(std::remainder(a.lon_deg - b.lon_deg, 360)) < 1e-8 &&
+             std::abs(a.lat_deg - b.lat_deg) < 1e-8 && std::abs(a.height_m - b.height_m) < 1e-3;
     };
     const bool there =
         near((*points)[2 * i], features[i].from) && near((*points)[2 * i + 1], features[i].to);

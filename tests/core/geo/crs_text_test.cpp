@@ -1,5 +1,8 @@
 #include "core/geo/crs_text.h"
 
+#include <string>
+#include <utility>
+
 #include <gtest/gtest.h>
 
 namespace farhorizon {
@@ -30,12 +33,50 @@ TEST(CheckCrsText, RefusesWhateverNamesAFileOrAServer) {
         "./crs.wkt", "../crs.wkt", "~/crs", "a\\b", "ESRI::../x", "+init=epsg:4326",
         "+proj=pipeline +step +proj=utm +zone=10", "+proj=longlat +nadgrids=/etc/passwd +type=crs",
         "+proj=longlat +geoidgrids=x.gtx +type=crs", "+proj=hgridshift +grids=x",
-        "+proj=longlat +nadgrids=@null,x.gsb +nadgrids=x.gsb",
+        "+proj=longlat +nadgrids=@null,x.gsb", "+proj=longlat +nadgrids=@null +nadgrids=x.gsb",
         "BOUNDCRS[SOURCECRS[],PARAMETERFILE[\"f\",\"/etc/passwd\"]]"}) {
     Status checked = CheckCrsText(text);
     ASSERT_FALSE(checked) << text;
     EXPECT_EQ(checked.error().kind, "unknown-crs") << text;
     EXPECT_EQ(checked.error().code, ErrorCode::kUnsupportedData);
+  }
+}
+
+TEST(CheckCrsText, NamesTheRemedyOfTheRole) {
+  EXPECT_NE(CheckCrsText("./x").error().message.find("--crs"), std::string::npos);
+  EXPECT_NE(CheckCrsText("./x", CrsRole::kHeights).error().message.find("EPSG:5773"),
+            std::string::npos);
+  EXPECT_NE(CheckCrsText(" ", CrsRole::kHeights).error().message.find("EPSG:5773"),
+            std::string::npos);
+}
+
+TEST(CompletedCrsText, PutsRightWhatPeopleWrite) {
+  const std::pair<const char*, const char*> kTexts[] = {
+      {"4326", "EPSG:4326"},
+      {" EPSG:4326\n", "EPSG:4326"},
+      {"epsg:4326", "EPSG:4326"},
+      {"EPSG 32613", "EPSG:32613"},
+      {"EPSG: 32613", "EPSG:32613"},
+      {"EPSG::32613", "EPSG:32613"},
+      {"esri:102003", "ESRI:102003"},
+      {"EPSG:4326+5773", "EPSG:4326+5773"},
+      {"EPSG:4326,EPSG:5773", "EPSG:4326+5773"},
+      {"EPSG:4326 5773", "EPSG:4326+5773"},
+      {"EPSG:4326 + EPSG:5773", "EPSG:4326+5773"},
+      {"ESRI:102003+EPSG:5773", "ESRI:102003+EPSG:5773"},
+      {"+init=epsg:4326", "EPSG:4326"},
+      {"init=EPSG:32613 +type=crs", "EPSG:32613"},
+      {"+proj=utm +zone=13 +datum=WGS84", "+proj=utm +zone=13 +datum=WGS84 +type=crs"},
+      {"+zone=13 +proj=utm", "+zone=13 +proj=utm +type=crs"},
+      {"proj=utm zone=13 type=crs", "proj=utm zone=13 type=crs"}};
+  for (const auto& [text, complete] : kTexts) EXPECT_EQ(CompletedCrsText(text), complete);
+}
+
+TEST(CompletedCrsText, LeavesOthersAsTheyAre) {
+  for (const char* text :
+       {"", "WGS 84", "NAD27 / UTM zone 10N", "WGS 84 + EGM96 height", "urn:ogc:def:crs:EPSG::4326",
+        "GEOGCRS[\"+proj=utm\"]", "+init=/etc/passwd:x"}) {
+    EXPECT_EQ(CompletedCrsText(text), text);
   }
 }
 

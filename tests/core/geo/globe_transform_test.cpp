@@ -102,9 +102,9 @@ TEST(GlobeTransform, Nad27IsShiftedAndItsHeightsPass) {
   }
 }
 
-TEST(GlobeTransform, OneWayIsTakenForAllPointsOfADem) {
+TEST(GlobeTransform, OneWayIsTakenForAllPoints) {
   // Two points either side of the meridian where PROJ changes its NAD27 operation must not tear:
-  // ten centimetres apart on the map, ten centimetres apart on the globe.
+  // a hundredth of a degree apart on the map, as much apart on the globe.
   const MapPoint about = {-90, 40, 0};
   const GlobeTransform globe = MustOpen("EPSG:4267", "", about);
   std::vector<MapPoint> points;
@@ -165,7 +165,39 @@ TEST(GlobeTransform, RefusesSystemsThatAreNotOnEarth) {
   EXPECT_EQ(KindOf("ENGCRS[\"site grid\",EDATUM[\"site\"],CS[Cartesian,2],AXIS[\"x\",east],"
                    "AXIS[\"y\",north],LENGTHUNIT[\"metre\",1]]"),
             "local-crs");
-  EXPECT_EQ(KindOf("ESRI:104903"), "unknown-crs");  // the Moon
+  for (const char* crs : {"ESRI:104903", "IAU_2015:49900", "+proj=longlat +R=1737400"}) {
+    Result<GlobeTransform> globe = GlobeTransform::Open(crs);  // the Moon, Mars
+    ASSERT_FALSE(globe) << crs;
+    EXPECT_EQ(globe.error().kind, "unknown-crs") << crs;
+    EXPECT_THAT(globe.error().message, HasSubstr("not one of the Earth")) << crs;
+  }
+  EXPECT_EQ(KindOf("+proj=longlat +R=6371000"), "opened");  // a sphere of the Earth's size
+}
+
+TEST(GlobeTransform, ReadsSystemsAsPeopleWriteThem) {
+  const Geodetic expected = OnGlobe(MustOpen("EPSG:32613"), {500000, 4500000, 0});
+  for (const char* crs : {"32613", "EPSG 32613", "+init=epsg:32613", "WGS 84 / UTM zone 13N",
+                          "+proj=utm +zone=13 +datum=WGS84 +units=m", "urn:ogc:def:crs:EPSG::32613",
+                          "proj=utm zone=13 datum=WGS84"}) {
+    const Geodetic g = OnGlobe(MustOpen(crs), {500000, 4500000, 0});
+    EXPECT_EQ(g.lon_deg, expected.lon_deg) << crs;
+    EXPECT_EQ(g.lat_deg, expected.lat_deg) << crs;
+  }
+  EXPECT_EQ(OnGlobe(MustOpen("OGC:CRS84"), {8, 46, 0}).lon_deg, 8);
+  // A rotated pole, as climate models have it: the grid's pole is at 39.25 north, 18 east + 180.
+  const Geodetic rotated = OnGlobe(
+      MustOpen("+proj=ob_tran +o_proj=longlat +o_lon_p=-162 +o_lat_p=39.25 +lon_0=180 +R=6371000"),
+      {0, 90, 0});
+  EXPECT_NEAR(rotated.lat_deg, 39.25, 1e-6);
+}
+
+TEST(GlobeTransform, NamesTheOperationWhoseGridEnds) {
+  // BETA2007, the grid of Germany, ends well before Spain.
+  Result<GlobeTransform> globe =
+      GlobeTransform::Open("EPSG:31467", {.about = MapPoint{3000000, 4300000, 0}});
+  ASSERT_FALSE(globe);
+  EXPECT_EQ(globe.error().kind, "outside-crs");
+  EXPECT_THAT(globe.error().message, HasSubstr("DHDN to WGS 84 (4)"));
 }
 
 TEST(GlobeTransform, RefusesWhatIsNoSystemOfMaps) {
@@ -191,13 +223,6 @@ TEST(GlobeTransform, RefusesPointsOutsideTheSystem) {
       GlobeTransform::Open("EPSG:32644", {.about = MapPoint{1e12, 1e12, 0}});
   ASSERT_FALSE(bad);
   EXPECT_EQ(bad.error().kind, "outside-crs");
-}
-
-TEST(GlobeTransform, NamesItsSystemByCode) {
-  EXPECT_EQ(MustOpen("EPSG:4326").Name(), "EPSG:4326");
-  EXPECT_EQ(MustOpen("EPSG:4326", "EPSG:5773").Name(), "EPSG:4326+5773");
-  EXPECT_EQ(MustOpen("EPSG:4326+5773").Name(), "EPSG:4326+5773");
-  EXPECT_FALSE(MustOpen("+proj=utm +zone=10 +datum=WGS84 +type=crs").Name().empty());
 }
 
 }  // namespace

@@ -27,10 +27,11 @@ TEST_F(JobsTest, PagesByLinks) {
   EXPECT_EQ(page["links"][1]["rel"], "next");
   const std::string next = page["links"][1].value("href", "").substr(8);
   EXPECT_EQ(json::parse(Send("GET", next).body)["links"].size(), 1U);
+  EXPECT_EQ(json::parse(Send("GET", "/jobs?limit=1.0").body)["jobs"].size(), 1U);
   const HttpResponse several = Send("GET", "/jobs?status=running&status=accepted");
   EXPECT_EQ(json::parse(several.body)["jobs"].size(), 2U) << several.body;
   for (const char* query :
-       {"limit=0", "limit=10001", "limit=a", "status=done", "x=1", "cursor=1"}) {
+       {"limit=0", "limit=10001", "limit=1.5", "limit=a", "status=done", "x=1", "cursor=1"}) {
     EXPECT_EQ(CodeOf(Send("GET", std::string("/jobs?") + query)), "invalid-query-parameter-value")
         << query;
   }

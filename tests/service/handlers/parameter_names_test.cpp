@@ -20,7 +20,7 @@ TEST(WithParameterNames, WritesAValueAsAQueryDoes) {
   EXPECT_EQ(WithParameterNames("--crs EPSG:4326+5773 and --height-unit us-ft."),
             "crs=EPSG:4326+5773 and heightUnit=us-ft.");
   EXPECT_EQ(WithParameterNames("--height-unit m, ft or us-ft; --vertical-datum ellipsoid"),
-            "heightUnit=m, ft or us-ft; verticalDatum=ellipsoid");
+            "heightUnit m, ft or us-ft; verticalDatum=ellipsoid");
   EXPECT_EQ(WithParameterNames("is --crs right? name it with --crs, for example EPSG:4326"),
             "is crs right? name it with crs, for example EPSG:4326");
   EXPECT_EQ(WithParameterNames("--height-unit m|ft|us-ft, --crs metres"),

@@ -7,59 +7,26 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/support/temp_dir.h"
-#include "tests/support/test_raster.h"
+#include "tests/support/dem_fixture.h"
 
 namespace farhorizon {
 namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-using ::testing::Not;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-class DemReader : public ::testing::Test {
+class DemReader : public DemFixture {
  protected:
-  Result<Dem> Read(const TestRaster& raster, const DemReadOptions& options = {}) {
-    WriteTiff(dir_ / "dem.tif", raster);
-    return ReadDem(dir_ / "dem.tif", options);
-  }
-  Dem MustRead(const TestRaster& raster, const DemReadOptions& options = {}) {
-    Result<Dem> dem = Read(raster, options);
-    if (!dem) throw std::runtime_error(dem.error().message);
-    return *dem;
-  }
-  std::string KindOf(Result<Dem> dem) {
-    if (dem) return "read";
-    EXPECT_THAT(dem.error().message, Not(HasSubstr(dir_.path().string())));
-    EXPECT_FALSE(dem.error().message.empty());
-    return dem.error().kind;
-  }
-  std::string KindOfTiff(const TestRaster& raster, const DemReadOptions& options = {}) {
-    return KindOf(Read(raster, options));
-  }
   std::string KindOfText(const std::string& name, const std::string& text) {
     SpillFile(dir_ / name, text);
     return KindOf(ReadDem(dir_ / name, {}));
   }
-
-  TempDir dir_;
 };
 
 constexpr char kEnviHeader[] =
     "ENVI\nsamples = 3\nlines = 2\nbands = 1\nheader offset = 0\nfile type = ENVI Standard\n"
     "data type = 2\ninterleave = bsq\nbyte order = 0\n"
     "map info = {UTM, 1, 1, 500000, 5100000, 30, 30, 10, North, WGS-84}\n";
-
-std::vector<double> Metres(const Dem& dem) {
-  std::vector<double> metres;
-  for (VertexId v = 0; v < dem.columns * dem.rows; ++v) {
-    metres.push_back(dem.HasData(v) ? dem.HeightM(v) : kNan);
-  }
-  return metres;
-}
 
 TEST_F(DemReader, WholeHeightsStayAsTheyAre) {
   const Dem dem = MustRead({});
@@ -135,11 +102,6 @@ TEST_F(DemReader, NodataBeyondFloatsDigitsIsRecognised) {
     const Dem dem = MustRead({.type = "Float32", .values = {stored, 2, 3, 4, 5, 6}}, options);
     EXPECT_THAT(dem.heights, ElementsAre(kNoHeight, 2, 3, 4, 5, 6)) << nodata;
   }
-}
-
-TEST_F(DemReader, NodataOfTheCallReplacesTheFiles) {
-  const Dem dem = MustRead({.nodata = 1}, {.nodata = {2}});
-  EXPECT_THAT(dem.heights, ElementsAre(1, kNoHeight, 3, 4, 5, 6));
 }
 
 TEST_F(DemReader, NodataOutsideTheTypeMatchesNothing) {
@@ -289,14 +251,6 @@ TEST_F(DemReader, RefusesInfiniteHeights) {
             "infinite-height");
 }
 
-TEST_F(DemReader, RefusesHeightsThatAreNone) {
-  EXPECT_EQ(KindOfTiff({.type = "Float32", .values = {1, 2, -3.4e38, 4, 5, 6}}),
-            "height-out-of-range");
-  EXPECT_EQ(KindOfTiff({.type = "Int32", .values = {1, 2, -2147483648.0, 4, 5, 6}}),
-            "height-out-of-range");
-  EXPECT_EQ(KindOfTiff({.type = "Int64", .values = {1, 2, 1e18, 4, 5, 6}}), "height-out-of-range");
-}
-
 TEST_F(DemReader, RefusesComplexNumbersAndPictures) {
   EXPECT_EQ(KindOfTiff({.type = "CFloat32"}), "unsupported-type");
   EXPECT_EQ(KindOfTiff({.type = "Byte", .colour_table = true}), "unsupported-type");
@@ -325,12 +279,6 @@ TEST_F(DemReader, RefusesBlocksThatDwarfTheRaster) {
                         .options = {"SPARSE_OK=TRUE", "TILED=YES", "BLOCKXSIZE=16384",
                                     "BLOCKYSIZE=16384", "COMPRESS=DEFLATE"}}),
             "block-too-large");
-}
-
-TEST_F(DemReader, RefusesAMissingStrip) {
-  const TestRaster sparse = {
-      .columns = 64, .rows = 64, .values = {}, .options = {"SPARSE_OK=TRUE"}};
-  EXPECT_EQ(KindOfTiff(sparse), "truncated");
 }
 
 TEST_F(DemReader, BlocksLeftOutOfASparseFileWithNodataAreNoData) {
