@@ -117,7 +117,7 @@ TEST_F(OpenRasterTest, ReadsTheNumbersThatAHeaderDescribes) {
   EXPECT_THAT(transform_, ::testing::ElementsAre(9, 2, 0, 21, 0, -2));
   Spill("DEM2.FLT", std::string("\0\0\x80\x3f\0\0\0\x40\0\0\x80\x3f\0\0\0\x40", 16));
   Spill("DEM2.HDR",
-        "ncols 2\nnrows 2\nxllcenter 10\nyllcorner 20\ncellsize 2\nbyteorder LSBFIRST\n");
+        "ncols 2\nnrows 2\nxllcenter 10\nyllcenter 20\ncellsize 2\nbyteorder LSBFIRST\n");
   EXPECT_THAT(Cells("DEM2.FLT"), ::testing::ElementsAre(1, 2, 1, 2));
   EXPECT_THAT(transform_, ::testing::ElementsAre(9, 2, 0, 23, 0, -2));
   EXPECT_THAT(Refusal("dem.hdr"), HasSubstr("give the raster itself, \"dem.bil\""));

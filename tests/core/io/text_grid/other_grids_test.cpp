@@ -99,6 +99,8 @@ TEST_F(TextFormats, ReadsListsInAnyOrder) {
         "10 20 1\n10 22 4\n12 20 2\n12 22 5\n14 20 3\n14 22 6\n",
         "14;22;6\r\n10;20;1\r\n12;20;2\r\n14;20;3\r\n10;22;4\r\n12;22;5\r\n",
         "X, Y, Z\n10,20,1\n12,20,2\n14,20,3\n10,22,4\n12,22,5\n14,22,6\n",
+        "Easting,Northing,Elevation (m)\n10,20,1\n12,20,2\n14,20,3\n10,22,4\n12,22,5\n14,22,6\n",
+        "# x y z\n10 20 1\n12 20 2\n14 20 3\n10 22 4\n12 22 5\n14 22 6\n",
         "lat lon height\n20 10 1\n20 12 2\n20 14 3\n22 10 4\n22 12 5\n22 14 6"}) {
     const XyzGrid list = Must(ReadXyzList, text);
     EXPECT_THAT(Values(list.grid), ElementsAre(4, 5, 6, 1, 2, 3)) << text;
@@ -137,7 +139,8 @@ TEST_F(TextFormats, RefusesListsThatAreNoGrid) {
   EXPECT_THAT(Refusal(ReadXyzList, "10 20 1\n12 20\n10 22 3\n"), HasSubstr("2 numbers in line 2"));
   EXPECT_THAT(Refusal(ReadXyzList, "10 20 1 5\n12 20 2 5\n"), HasSubstr("a fourth column"));
   EXPECT_THAT(Refusal(ReadXyzList, "10 20 NA\n12 20 2\n"), HasSubstr("\"NA\" in line 1, column 7"));
-  EXPECT_THAT(Refusal(ReadXyzList, "x y colour\n10 20 1\n"), HasSubstr("\"colour\""));
+  EXPECT_THAT(Refusal(ReadXyzList, "x y colour\n10 20 1\n"), HasSubstr("column \"colour\""));
+  EXPECT_THAT(Refusal(ReadXyzList, "x y x\n10 20 1\n"), HasSubstr("column \"x\""));
 }
 
 TEST(LooksLikeXyz, WantsTwoLinesOfThreeNumbers) {
@@ -182,6 +185,8 @@ TEST_F(EsriHeader, RefusesWhatGdalWouldGuess) {
   EXPECT_THAT(With("BYTEORDER I", "BYTEORDER VAX", 12), HasSubstr("\"VAX\""));
   EXPECT_THAT(With("ULXMAP 10\n", "", 12), HasSubstr("no ulxmap"));
   EXPECT_THAT(With("ULXMAP 10", "ULXMAP 420,000.5", 12), HasSubstr("\"420,000.5\" for ulxmap"));
+  EXPECT_THAT(Said("ncols 2\nnrows 2\nxllcenter 1\nyllcorner 2\ncellsize 1\nnbits 8\n", 4),
+              HasSubstr("corners alone"));
   EXPECT_THAT(With("XDIM 2", "XDIM 0", 12), HasSubstr("larger than 0"));
   EXPECT_THAT(With("BANDROWBYTES 6", "BANDROWBYTES 8", 12), HasSubstr("gaps"));
   EXPECT_THAT(With("NBITS 16", "NBITS 12", 12), HasSubstr("12 bits"));
