@@ -178,6 +178,8 @@ Result<std::vector<Geodetic>> GlobeTransform::FromEcef(const std::vector<Ecef>& 
 
 std::string GlobeTransform::Name() const { return state_->way.name; }
 
+double GlobeTransform::FullTurn() const { return state_->way.full_turn; }
+
 const Assumptions& GlobeTransform::assumptions() const { return state_->way.assumptions; }
 
 }  // namespace farhorizon

@@ -65,6 +65,9 @@ class GlobeTransform {
   /// one; otherwise its name, as NameOf has it (core/geo/crs_name.h).
   [[nodiscard]] std::string Name() const;
 
+  /// A full turn in the unit of a geographic system's axes; 0 for any other system.
+  [[nodiscard]] double FullTurn() const;
+
   /// What was assumed about the way: codes "datum-operation" and "vertical-datum".
   [[nodiscard]] const Assumptions& assumptions() const;
 

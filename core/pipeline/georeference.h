@@ -26,6 +26,8 @@ class Georeference {
 
   [[nodiscard]] const TangentFrame& frame() const { return frame_; }
   [[nodiscard]] std::string CrsName() const { return transform_.Name(); }
+  /// As GlobeTransform has it.
+  [[nodiscard]] double FullTurn() const { return transform_.FullTurn(); }
   /// What was assumed about the place.
   [[nodiscard]] const Assumptions& assumptions() const { return transform_.assumptions(); }
   /// Distance of neighbouring posts along a row and along a column in the middle of the grid,

@@ -10,6 +10,7 @@
 
 #include "core/io/dem/read_dem.h"
 #include "core/io/file.h"
+#include "core/pipeline/placement_check.h"
 
 namespace farhorizon {
 
@@ -33,6 +34,9 @@ Result<std::unique_ptr<TerrainInput>> TerrainInput::Open(const std::filesystem::
                                           .datum_operation = options.datum_operation.value_or("")});
   if (!georeference) return std::move(georeference.error()).WithContext("place DEM on the globe");
   input->georeference_.emplace(*std::move(georeference));
+  if (Status placed = CheckPlacement(*input->terrain_, *input->georeference_); !placed) {
+    return std::move(placed.error()).WithContext("place DEM on the globe");
+  }
   input->Assume(input->georeference_->assumptions(), control);
   Result<std::string> sha256 = Sha256OfFile(path);
   if (!sha256) return std::move(sha256.error()).WithContext("read DEM");
