@@ -1,11 +1,11 @@
 #include "core/geo/crs_name.h"
 
-#include <algorithm>
-#include <cctype>
 #include <memory>
-#include <utility>
 
 #include <proj.h>
+#include <proj_experimental.h>  // demotion to 2-D; GDAL builds on it too
+
+#include "core/geo/short_text.h"
 
 namespace farhorizon {
 
@@ -19,8 +19,15 @@ constexpr int kCandidate = 70;
 std::string NameOfPart(const ProjSession& session, const PJ* crs) {
   if (std::string code = CodeOf(crs); !code.empty()) return code;
   if (const ProjObject known = Identified(session, crs)) return CodeOf(known.get());
+  // A map with heights above the ellipsoid has the name of the map.
+  const ProjObject plan(proj_crs_demote_to_2D(session.get(), nullptr, crs));
+  if (plan && !CodeOf(plan.get()).empty()) return CodeOf(plan.get());
+  if (const ProjObject known = plan ? Identified(session, plan.get()) : nullptr) {
+    return CodeOf(known.get());
+  }
   const char* name = proj_get_name(crs);
   if (name != nullptr && !IsUnnamed(name)) return name;
+  if (proj_get_type(crs) == PJ_TYPE_VERTICAL_CRS) return DatumName(session, crs);
   const char* text = proj_as_proj_string(session.get(), crs, PJ_PROJ_5, nullptr);
   if (text == nullptr || *text == '\0') return name != nullptr ? name : "";
   std::string shown = text;
@@ -51,7 +58,8 @@ ProjObject Identified(const ProjSession& session, const PJ* crs) {
     ProjObject one(proj_list_get(session.get(), known.get(), i));
     if (one && proj_is_equivalent_to_with_ctx(session.get(), crs, one.get(),
                                               PJ_COMP_EQUIVALENT_EXCEPT_AXIS_ORDER_GEOGCRS) != 0) {
-      found = std::move(one);
+      // As the database has it: what proj_identify returns may lack the area of use.
+      found.reset(proj_create(session.get(), CodeOf(one.get()).c_str()));
     }
   }
   proj_int_list_destroy(confidence);
@@ -86,9 +94,7 @@ std::string DatumName(const ProjSession& session, const PJ* crs) {
 }
 
 bool IsUnnamed(const std::string& name) {
-  std::string lower = name;
-  std::ranges::transform(lower, lower.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string lower = Lower(name);
   return lower.empty() || lower == "unknown" || lower == "unnamed" || lower == "undefined" ||
          lower == "user-defined" || lower == "n/a" || lower.starts_with("unknown ");
 }

@@ -15,7 +15,8 @@ ProjObject Identified(const ProjSession& session, const PJconsts* crs);
 
 /// The name of `crs` for people and reports: "EPSG:4326" where it, or one that is equivalent, has a
 /// code; "EPSG:4326+5773" where both its parts have one; else its own name; else, where it is
-/// unnamed, its PROJ string. It depends on nothing but `crs`.
+/// unnamed, its PROJ string, or the name of a vertical system's datum. It depends on nothing but
+/// `crs`.
 std::string NameOf(const ProjSession& session, const PJconsts* crs);
 
 /// The name of the horizontal datum, or ensemble of datums, of a geographic or projected system.

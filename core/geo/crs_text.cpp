@@ -6,6 +6,8 @@
 #include <regex>
 #include <string_view>
 
+#include "core/geo/short_text.h"
+
 namespace farhorizon {
 
 namespace {
@@ -16,16 +18,9 @@ constexpr std::size_t kMaxShownBytes = 60;
 constexpr std::size_t kMaxCompletedBytes = 500;
 
 // Texts that make PROJ open something by name, in lower case.
-constexpr std::array<std::string_view, 9> kNamesAFile = {
-    "proj=pipeline", "+step",  "+init=",        "init=", "geoidgrids=",
-    "+grids=",       "+file=", "parameterfile", "@http"};
-
-std::string Lower(std::string_view text) {
-  std::string lower(text);
-  std::ranges::transform(lower, lower.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return lower;
-}
+constexpr std::array<std::string_view, 12> kNamesAFile = {
+    "proj=pipeline", "+step",         "init=",       "+file=",   " file=",   "+model=",
+    " model=",       "parameterfile", "proj4_grids", "tinshift", "defmodel", "@http"};
 
 bool IsSpace(unsigned char c) { return std::isspace(c) != 0; }
 
@@ -40,6 +35,31 @@ bool IsStructured(std::string_view lower) {
   return lower.starts_with('{') || lower.find('[') != std::string_view::npos;
 }
 
+// "nadgrids=", "geoidgrids=", "grids=" and the like. Web Mercator is written with +nadgrids=@null,
+// which means no grid; any other value names one.
+bool NamesAGrid(std::string_view lower) {
+  constexpr std::string_view kWord = "grids=";
+  for (std::size_t at = lower.find(kWord); at != std::string_view::npos;
+       at = lower.find(kWord, at + 1)) {
+    const std::size_t from = at + kWord.size();
+    const std::size_t end = std::min(lower.find_first_of(" \t\r\n+\"", from), lower.size());
+    if (lower.substr(from, end - from) != "@null") return true;
+  }
+  return false;
+}
+
+// PROJJSON has a file as a parameter whose value is a text; an escape could stand for a letter of
+// that key.
+bool HasJsonFile(const std::string& lower) {
+  constexpr std::string_view kKey = "\"value\"";
+  if (lower.find("\\u") != std::string::npos) return true;
+  for (std::size_t at = lower.find(kKey); at != std::string::npos; at = lower.find(kKey, at + 1)) {
+    const std::size_t value = lower.find_first_not_of(" \t\r\n:", at + kKey.size());
+    if (value != std::string::npos && lower[value] == '"') return true;
+  }
+  return false;
+}
+
 // "EPSG:4326" of "epsg: 4326", "EPSG::4326", "EPSG 4326", "4326"; "" of anything else.
 std::string CodeIn(const std::string& text) {
   static const std::regex number(R"(\d{4,6})");
@@ -49,8 +69,7 @@ std::string CodeIn(const std::string& text) {
   if (std::regex_match(text, number)) return "EPSG:" + text;
   if (!std::regex_match(text, part, code)) return "";
   std::string authority = part[1];
-  std::ranges::transform(authority, authority.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  for (char& c : authority) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
   return authority + ":" + part[2].str();
 }
 
@@ -79,6 +98,12 @@ std::string CompletedCrsText(const std::string& text) {
              (heights.starts_with(authority) ? heights.substr(authority.size()) : heights);
     }
   }
+  // OGC's name of a code; PROJ knows it without asking a server.
+  static const std::regex url(R"(https?://www\.opengis\.net/def/crs/(\w+)/[\w.]+/(\w+))",
+                              std::regex::icase);
+  if (std::smatch name; std::regex_match(trimmed, name, url)) {
+    return name[1].str() + ":" + name[2].str();
+  }
   static const std::regex init(R"(\+?init=epsg:(\d+)(\s+\+?(type=crs|no_defs|wktext))*)");
   std::smatch part;
   if (std::regex_match(lower, part, init)) return "EPSG:" + part[1].str();
@@ -104,13 +129,14 @@ Status CheckCrsText(const std::string& text, CrsRole role) {
       return Refused(text, role, "names a pipeline or a file, which is not allowed");
     }
   }
-  // Web Mercator is written with +nadgrids=@null, which means no grid; any other value names one.
-  for (std::size_t at = lower.find("nadgrids="); at != std::string::npos;
-       at = lower.find("nadgrids=", at + 1)) {
-    const std::size_t end = lower.find_first_of(" \t\r\n+\"", at + 9);
-    if (lower.compare(at + 9, end == std::string::npos ? end : end - at - 9, "@null") != 0) {
-      return Refused(text, role, "names a grid file, which is not allowed");
-    }
+  if (NamesAGrid(lower)) {
+    return Refused(text, role,
+                   lower.find("geoidgrids") == std::string::npos
+                       ? "names a grid file, which is not allowed"
+                       : "names a geoid's file, which is not allowed: --vertical-datum names it");
+  }
+  if (lower.starts_with('{') && HasJsonFile(lower)) {
+    return Refused(text, role, "has a parameter that is a text, as names of files are");
   }
   if (IsStructured(lower)) return Ok{};
   if (lower.find("://") != std::string::npos) return Refused(text, role, "is a URL");
@@ -122,12 +148,8 @@ Status CheckCrsText(const std::string& text, CrsRole role) {
 }
 
 std::string ShownCrsText(const std::string& text, CrsRole role) {
-  std::string shown = text.substr(0, kMaxShownBytes);
-  for (char& c : shown) {
-    if (static_cast<unsigned char>(c) < 0x20) c = ' ';
-  }
-  if (text.size() > kMaxShownBytes) shown += "...";
-  return (role == CrsRole::kHeights ? "vertical datum \"" : "reference system \"") + shown + "\"";
+  return (role == CrsRole::kHeights ? "vertical datum \"" : "reference system \"") +
+         ShortText(text, kMaxShownBytes) + "\"";
 }
 
 const char* RemedyFor(CrsRole role) {

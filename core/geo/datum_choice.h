@@ -1,13 +1,10 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "core/base/assumption.h"
 #include "core/base/result.h"
 #include "core/geo/datum_operation.h"
-#include "core/geo/frames.h"
 
 namespace farhorizon {
 
@@ -33,11 +30,5 @@ struct DatumChoice {
 ///   none of them; kUnsupportedData, kind "no-geoid-grid", where its grids are missing.
 Result<DatumChoice> TakeDatumOperation(const ProjSession& session, const PJconsts* source,
                                        const PJconsts* globe, const std::string& stated);
-
-/// What to say of `choice` for the system `name`: the operation, its accuracy, better ones whose
-/// grids are missing, and the one that suits at `middle`, the DEM's, where the one that is taken
-/// does not hold there. Nullopt where nothing is open: the way is exact, or was stated and holds.
-std::optional<Assumption> DatumAssumption(const DatumChoice& choice, const std::string& name,
-                                          const std::optional<Geodetic>& middle, bool stated);
 
 }  // namespace farhorizon

@@ -3,11 +3,11 @@
 #include "core/geo/datum_operation.h"
 
 #include <algorithm>
-#include <cctype>
-#include <cmath>
+#include <array>
 #include <cstdio>
 #include <iterator>
 #include <memory>
+#include <string_view>
 #include <utility>
 
 #include <proj.h>
@@ -19,7 +19,6 @@ namespace farhorizon {
 namespace {
 
 using ListPtr = std::unique_ptr<PJ_OBJ_LIST, void (*)(PJ_OBJ_LIST*)>;
-constexpr double kWorldTolerance = 1e-6;  // degrees: EPSG's boxes of the world are exact
 
 // The names and codes of inverses are those of the operations themselves:
 // "Inverse of WGS 84 to EGM96 height (1)", "INVERSE(DERIVED_FROM(EPSG)):1149".
@@ -48,19 +47,29 @@ std::string Joined(const std::vector<std::string>& parts) {
   return all;
 }
 
-// Conversions are exact, and so are the steps that PROJ puts between two forms of one datum.
-bool IsExact(const PJ* step, const std::string& name) {
-  return proj_get_type(step) == PJ_TYPE_CONVERSION || name.starts_with("Null geographic offset") ||
-         name.starts_with("axis order change") || name.starts_with("WGS 84 to WGS 84");
+// Exact are conversions, and what PROJ puts between two forms of one datum.
+bool IsExact(const std::string& name) {
+  constexpr std::array<std::string_view, 4> kExact = {"Null geographic offset", "axis order change",
+                                                      "Conversion from ", "WGS 84 to WGS 84"};
+  return std::ranges::any_of(kExact, [&](std::string_view e) { return name.starts_with(e); });
 }
 
+// PROJ joins several transformations to one where they go by one pipeline, and their names.
 void AddStep(const PJ* step, DatumOperation& operation) {
+  if (proj_get_type(step) == PJ_TYPE_CONVERSION) return;
+  constexpr std::string_view kJoint = " + ";
   const char* text = proj_get_name(step);
-  const std::string name = Forward(text != nullptr ? text : "");
-  if (IsExact(step, name)) return;
-  if (name.find("ballpark vertical") != std::string::npos) operation.ballpark_heights = true;
-  operation.names.push_back(name);
-  operation.codes.push_back(PlainCode(step));
+  const std::string joined = Forward(text != nullptr ? text : "");
+  const std::string code = joined.find(kJoint) == std::string::npos ? PlainCode(step) : "";
+  for (std::size_t from = 0; from < joined.size();) {
+    const std::size_t end = std::min(joined.find(kJoint, from), joined.size());
+    const std::string name = joined.substr(from, end - from);
+    from = end + kJoint.size();
+    if (IsExact(name)) continue;
+    if (name.find("ballpark vertical") != std::string::npos) operation.ballpark_heights = true;
+    operation.names.push_back(name);
+    operation.codes.push_back(code);
+  }
 }
 
 // The steps of `way`, in their order: an inverse of a concatenated operation is a step of its own.
@@ -110,25 +119,11 @@ DatumOperation Read(const ProjSession& session, ProjObject way) {
   const double accuracy = proj_coordoperation_get_accuracy(session.get(), whole);
   if (accuracy >= 0) operation.accuracy_m = accuracy;
   AddGrids(session, operation);
-  const char* area = nullptr;
-  proj_get_area_of_use(session.get(), whole, &operation.west, &operation.south, &operation.east,
-                       &operation.north, &area);
-  if (area != nullptr) operation.area = area;
+  operation.area = AreaOfUseOf(session, whole).value_or(AreaOfUse());
   return operation;
 }
 
 }  // namespace
-
-bool DatumOperation::HoldsAt(double lon_deg, double lat_deg) const {
-  const bool between =
-      west <= east ? lon_deg >= west && lon_deg <= east : lon_deg >= west || lon_deg <= east;
-  return between && lat_deg >= south && lat_deg <= north;
-}
-
-bool DatumOperation::HoldsEverywhere() const {
-  return west <= -180 + kWorldTolerance && east >= 180 - kWorldTolerance &&
-         south <= -90 + kWorldTolerance && north >= 90 - kWorldTolerance;
-}
 
 std::string DatumOperation::Described() const {
   char accuracy[40] = "accuracy unknown";
@@ -153,15 +148,10 @@ std::vector<DatumOperation> ListDatumOperations(const ProjSession& session, cons
                                                        PROJ_SPATIAL_CRITERION_PARTIAL_INTERSECTION);
   proj_operation_factory_context_set_grid_availability_use(session.get(), factory.get(),
                                                            PROJ_GRID_AVAILABILITY_USED_FOR_SORTING);
-  // A system that came without its code has no area of use of its own.
-  double west = 0, south = 0, east = 0, north = 0;
-  if (proj_get_area_of_use(session.get(), source, &west, &south, &east, &north, nullptr) == 0) {
-    const ProjObject known = Identified(session, source);
-    if (known && proj_get_area_of_use(session.get(), known.get(), &west, &south, &east, &north,
-                                      nullptr) != 0) {
-      proj_operation_factory_context_set_area_of_interest(session.get(), factory.get(), west, south,
-                                                          east, north);
-    }
+  // PROJ does not know the area of a system that came without its code.
+  if (const std::optional<AreaOfUse> area = AreaOfUseOf(session, source)) {
+    proj_operation_factory_context_set_area_of_interest(session.get(), factory.get(), area->west,
+                                                        area->south, area->east, area->north);
   }
   const ListPtr ways(proj_create_operations(session.get(), source, globe, factory.get()),
                      proj_list_destroy);
@@ -181,14 +171,6 @@ std::string OperationName(const ProjSession& session, const std::string& code) {
                                                    PJ_CATEGORY_COORDINATE_OPERATION, 0, nullptr));
   const char* name = found ? proj_get_name(found.get()) : nullptr;
   return name != nullptr ? name : "";
-}
-
-bool IsOfTheWorld(const ProjSession& session, const PJ* crs) {
-  DatumOperation box;
-  const ProjObject known = CodeOf(crs).empty() ? Identified(session, crs) : nullptr;
-  return proj_get_area_of_use(session.get(), known ? known.get() : crs, &box.west, &box.south,
-                              &box.east, &box.north, nullptr) != 0 &&
-         box.HoldsEverywhere();
 }
 
 }  // namespace farhorizon

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/geo/area_of_use.h"
 #include "core/geo/proj_session.h"
 
 namespace farhorizon {
@@ -19,12 +20,8 @@ struct DatumOperation {
   bool ballpark_heights = false;   ///< heights of one datum are taken for those of another
   std::optional<double> accuracy_m;  ///< nullopt where it is unknown
   std::vector<std::string> missing_grids;
-  std::string area;  ///< where it holds, in words; "" where that is not stated
-  /// Degrees; west > east across the antimeridian.
-  double west = -180, south = -90, east = 180, north = 90;
+  AreaOfUse area;  ///< where it holds; the world where that is not stated
 
-  [[nodiscard]] bool HoldsAt(double lon_deg, double lat_deg) const;
-  [[nodiscard]] bool HoldsEverywhere() const;
   /// `"NAD27 to WGS 84 (4)" (EPSG:1173, accuracy 10 m)`
   [[nodiscard]] std::string Described() const;
   /// The value of --datum-operation that states it.
@@ -39,8 +36,5 @@ std::vector<DatumOperation> ListDatumOperations(const ProjSession& session, cons
 /// The name of the operation that has the code `code`: "NAD27 to WGS 84 (4)" for "EPSG:1173"; ""
 /// where PROJ's database has none.
 std::string OperationName(const ProjSession& session, const std::string& code);
-
-/// True where `crs` is used in the whole world: a global frame, as WGS 84 and the ITRF.
-bool IsOfTheWorld(const ProjSession& session, const PJconsts* crs);
 
 }  // namespace farhorizon

@@ -9,9 +9,30 @@
 
 #include <proj.h>
 
+#include "core/geo/datum_assumption.h"
 #include "core/geo/globe_way.h"
 
 namespace farhorizon {
+
+namespace {
+
+// Surveys go on a little beyond the area of their system: UTM zones are used by the next one's
+// neighbours. A place further off than half the area's size is one of another system.
+constexpr double kBeyondArea = 0.5;
+
+void AssumeSystem(GlobeWay& way, const std::optional<Geodetic>& middle) {
+  if (!middle || !way.area) return;
+  if (way.area->Widened(kBeyondArea).Contains(middle->lon_deg, middle->lat_deg)) return;
+  char place[80];
+  std::snprintf(place, sizeof place, "longitude %.4f, latitude %.4f", middle->lon_deg,
+                middle->lat_deg);
+  way.assumptions.push_back(
+      {"outside-area", "the DEM's middle is taken to lie at " + std::string(place) + ", far from " +
+                           way.area->ShortName() + ", where " + way.name +
+                           " is used; if it does not, name the right system with --crs"});
+}
+
+}  // namespace
 
 struct GlobeTransform::State {
   ProjSession session;
@@ -20,10 +41,12 @@ struct GlobeTransform::State {
   std::optional<double> about_x;
 
   // The operation is named, too: one by a grid ends where the grid does.
-  [[nodiscard]] std::string InSystem() const {
+  [[nodiscard]] std::string NotInSystem() const {
     const DatumOperation& taken = way.choice.Taken();
-    return " in " + way.name +
-           (taken.names.empty() ? "" : " by the datum operation " + taken.Described());
+    const std::string nowhere = " has no place on the globe in " + way.name;
+    if (taken.names.empty()) return nowhere + "; is --crs right?";
+    return nowhere + " by the datum operation " + taken.Described() +
+           "; is --crs right, and is the DEM where that holds? --datum-operation states another";
   }
 };
 
@@ -51,6 +74,7 @@ Result<GlobeTransform> GlobeTransform::Open(const std::string& crs, const GlobeO
     transform.state_->about_x = options.about->x;
   }
   GlobeWay& found = transform.state_->way;
+  AssumeSystem(found, middle);
   if (std::optional<Assumption> open =
           DatumAssumption(found.choice, found.name, middle, !options.datum_operation.empty())) {
     found.assumptions.push_back(*std::move(open));
@@ -95,8 +119,7 @@ Result<std::vector<Geodetic>> GlobeTransform::ToGeodetic(
     Geodetic& g = result[i];
     // Where PROJ has nothing to compute, it lets latitudes beyond a pole pass.
     if (!std::isfinite(g.lon_deg) || !std::isfinite(g.height_m) || !(std::abs(g.lat_deg) <= 90)) {
-      return Outside(i, points[i].x, points[i].y,
-                     " has no place on the globe" + state_->InSystem() + "; is --crs right?");
+      return Outside(i, points[i].x, points[i].y, state_->NotInSystem());
     }
     if (std::abs(g.lon_deg) > 180) g.lon_deg = std::remainder(g.lon_deg, 360);
   }
@@ -157,15 +180,9 @@ std::string GlobeTransform::Name() const { return state_->way.name; }
 
 double GlobeTransform::FullTurn() const { return state_->way.full_turn; }
 
-std::optional<AreaOfUse> GlobeTransform::Area() const {
-  constexpr double kUnknown = -1000;  // PROJ's
-  AreaOfUse area;
-  if (proj_get_area_of_use(state_->session.get(), state_->way.crs.get(), &area.west, &area.south,
-                           &area.east, &area.north, nullptr) == 0 ||
-      area.west == kUnknown) {
-    return std::nullopt;
-  }
-  return area;
+bool GlobeTransform::InAreaOfUse(const Geodetic& place) const {
+  const std::optional<AreaOfUse>& area = state_->way.area;
+  return !area || area->Contains(place.lon_deg, place.lat_deg);
 }
 
 const Assumptions& GlobeTransform::assumptions() const { return state_->way.assumptions; }

@@ -32,14 +32,6 @@ struct GlobeOptions {
   std::optional<MapPoint> about = {};
 };
 
-/// A box of longitudes and latitudes; west > east across the meridian of 180 degrees.
-struct AreaOfUse {
-  double west = 0;
-  double south = 0;
-  double east = 0;
-  double north = 0;
-};
-
 /// The way from a DEM's reference system to the globe (WGS 84) and back, through PROJ.
 ///
 /// Heights are ellipsoidal unless the reference system or `vertical_datum` says otherwise; then the
@@ -76,8 +68,8 @@ class GlobeTransform {
   /// A full turn in the unit of a geographic system's axes; 0 for any other system.
   [[nodiscard]] double FullTurn() const;
 
-  /// The area for which the system's authority made it, in degrees; nullopt where none says so.
-  [[nodiscard]] std::optional<AreaOfUse> Area() const;
+  /// Whether the place is in the area where the system is used; true where none is stated.
+  [[nodiscard]] bool InAreaOfUse(const Geodetic& place) const;
 
   /// What was assumed about the way: codes "datum-operation" and "vertical-datum".
   [[nodiscard]] const Assumptions& assumptions() const;

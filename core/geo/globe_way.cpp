@@ -40,7 +40,8 @@ Result<ProjObject> WithStatedHeights(ProjSession& session, ProjObject crs,
     const std::optional<HeightAxis> axis = HeightAxisOf(session, crs.get());
     if (!axis) return crs;
     if (!NamesHeightDatum(session, crs.get())) return WithoutHeights(session, std::move(crs));
-    if (axis->unit_m == 1 || HeightsOf(session, crs.get())) return crs;
+    const bool vertical = HeightsOf(session, crs.get()) != nullptr;
+    if (vertical ? !IsAboveEllipsoid(session, crs.get()) : axis->unit_m == 1) return crs;
     return WithEllipsoidalHeights(session, std::move(crs));
   }
   if (IsEllipsoid(vertical_datum)) return WithoutHeights(session, std::move(crs));
@@ -64,8 +65,7 @@ Error NoWay(const ProjSession& session, const GlobeWay& way, const PJ* globe) {
       way.height_axis ? std::string(": PROJ knows no more than the name of its vertical datum; ") +
                             kHeightRemedy
                       : "; give another system with --crs";
-  return Unusable("there is no way from " + way.name + " to the globe" + session.Complaint() + why,
-                  "unknown-crs");
+  return Unusable("there is no way from " + way.name + " to the globe" + why, "unknown-crs");
 }
 
 // Puts EGM96 height in the place of the heights of `way`, which are above some mean sea level.
@@ -103,6 +103,7 @@ Result<GlobeWay> FindGlobeWay(ProjSession& session, const std::string& crs,
   if (!read) return std::move(read.error());
   GlobeWay way{.crs = *std::move(read)};
   way.name = NameOf(session, way.crs.get());
+  way.area = AreaOfUseOf(session, plan.get());
   way.full_turn = FullTurn(session, plan.get());
   way.height_axis = HeightAxisOf(session, way.crs.get());
   // A system without heights says nothing of them, whatever its datum: heights stay as they are.

@@ -5,6 +5,7 @@
 
 #include "core/base/assumption.h"
 #include "core/base/result.h"
+#include "core/geo/area_of_use.h"
 #include "core/geo/datum_choice.h"
 #include "core/geo/proj_session.h"
 #include "core/geo/vertical_system.h"
@@ -16,9 +17,10 @@ struct GlobeWay {
   ProjObject crs = {};       ///< with its heights, as the call states them
   ProjObject to_globe = {};  ///< normalised: x east, y north; degrees on the globe
   std::optional<HeightAxis> height_axis = {};
-  std::string name = {};    ///< of `crs`, as NameOf has it
-  double full_turn = 0;     ///< in the unit of a geographic system; 0 for any other
-  DatumChoice choice = {};  ///< of `to_globe`
+  std::string name = {};               ///< of `crs`, as NameOf has it
+  std::optional<AreaOfUse> area = {};  ///< of the horizontal part
+  double full_turn = 0;                ///< in the unit of a geographic system; 0 for any other
+  DatumChoice choice = {};             ///< of `to_globe`
   Assumptions assumptions = {};
 
   /// Metres upwards in one unit of the system's heights: negative where those are depths; 1 where

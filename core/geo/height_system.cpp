@@ -1,7 +1,6 @@
 #include "core/geo/height_system.h"
 
-#include <algorithm>
-#include <cctype>
+#include <cstdio>
 #include <memory>
 #include <utility>
 
@@ -9,15 +8,16 @@
 
 #include "core/geo/crs_name.h"
 #include "core/geo/parse_crs.h"
+#include "core/geo/short_text.h"
 #include "core/geo/vertical_system.h"
 
 namespace farhorizon {
 
 namespace {
 
-std::string Lower(std::string text) {
-  std::ranges::transform(text, text.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+std::string Metres(double metres) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.9g m", metres);
   return text;
 }
 
@@ -47,7 +47,7 @@ Result<CrsUnits> ReadCrsUnits(const std::string& crs) {
   double factor = 1;
   if (system && proj_cs_get_axis_info(session.get(), system.get(), 0, nullptr, nullptr, nullptr,
                                       &factor, &unit, nullptr, nullptr) != 0) {
-    if (unit != nullptr) units.map_unit = unit;
+    units.map_unit = unit != nullptr && !IsUnnamed(unit) ? unit : Metres(factor);
     if (proj_get_type(plan.get()) == PJ_TYPE_PROJECTED_CRS) units.map_unit_m = factor;
   }
   return units;
@@ -61,22 +61,24 @@ Result<std::optional<HeightSystem>> ReadHeightSystem(const std::string& vertical
   return Described(session, heights->get());
 }
 
-std::optional<double> ListedLengthUnit(const std::string& name) {
+std::optional<LengthUnit> ListedLengthUnit(const std::string& name_or_code) {
   const ProjSession session;
   int count = 0;
   const std::unique_ptr<PROJ_UNIT_INFO*, void (*)(PROJ_UNIT_INFO**)> units(
       proj_get_units_from_database(session.get(), "EPSG", "linear", 0, &count),
       proj_unit_list_destroy);
-  const std::string wanted = Lower(name);
+  const std::string wanted = Lower(name_or_code);
   for (int i = 0; units && i < count; ++i) {
     const PROJ_UNIT_INFO& unit = *units.get()[i];
-    if (Lower(unit.name) == wanted && unit.conv_factor > 0) return unit.conv_factor;
+    if ((Lower(unit.name) == wanted || unit.code == wanted) && unit.conv_factor > 0) {
+      return LengthUnit{unit.name, unit.conv_factor};
+    }
   }
   return std::nullopt;
 }
 
 bool IsEllipsoid(const std::string& vertical_datum) {
-  const std::string lower = Lower(vertical_datum);
+  const std::string lower = Lower(CompletedCrsText(vertical_datum));  // without blanks around it
   return lower == "ellipsoid" || lower == "ellipsoidal";
 }
 

@@ -32,9 +32,15 @@ Result<CrsUnits> ReadCrsUnits(const std::string& crs);
 /// Errors: those of ReadVerticalSystem.
 Result<std::optional<HeightSystem>> ReadHeightSystem(const std::string& vertical_datum);
 
-/// A unit of length by its name in EPSG's list, such as "Clarke's foot", in any case: in metres;
-/// nullopt where the list does not have it.
-std::optional<double> ListedLengthUnit(const std::string& name);
+/// A unit of length of EPSG's list.
+struct LengthUnit {
+  std::string name;  ///< "Clarke's foot"
+  double metres = 1;
+};
+
+/// The unit of length that has this name, in any case, or code ("9003") in EPSG's list; nullopt
+/// where the list does not have it.
+std::optional<LengthUnit> ListedLengthUnit(const std::string& name_or_code);
 
 /// True for the words that stand for the ellipsoid instead of a vertical system, in any case.
 bool IsEllipsoid(const std::string& vertical_datum);

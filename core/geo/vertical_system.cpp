@@ -3,8 +3,6 @@
 #include "core/geo/vertical_system.h"
 
 #include <algorithm>
-#include <array>
-#include <cctype>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -14,6 +12,7 @@
 
 #include "core/geo/crs_name.h"
 #include "core/geo/parse_crs.h"
+#include "core/geo/short_text.h"
 
 namespace farhorizon {
 
@@ -23,12 +22,6 @@ constexpr std::size_t kMaxCandidates = 5;  // in a message
 
 Error Unusable(const std::string& message) {
   return {ErrorCode::kUnsupportedData, message, "unknown-crs"};
-}
-
-std::string Lower(std::string text) {
-  std::ranges::transform(text, text.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
 }
 
 ProjObject Unbound(const ProjSession& session, const PJ* crs) {
@@ -46,6 +39,13 @@ ProjObject HeightPart(const ProjSession& session, const PJ* crs) {
     if (part) part = Unbound(session, part.get());
   }
   return part;
+}
+
+// The name of the datum of the vertical part of `crs` in small letters; "" where it has none.
+std::string VerticalDatum(const ProjSession& session, const PJ* crs) {
+  const ProjObject part = HeightPart(session, crs);
+  if (!part || proj_get_type(part.get()) != PJ_TYPE_VERTICAL_CRS) return "";
+  return Lower(DatumName(session, part.get()));
 }
 
 // Without blanks, and in small letters: "NAVD 88" and "navd88" are one.
@@ -118,10 +118,12 @@ bool NamesHeightDatum(const ProjSession& session, const PJ* crs) {
          !IsUnnamed(DatumName(session, part.get()));
 }
 
+bool IsAboveEllipsoid(const ProjSession& session, const PJ* crs) {
+  return VerticalDatum(session, crs).find("ellipsoid") != std::string::npos;
+}
+
 bool IsMeanSeaLevel(const ProjSession& session, const PJ* crs) {
-  const ProjObject part = HeightPart(session, crs);
-  return part && proj_get_type(part.get()) == PJ_TYPE_VERTICAL_CRS &&
-         Lower(DatumName(session, part.get())) == "mean sea level";
+  return VerticalDatum(session, crs) == "mean sea level";
 }
 
 Result<ProjObject> ReadVerticalSystem(ProjSession& session, const std::string& text) {

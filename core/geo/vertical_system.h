@@ -26,6 +26,10 @@ ProjObject HeightsOf(const ProjSession& session, const PJconsts* crs);
 /// file that states no more than the unit of its heights has a vertical part of unknown datum.
 bool NamesHeightDatum(const ProjSession& session, const PJconsts* crs);
 
+/// True where `crs` has a vertical part whose datum is an ellipsoid, as the codes 5001 to 5033 of
+/// GeoTIFF 1.0 have it.
+bool IsAboveEllipsoid(const ProjSession& session, const PJconsts* crs);
+
 /// True where the heights of `crs` are above mean sea level, without saying which (EPSG:5714,
 /// EPSG:5715 and the like).
 bool IsMeanSeaLevel(const ProjSession& session, const PJconsts* crs);

@@ -7,7 +7,7 @@
 #include <sstream>
 #include <utility>
 
-#include "core/pipeline/number_text.h"
+#include "core/pipeline/option_numbers.h"
 
 namespace farhorizon {
 
@@ -118,7 +118,9 @@ constexpr std::array kParameters = {
               }},
     Parameter{"datumOperation",
               [](const Given& given, Options& options) {
-                return ReadText(given, "a coordinate operation", options.datum_operation);
+                return ReadText(given,
+                                "a code such as EPSG:1173, a name of PROJ's, or \"ballpark\"",
+                                options.datum_operation);
               }},
     Parameter{"nodata", [](const Given& given,
                            Options& options) { return ReadNodata(given, options.nodata); }},

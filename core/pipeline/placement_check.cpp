@@ -82,39 +82,19 @@ std::vector<VertexId> SamplePosts(const Dem& dem, const Rows& rows) {
   return posts;
 }
 
-// How far outside the area the place is, degrees of longitude or latitude.
-double DegreesOutside(const AreaOfUse& area, const Geodetic& place) {
-  const double width = area.west > area.east ? area.east - area.west + 360 : area.east - area.west;
-  const double from_middle = std::remainder(place.lon_deg - area.west - width / 2, 360);
-  return std::max({std::abs(from_middle) - width / 2, area.south - place.lat_deg,
-                   place.lat_deg - area.north});
-}
-
-Status CheckArea(const Dem& dem, const Georeference& georeference, Assumptions& assumptions) {
-  // Surveys go some way beyond: a country in the zone of its middle, a zone's tile over its side.
-  constexpr double kFarDegrees = 3;
-  const std::optional<AreaOfUse> area = georeference.Area();
-  if (!area) return Ok{};
-  const Geodetic middle = georeference.frame().origin();
-  const double outside = DegreesOutside(*area, middle);
-  if (outside <= 0) return Ok{};
+// Degrees that are taken for metres lie within 360 m of a map's origin, which is no place of its
+// own in systems with false eastings; one whose area is there is left alone.
+Status CheckNoDegrees(const Dem& dem, const Georeference& georeference) {
   const GeoTransform& t = dem.transform;
   const double x = std::max(std::abs(t.origin_x), std::abs(t.origin_x + dem.columns * t.step_x));
   const double y = std::max(std::abs(t.origin_y), std::abs(t.origin_y + dem.rows * t.step_y));
-  const std::string where = "the DEM's middle is at longitude " + Number(middle.lon_deg) +
-                            ", latitude " + Number(middle.lat_deg) + ", " +
-                            Number(outside, "%.1f") + " degrees outside the area for which " +
-                            georeference.CrsName() + " is made";
-  if (x <= 360 && y <= 90 && !(georeference.FullTurn() > 0)) {
-    return Bad(where + ", and its coordinates look like degrees; is --crs right? Degrees of GPS "
-                       "are --crs EPSG:4326",
-               "outside-crs");
-  }
-  if (outside > kFarDegrees) {
-    assumptions.push_back({"outside-area-of-use",
-                           where + "; it was placed there all the same: --crs states another system"});
-  }
-  return Ok{};
+  if (x > 360 || y > 90 || georeference.FullTurn() > 0 || georeference.InAreaOfUse()) return Ok{};
+  const Geodetic middle = georeference.frame().origin();
+  return Bad("the DEM's middle would be at longitude " + Number(middle.lon_deg) + ", latitude " +
+                 Number(middle.lat_deg) + ", outside the area where " + georeference.CrsName() +
+                 " is used, and its coordinates look like degrees; is --crs right? Degrees of GPS "
+                 "are --crs EPSG:4326",
+             "outside-crs");
 }
 
 class PlacementCheck {
@@ -305,10 +285,9 @@ class PlacementCheck {
 
 }  // namespace
 
-Status CheckPlacement(const Terrain& terrain, const Georeference& georeference,
-                      Assumptions& assumptions) {
+Status CheckPlacement(const Terrain& terrain, const Georeference& georeference) {
   if (Status placed = PlacementCheck(terrain, georeference).Run(); !placed) return placed;
-  return CheckArea(terrain.dem(), georeference, assumptions);
+  return CheckNoDegrees(terrain.dem(), georeference);
 }
 
 }  // namespace farhorizon

@@ -34,12 +34,9 @@ Result<std::unique_ptr<TerrainInput>> TerrainInput::Open(const std::filesystem::
                                           .datum_operation = options.datum_operation.value_or("")});
   if (!georeference) return std::move(georeference.error()).WithContext("place DEM on the globe");
   input->georeference_.emplace(*std::move(georeference));
-  Assumptions about_place;
-  if (Status placed = CheckPlacement(*input->terrain_, *input->georeference_, about_place);
-      !placed) {
+  if (Status placed = CheckPlacement(*input->terrain_, *input->georeference_); !placed) {
     return std::move(placed.error()).WithContext("place DEM on the globe");
   }
-  input->Assume(about_place, control);
   input->Assume(input->georeference_->assumptions(), control);
   Result<std::string> sha256 = Sha256OfFile(path);
   if (!sha256) return std::move(sha256.error()).WithContext("read DEM");

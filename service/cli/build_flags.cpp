@@ -63,11 +63,14 @@ void AddBuildFlags(CLI::App& command, BuildFlags& flags) {
 
 void AddReadFlags(CLI::App& command, BuildFlags& flags) {
   Add(command, flags, "crs", "CRS", "reference system, instead of the file's");
-  Add(command, flags, "verticalDatum", "CRS", "vertical reference system, instead of the file's");
+  Add(command, flags, "verticalDatum", "CRS",
+      "vertical reference system, instead of the file's: a code, a datum's name such as EGM96, or "
+      "ellipsoid");
   Add(command, flags, "heightUnit", "U",
       "m, ft or us-ft: unit of the heights, instead of the file's");
   Add(command, flags, "datumOperation", "OP",
-      "coordinate operation from the reference system's datum to WGS 84, instead of PROJ's choice");
+      "way from the reference system's datum to WGS 84: a code or a name of PROJ's operations, or "
+      "ballpark (one for a system, which is said)");
   AddList(command, flags, "nodata", "H",
           "height that stands for no data, beside the file's own: a number, nan or -inf; may be "
           "given more than once");

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string_view>
 
-#include "core/pipeline/number_text.h"
+#include "core/pipeline/option_numbers.h"
 #include "service/handlers/json.h"
 #include "service/handlers/problem.h"
 #include "service/handlers/status_info.h"

@@ -8,8 +8,8 @@
 namespace farhorizon {
 
 /// Whether an upload can be a raster of a format that is read and is one file: TIFF and BigTIFF,
-/// DTED, USGS DEM, SRTM HGT and that zipped (by their names), Erdas Imagine, Surfer's grids, and the
-/// text grids. Numbers with a header beside (ENVI, Esri) cannot be sent.
+/// DTED, USGS DEM, SRTM HGT and that zipped (by their names), Erdas Imagine, Surfer's grids, and
+/// the text grids. Numbers with a header beside (ENVI, Esri) cannot be sent.
 ///
 /// What is let in is read by this program's own readers, or by one driver of GDAL's that sees a
 /// folder with this file alone (OpenRaster).

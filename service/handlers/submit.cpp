@@ -121,7 +121,7 @@ Result<Submission> SubmitExchange::ReadSubmission() const {
     Status added = AddFormParameters(*body_.params(), head);
     if (!added) return std::move(added.error());
   }
-  const std::string name = head.filename.value_or(body_.filename().value_or("dem"));
+  const std::string name = head.filename.value_or(body_.filename().value_or(""));
   return Submission{SafeFilename(name), std::move(head.parameters),
                     std::move(head.idempotency_key)};
 }
@@ -133,7 +133,13 @@ Result<Job> SubmitExchange::Submit() const {
   if (!submission) return std::move(submission.error());
   const SpoolFile& spool = body_.spool();
   Status upload = CheckUpload(spool.beginning(), spool.bytes(), submission->filename);
-  if (!upload) return std::move(upload.error());
+  if (!upload) {
+    Error error = std::move(upload.error());
+    if (submission->filename == kNoFilename) {
+      error.message += "; formats that a name tells need it, as ?filename=N46E007.hgt";
+    }
+    return error;
+  }
   Result<Assumptions> assumptions = context_.jobs.Probe(spool, *submission);
   if (!assumptions) return std::move(assumptions.error());
   submission->assumptions = *std::move(assumptions);

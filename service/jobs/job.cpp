@@ -13,7 +13,6 @@ namespace {
 constexpr std::array kStates = {JobState::kAccepted, JobState::kRunning, JobState::kSuccessful,
                                 JobState::kFailed, JobState::kDismissed};
 constexpr std::size_t kLongestFilename = 100;
-constexpr std::string_view kNoFilename = "dem";
 // Where a UUID's text has its dashes, in rising order.
 constexpr std::array<std::size_t, 4> kDashes = {8, 13, 18, 23};
 
@@ -89,11 +88,11 @@ std::string SafeFilename(std::string_view path) {
   }
   if (name.size() > kLongestFilename) name.erase(0, name.size() - kLongestFilename);
   const std::size_t start = name.find_first_not_of(".-");
-  if (start == std::string::npos) return std::string(kNoFilename);
+  if (start == std::string::npos) return kNoFilename;
   // Formats are known by their endings: one that is all that is left is kept.
   const bool ending = start > 0 && name[start - 1] == '.';
-  if (ending && name.size() - start + kNoFilename.size() < kLongestFilename) {
-    return std::string(kNoFilename) + name.substr(start - 1);
+  if (ending && name.size() - start + std::string_view(kNoFilename).size() < kLongestFilename) {
+    return kNoFilename + name.substr(start - 1);
   }
   return name.substr(start);
 }

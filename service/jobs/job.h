@@ -66,9 +66,13 @@ struct Artifact {
 /// The Error of a call that names a job which does not exist: kNotFound "no-such-job".
 Error NoSuchJob();
 
+/// The name of a DEM that came without one.
+inline constexpr const char* kNoFilename = "dem";
+
 /// A name that is safe for a file and in a header: of the part after the last slash or backslash,
 /// the ASCII letters, digits, '.', '_' and '-' from the first that is neither '.' nor '-', at most
-/// the last 100; "dem" where none is left, and before an ending that alone is left: "dem.tif".
+/// the last 100; kNoFilename where none is left, and before an ending that alone is left:
+/// "dem.tif".
 std::string SafeFilename(std::string_view path);
 
 /// True for a name that SafeFilename would return unchanged.

@@ -24,7 +24,8 @@ namespace farhorizon {
 /// Limits of reading an upload before its job is accepted.
 struct ProbeOptions {
   std::int64_t max_bytes = std::int64_t{1} << 31U;  ///< larger uploads are read by their job only
-  std::int64_t memory_bytes = std::int64_t{1} << 31U;
+  /// As much as a job has: what ends a probe for want of memory is no fault of the DEM.
+  std::int64_t memory_bytes = std::int64_t{1} << 32U;
   std::int64_t wall_seconds = 20;
 };
 

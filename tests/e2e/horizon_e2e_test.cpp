@@ -25,7 +25,8 @@ class HorizonE2e : public testing::Test {
  protected:
   void SetUp() override { SpillFile(folder_ / "hills.asc", HillyGrid(40, 30)); }
 
-  /// The exit status of `farhorizon horizon hills.asc -o FILE` and what is added.
+  /// The exit status of `farhorizon horizon hills.asc -o FILE` with all that a text grid leaves
+  /// open, and what is added.
   int Run(const std::string& file, const std::vector<std::string>& added) {
     std::vector<std::string> words = {FARHORIZON_PROGRAM,
                                       "horizon",
@@ -33,7 +34,11 @@ class HorizonE2e : public testing::Test {
                                       "-o",
                                       (folder_ / file).string(),
                                       "--crs",
-                                      "EPSG:4326"};
+                                      "EPSG:4326",
+                                      "--vertical-datum",
+                                      "ellipsoid",
+                                      "--height-unit",
+                                      "m"};
     words.insert(words.end(), added.begin(), added.end());
     return Process(words, {}, folder_ / "stderr").Wait(std::chrono::seconds(300));
   }

@@ -269,7 +269,7 @@ TEST_F(ServiceE2e, WhatNoJobCouldBuildIsRefusedAtOnce) {
   };
   for (const Case& one :
        std::initializer_list<Case>{{"crs=EPSG:999999", 422, "unknown-crs"},
-                                   {"crs=EPSG:4326%205773", 422, "unknown-crs"},
+                                   {"crs=EPSG:4326%20nothing", 422, "unknown-crs"},
                                    {"crs=EPSG:4326&maxError=1e-9", 400, "max-error-too-small"},
                                    {"crs=EPSG:4326&nodata=-inf&nodata=x", 400, "invalid-parameter"},
                                    {"crs=EPSG:4326&heightUnit=yd", 400, "invalid-parameter"}}) {
@@ -288,9 +288,30 @@ TEST_F(ServiceE2e, WhatNoJobCouldBuildIsRefusedAtOnce) {
   EXPECT_TRUE(json::parse(Ask(port_, "GET", "/jobs").body)["jobs"].empty());
 }
 
+TEST_F(ServiceE2e, ARemedyIsAParameterThatHelps) {
+  Start();
+  std::string grid = SmallGrid();
+  grid.replace(grid.find("600 "), 4, "25000 ");  // no ground on Earth
+  const auto post = [&](const std::string& query) {
+    return Ask(port_, "POST", "/jobs?filename=a.asc" + query, "Content-Type: text/plain\r\n", grid);
+  };
+  std::string query;
+  for (const auto& [code, remedy] : std::vector<std::pair<std::string, std::string>>{
+           {"no-crs", "crs"}, {"height-out-of-range", "nodata=25000"}}) {
+    const RawAnswer refused = post(query);
+    EXPECT_EQ(refused.status, 422) << refused.body;
+    const json problem = json::parse(refused.body);
+    EXPECT_EQ(problem.value("code", ""), code);
+    EXPECT_THAT(problem.value("detail", ""), testing::HasSubstr("with " + remedy));
+    query += "&" + (remedy == "crs" ? "crs=EPSG:4326" : remedy);
+  }
+  EXPECT_EQ(post(query).status, 201);
+}
+
 TEST_F(ServiceE2e, APlusInAQueryIsWhatWasMeant) {
   Start();
-  for (const char* crs : {"EPSG:4326+5773", "EPSG:4326%2B5773", "EPSG%3A4326%2B5773"}) {
+  for (const char* crs :
+       {"EPSG:4326+5773", "EPSG:4326%2B5773", "EPSG%3A4326%2B5773", "EPSG:4326%205773"}) {
     const RawAnswer answer = Ask(port_, "POST", std::string("/jobs?filename=a.asc&crs=") + crs,
                                  "Content-Type: text/plain\r\n", SmallGrid());
     const std::string code = json::parse(answer.body).value("code", "");

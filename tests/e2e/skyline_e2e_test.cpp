@@ -24,10 +24,12 @@ class SkylineE2e : public testing::Test {
  protected:
   void SetUp() override { SpillFile(folder_ / "hills.asc", HillyGrid(40, 30)); }
 
-  /// The exit status of `farhorizon COMMAND hills.asc --crs EPSG:4326` and what is added.
+  /// The exit status of `farhorizon COMMAND hills.asc` with all that a text grid leaves open, and
+  /// what is added.
   int Run(const std::string& command, const std::vector<std::string>& added) {
-    std::vector<std::string> words = {FARHORIZON_PROGRAM, command, Path("hills.asc"), "--crs",
-                                      "EPSG:4326"};
+    std::vector<std::string> words = {
+        FARHORIZON_PROGRAM, command,     Path("hills.asc"), "--crs", "EPSG:4326",
+        "--vertical-datum", "ellipsoid", "--height-unit",   "m"};
     words.insert(words.end(), added.begin(), added.end());
     return Process(words, {}, folder_ / "stderr").Wait(std::chrono::seconds(300));
   }

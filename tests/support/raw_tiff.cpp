@@ -14,7 +14,7 @@ class Writer {
   Writer(bool big_endian, bool big_tiff) : big_endian_(big_endian), big_tiff_(big_tiff) {}
 
   std::string Write(const std::vector<RawImage>& images) {
-    bytes_ = big_endian_ ? "MM" : "II";
+    bytes_ = std::string(2, big_endian_ ? 'M' : 'I');
     bytes_ += Number(big_tiff_ ? 43 : 42, 2);
     if (big_tiff_) bytes_ += Number(8, 2) + Number(0, 2);
     std::size_t link = bytes_.size();
@@ -36,7 +36,7 @@ class Writer {
 
   // Rows of samples, the highest bit first, each row from a byte of its own.
   [[nodiscard]] std::string Samples(const RawImage& image) const {
-    if (image.bits % 8 == 0) {
+    if (image.bits % 8 == 0 && image.bits != 24) {  // those of 24 as GDAL writes them
       std::string bytes;
       for (const double sample : image.samples) {
         bytes += Number(static_cast<std::uint64_t>(static_cast<std::int64_t>(sample)),

@@ -77,8 +77,17 @@ void WriteTiff(const std::filesystem::path& path, const TestRaster& raster) {
   }
   DescribeBand(GDALGetRasterBand(dataset, 1), raster);
   if (!raster.mask.empty()) WriteMask(dataset, raster);
+  if (raster.alpha_band != 0) {
+    GDALSetRasterColorInterpretation(GDALGetRasterBand(dataset, 3 - raster.alpha_band),
+                                     GCI_GrayIndex);
+    Must(GDALSetRasterColorInterpretation(GDALGetRasterBand(dataset, raster.alpha_band),
+                                          GCI_AlphaBand) == CE_None,
+         "alpha");
+  }
   for (int b = 1; b <= raster.bands && !raster.values.empty(); ++b) {
-    std::vector<double> values = raster.values;
+    std::vector<double> values = raster.band_values.empty()
+                                     ? raster.values
+                                     : raster.band_values[static_cast<std::size_t>(b - 1)];
     Must(GDALRasterIO(GDALGetRasterBand(dataset, b), GF_Write, 0, 0, raster.columns, raster.rows,
                       values.data(), raster.columns, raster.rows, GDT_Float64, 0, 0) == CE_None,
          "write");

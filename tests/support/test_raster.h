@@ -16,6 +16,8 @@ struct TestRaster {
   int bands = 1;
   std::string type = "Int16";  ///< GDAL's name of the type
   std::vector<double> values = {1, 2, 3, 4, 5, 6};
+  std::vector<std::vector<double>> band_values = {};  ///< where the bands differ
+  int alpha_band = 0;                                 ///< its number; 0 for none
   std::optional<std::array<double, 6>> geotransform =
       std::array<double, 6>{500000, 30, 0, 5100000, 0, -30};
   std::string crs = "EPSG:32610";  ///< "" for none; WKT is fine

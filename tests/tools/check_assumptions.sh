@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # proto/assumptions.md has a row for every code of an assumption that core/ makes, and no other:
-# - a code is the first text of `Assumption{"code", …}`, of what is pushed into `assumptions`, or of a
-#   call of Assume…("code", …);
+# - a code is the first text of `Assumption{"code", …}`, of `return {"code", …}`, of what is pushed into
+#   `assumptions`, or of a call of Assume…("code", …);
 # - a row is `| `code` | what was decided | how to state it |`, each code once, in alphabetical order.
 #   tests/tools/check_assumptions.sh [ROOT]       default: the tree this script stands in
 set -euo pipefail
@@ -20,7 +20,7 @@ offence() {
 }
 
 # One line for each code: FILE CODE. Calls may go over several lines, comments are left out.
-making='(Assumption ?\{|Assume[A-Za-z]* ?\(|[Aa]ssumptions_?(\.|->)(push_back|emplace_back)\((Assumption)? ?\{?) ?"[^"]*"'
+making='((Assumption|return) ?\{|Assume[A-Za-z]* ?\(|[Aa]ssumptions_?(\.|->)(push_back|emplace_back)\((Assumption)? ?\{?) ?"[^"]*"'
 declare -A made=()
 while read -r file code; do
   made[$code]=$file

@@ -32,6 +32,7 @@ expect 1 'the assumption void-fill has no row' $code $'dem.assumptions.push_back
 expect 1 'the assumption void-fill has no row' $code 'way->assumptions.push_back(Assumption{"void-fill", "x"});'
 expect 1 'the assumption void-fill has no row' $code 'assumptions_.push_back({"void-fill", "x"});'
 expect 1 'the assumption void-fill has no row' $code $'AssumeFill(\n  "void-fill", "x");'
+expect 1 'the assumption void-fill has no row' $code $'return {\n    "void-fill", Text()};'
 expect 1 '"Void fill" is no code' $code 'Assumption{"Void fill", "x"};'
 expect 1 'assumptions.md:6: nothing in core/ makes the assumption void-fill' $table "$row"
 expect 1 'assumptions.md:6: height-unit stands twice' $table '| `height-unit` | once more | `--height-unit` |'

@@ -18,6 +18,7 @@
 
 #include "core/io/dem/nodata_rule.h"
 #include "core/io/dem/number_text.h"
+#include "core/io/dem/raster_place.h"
 #include "core/io/file.h"
 #include "core/io/text_grid/text_number.h"
 
@@ -47,19 +48,19 @@ class AuxReader {
         number_(number),
         assumptions_(assumptions) {}
 
-  std::vector<double> Read(const CPLXMLNode* root, const DemReadOptions& options) {
-    std::vector<double> nodata;
+  AuxTags Read(const CPLXMLNode* root, const DemReadOptions& options) {
+    AuxTags tags;
     if (const CPLXMLNode* band = FindBand(root)) {
       if (const std::optional<std::string> text = Text(band, "NoDataValue")) {
-        nodata = ParseNodataText(*text, name_, assumptions_);
+        tags.nodata = ParseNodataText(*text, name_, assumptions_);
       }
       ReadScale(band);
       if (!options.height_unit) ReadUnit(band);
     }
-    ReadGeoTransform(root);
-    if (!options.crs) ReadCrs(root);
+    tags.geotransform = ReadGeoTransform(root);
+    if (!options.crs) tags.crs = ReadCrs(root);
     SayRest(root);
-    return nodata;
+    return tags;
   }
 
   void Say(const std::string& what) {
@@ -90,23 +91,32 @@ class AuxReader {
   }
 
   void ReadScale(const CPLXMLNode* node) {
-    const auto read = [&](const char* key, const char* what, auto get, auto set) {
+    // Both are read before one is set: GDAL then reports both as given.
+    int has_scale = 0;
+    int has_offset = 0;
+    const double scale = GDALGetRasterScale(band_, &has_scale);
+    const double offset = GDALGetRasterOffset(band_, &has_offset);
+    const auto read = [&](const char* key, const std::string& what, std::optional<double> own,
+                          auto get, auto set) {
       const std::optional<std::string> text = Text(node, key);
       if (!text) return;
-      const std::optional<TextNumber> value = ParseNumber(*text);
-      int given = 0;
-      const double own = get(band_, &given);
-      if (!value) {
-        Say("gives " + std::string(what) + " that is no number; it was passed over");
+      const std::optional<TextNumber> number = ParseNumber(*text);
+      if (!number) {
+        Say("gives " + what + " that is no number; it was passed over");
         return;
       }
-      const double there = value->value;
-      if (given != 0 && own != there) SayBoth(what, NumberText(there), NumberText(own));
+      const double there = number->value;
+      if (own && *own != there) SayBoth(what, NumberText(there), NumberText(*own));
       set(band_, there);
-      if (get(band_, &given) != there) SayUnread(what);
+      if (get(band_, nullptr) != there) SayUnread(what);
     };
-    read("Scale", "the scale of the heights", GDALGetRasterScale, GDALSetRasterScale);
-    read("Offset", "the offset of the heights", GDALGetRasterOffset, GDALSetRasterOffset);
+    const auto given = [](double value, int has) {
+      return has != 0 ? std::optional<double>(value) : std::nullopt;
+    };
+    read("Scale", "the scale of the heights", given(scale, has_scale), GDALGetRasterScale,
+         GDALSetRasterScale);
+    read("Offset", "the offset of the heights", given(offset, has_offset), GDALGetRasterOffset,
+         GDALSetRasterOffset);
   }
 
   void ReadUnit(const CPLXMLNode* node) {
@@ -118,9 +128,9 @@ class AuxReader {
     if (GDALGetRasterUnitType(band_) != *unit) SayUnread("the unit of the heights");
   }
 
-  void ReadGeoTransform(const CPLXMLNode* root) {
+  std::optional<std::array<double, 6>> ReadGeoTransform(const CPLXMLNode* root) {
     const std::optional<std::string> text = Text(root, "GeoTransform");
-    if (!text) return;
+    if (!text) return std::nullopt;
     std::array<double, 6> there{};
     std::istringstream words(*text);
     for (double& coefficient : there) {
@@ -129,7 +139,7 @@ class AuxReader {
       const std::optional<TextNumber> value = ParseNumber(word.substr(0, word.find(' ')));
       if (!value) {
         Say("has a geotransform of other than six numbers; it was passed over");
-        return;
+        return std::nullopt;
       }
       coefficient = value->value;
     }
@@ -139,10 +149,7 @@ class AuxReader {
               "(" + NumberText(there[0]) + ", " + NumberText(there[3]) + ")",
               "(" + NumberText(own[0]) + ", " + NumberText(own[3]) + ")");
     }
-    GDALSetGeoTransform(dataset_, there.data());
-    if (GDALGetGeoTransform(dataset_, own.data()) != CE_None || there != own) {
-      SayUnread("the place of the raster");
-    }
+    return there;
   }
 
   // Within a thousandth of a cell: the text has fewer digits than the file.
@@ -160,25 +167,24 @@ class AuxReader {
     return OSRIsSameEx(a, b, options) != 0;
   }
 
-  void ReadCrs(const CPLXMLNode* root) {
+  std::optional<std::string> ReadCrs(const CPLXMLNode* root) {
     const std::optional<std::string> text = Text(root, "SRS");
-    if (!text || text->empty()) return;
+    if (!text || text->empty()) return std::nullopt;
     const CrsPtr crs(OSRNewSpatialReference(nullptr));
     std::string wkt = *text;
     char* position = wkt.data();
     // Not from "user input", which may be the name of a file.
     if (OSRImportFromWkt(crs.get(), &position) != OGRERR_NONE) {
-      SayUnread("the reference system");
-      return;
+      Say("gives a reference system that cannot be read; name it with --crs");
+      return std::nullopt;
     }
     OSRSetAxisMappingStrategy(crs.get(), OAMS_TRADITIONAL_GIS_ORDER);
     const OGRSpatialReferenceH own = GDALGetSpatialRef(dataset_);
     if (own != nullptr && !SameCrs(own, crs.get())) {
       SayBoth("the reference system", OSRGetName(crs.get()), OSRGetName(own));
     }
-    GDALSetSpatialRef(dataset_, crs.get());
-    const OGRSpatialReferenceH now = GDALGetSpatialRef(dataset_);
-    if (now == nullptr || !SameCrs(now, crs.get())) SayUnread("the reference system");
+    Result<std::string> name = NameOfCrs(crs.get());
+    return name ? std::optional(*std::move(name)) : std::nullopt;
   }
 
   void SayUnread(const std::string& what) {
@@ -206,8 +212,8 @@ class AuxReader {
 
 }  // namespace
 
-std::vector<double> ReadAuxFile(const std::filesystem::path& path, void* dataset, int number,
-                                const DemReadOptions& options, Assumptions& assumptions) {
+AuxTags ReadAuxFile(const std::filesystem::path& path, void* dataset, int number,
+                    const DemReadOptions& options, Assumptions& assumptions) {
   std::filesystem::path beside = path;
   beside += ".aux.xml";
   std::error_code failure;

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "core/base/assumption.h"
@@ -9,15 +12,21 @@
 
 namespace farhorizon {
 
+/// What an auxiliary file says and its dataset has no room for: the nodata values of the band, which
+/// add to the file's own; GDAL's geotransform; the reference system, as WKT or a code.
+struct AuxTags {
+  std::vector<double> nodata = {};
+  std::optional<std::array<double, 6>> geotransform = {};
+  std::optional<std::string> crs = {};
+};
+
 /// Reads FILE.aux.xml beside the file at `path`, in which GDAL and QGIS keep what a format has no
-/// place for, into `dataset` (a GDALDatasetH), where the rest of the reader finds it: the scale,
-/// offset and unit of band `number`, geotransform and reference system. As with GDAL, it wins over
-/// the file itself; where they differ, and where something in it is not read (control points,
+/// place for. Scale, offset and unit of band `number` are put into `dataset` (a GDALDatasetH), the
+/// rest is returned. As with GDAL, it wins over the file itself; where they differ, and where something in it is not read (control points,
 /// Esri's transformation), that is said. Statistics and histograms mean nothing here.
 ///
 /// The text is parsed, at most 16 MiB of it; no name in it is ever opened. Nothing is written.
-/// Returns the nodata values that it names for the band; they add to the file's own.
-std::vector<double> ReadAuxFile(const std::filesystem::path& path, void* dataset, int number,
-                                const DemReadOptions& options, Assumptions& assumptions);
+AuxTags ReadAuxFile(const std::filesystem::path& path, void* dataset, int number,
+                    const DemReadOptions& options, Assumptions& assumptions);
 
 }  // namespace farhorizon

@@ -49,9 +49,8 @@ Result<ValueTags> ReadValueTags(OpenedDem& dem) {
     SayWhichImage(*dem.tiff, dem.assumptions);
     ApplyModelScale(dem.band.heights, *dem.tiff, dem.assumptions);
   }
-  const std::vector<double> beside =
-      ReadAuxFile(dem.path, dem.dataset, dem.band.number, dem.options, dem.assumptions);
-  tags.nodata.insert(tags.nodata.end(), beside.begin(), beside.end());
+  dem.aux = ReadAuxFile(dem.path, dem.dataset, dem.band.number, dem.options, dem.assumptions);
+  tags.nodata.insert(tags.nodata.end(), dem.aux.nodata.begin(), dem.aux.nodata.end());
   return tags;
 }
 

@@ -6,6 +6,7 @@
 
 #include "core/base/assumption.h"
 #include "core/base/result.h"
+#include "core/io/dem/aux_file.h"
 #include "core/io/dem/height_band.h"
 #include "core/io/dem/read_dem.h"
 #include "core/io/dem/sample_type.h"
@@ -23,6 +24,7 @@ struct OpenedDem {
   GdalSession& session;
   std::optional<TiffFile> tiff = {};
   HeightBand band = {};
+  AuxTags aux = {};
   Assumptions assumptions = {};
 
   /// nullptr for other formats.

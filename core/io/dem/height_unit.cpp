@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/geo/height_system.h"
+#include "core/geo/short_text.h"
 
 namespace farhorizon {
 
@@ -116,6 +117,32 @@ bool Same(const HeightUnit& a, const HeightUnit& b) {
   return std::abs(a.metres - b.metres) <= 1e-7 * b.metres;
 }
 
+// Of systems and keys, in the order in which they count.
+std::array<const std::optional<HeightUnit>*, 3> SystemsOf(const HeightUnitSources& sources) {
+  return {&sources.call_system, &sources.file_key, &sources.file_system};
+}
+
+// The unit that counts by the rule of DecideHeightUnit; null where none is said.
+const HeightUnit* FirstSaid(const HeightUnitSources& sources) {
+  if (sources.band) return &*sources.band;
+  for (const bool metre : {false, true}) {
+    for (const std::optional<HeightUnit>* said : SystemsOf(sources)) {
+      if (*said && IsMetre(**said) == metre) return &**said;
+    }
+  }
+  return nullptr;
+}
+
+// "EPSG:5773 of the file says metre": every source that says another unit than `decided`.
+std::string SaidOtherwise(const HeightUnitSources& sources, const HeightUnit& decided) {
+  std::string otherwise;
+  for (const std::optional<HeightUnit>* said : SystemsOf(sources)) {
+    if (!*said || Same(**said, decided)) continue;
+    otherwise += (otherwise.empty() ? "" : " and ") + (*said)->source + " says " + (*said)->name;
+  }
+  return otherwise;
+}
+
 }  // namespace
 
 Result<HeightUnit> ReadHeightUnit(const std::string& name) {
@@ -125,39 +152,32 @@ Result<HeightUnit> ReadHeightUnit(const std::string& name) {
       return HeightUnit{.name = std::string(spelling.unit), .metres = spelling.metres};
     }
   }
-  if (const std::optional<double> listed = ListedLengthUnit(name)) {
-    return HeightUnit{.name = name, .metres = *listed};
+  if (const std::optional<LengthUnit> listed = ListedLengthUnit(name)) {
+    return HeightUnit{.name = listed->name, .metres = listed->metres};
   }
   return Error{ErrorCode::kUnsupportedData,
-               "the band's values are in \"" + name.substr(0, 40) +
+               "the band's values are in \"" + ShortText(name, 40) +
                    "\", which is no unit of heights that is known" + kRemedy,
                "unknown-unit"};
 }
 
 HeightUnit DecideHeightUnit(const HeightUnitSources& sources, Assumptions& assumptions) {
   if (sources.stated) return *sources.stated;
-  const std::array<const std::optional<HeightUnit>*, 3> systems = {
-      &sources.call_system, &sources.file_key, &sources.file_system};
-  const HeightUnit* decided = sources.band ? &*sources.band : nullptr;
-  for (const bool metre : {false, true}) {
-    for (const std::optional<HeightUnit>* said : systems) {
-      if (decided == nullptr && *said && IsMetre(**said) == metre) decided = &**said;
-    }
-  }
-  if (decided == nullptr) {
+  const HeightUnit* decided = FirstSaid(sources);
+  // A datum that the call names in metres over a file that says nothing: is it the unit, too?
+  const bool doubtful = decided != nullptr && sources.call_system &&
+                        decided == &*sources.call_system && IsMetre(*decided) &&
+                        !sources.map_unit.empty() && !sources.file_system;
+  if (decided == nullptr || doubtful) {
+    const std::string why =
+        doubtful ? "as " + decided->source + " says" : "for nothing says their unit";
     const std::string map = sources.map_unit.empty()
                                 ? ""
                                 : ", though the map is in the unit \"" + sources.map_unit + "\"";
-    assumptions.push_back(
-        {"height-unit",
-         "heights are taken as metres, for nothing says their unit" + map + kRemedy});
+    assumptions.push_back({"height-unit", "heights are taken as metres, " + why + map + kRemedy});
     return HeightUnit{.name = std::string(kMetreName)};
   }
-  std::string otherwise;
-  for (const std::optional<HeightUnit>* said : systems) {
-    if (!*said || Same(**said, *decided)) continue;
-    otherwise += (otherwise.empty() ? "" : " and ") + (*said)->source + " says " + (*said)->name;
-  }
+  const std::string otherwise = SaidOtherwise(sources, *decided);
   if (!otherwise.empty()) {
     assumptions.push_back({"height-unit", "the unit of the heights is taken as the " +
                                               decided->name + ", as " + decided->source +

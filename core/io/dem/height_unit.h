@@ -35,7 +35,8 @@ struct HeightUnitSources {
 /// the call's vertical system, the file's VerticalUnitsGeoKey and the file's vertical system, the
 /// first that is not the metre, for a system that counts metres is often named for its datum alone;
 /// else the metre. Adds to `assumptions`, with the code "height-unit", what a source says
-/// otherwise, and the metre where none says anything.
+/// otherwise, and the metre where none says anything, or the call's system alone over a map in
+/// feet.
 HeightUnit DecideHeightUnit(const HeightUnitSources& sources, Assumptions& assumptions);
 
 }  // namespace farhorizon

@@ -54,8 +54,14 @@ std::vector<double> ReadNodataTags(void* band, TiffFile* tiff, Assumptions& assu
 
 NoDataRule::NoDataRule(const SampleType& samples, const std::vector<double>& values)
     : is_float_(samples.is_float) {
+  // Floats of less than 32 bits are cut off by some writers and rounded by others.
+  const bool coarse = samples.is_float && samples.significant_bits < 24;
   for (const double value : values) {
-    if (!std::isnan(value)) nodata_.push_back({value, samples.AsStored(value)});
+    if (std::isnan(value)) continue;
+    int exponent = 0;
+    std::frexp(value, &exponent);
+    const double slack = coarse ? std::ldexp(1.0, exponent - samples.significant_bits) : 0;
+    nodata_.push_back({value, samples.AsStored(value), slack});
   }
 }
 
@@ -67,6 +73,7 @@ bool NoDataRule::Matches(double value) const {
 bool NoDataRule::Matches(double value, const Nodata& nodata) const {
   if (value == nodata.value || value == nodata.stored) return true;
   if (std::abs(nodata.value) < kMaxHeight) {
+    if (std::abs(value - nodata.value) < nodata.slack) return true;
     // Doubles that were floats before: -9999.9 is then -9999.900390625.
     return is_float_ && std::abs(value) < kMaxHeight &&
            static_cast<float>(value) == static_cast<float>(nodata.value);

@@ -34,6 +34,7 @@ class NoDataRule {
   struct Nodata {
     double value = 0;
     double stored = 0;
+    double slack = 0;  // by which a sample may be off
   };
   [[nodiscard]] bool Matches(double value, const Nodata& nodata) const;
 

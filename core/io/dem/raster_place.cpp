@@ -13,6 +13,7 @@
 #include <gdal.h>
 #include <ogr_srs_api.h>
 
+#include "core/io/dem/band_values.h"
 #include "core/io/dem/world_file.h"
 #include "core/io/file.h"
 
@@ -118,7 +119,9 @@ CrsPtr FromPrj(const std::filesystem::path& prj) {
   return read ? std::move(crs) : nullptr;
 }
 
-Result<std::string> TextOf(OGRSpatialReferenceH crs) {
+}  // namespace
+
+Result<std::string> NameOfCrs(void* crs) {
   const char* authority = OSRGetAuthorityName(crs, nullptr);
   const char* code = OSRGetAuthorityCode(crs, nullptr);
   if (authority != nullptr && code != nullptr) return std::string(authority) + ":" + code;
@@ -133,15 +136,14 @@ Result<std::string> TextOf(OGRSpatialReferenceH crs) {
   return wkt;
 }
 
-}  // namespace
-
-Result<GeoTransform> ReadGeoTransform(void* dataset, const std::filesystem::path& path,
-                                      Assumptions& assumptions) {
+Result<GeoTransform> ReadGeoTransform(OpenedDem& dem) {
+  void* const dataset = dem.dataset;
+  Assumptions& assumptions = dem.assumptions;
   const int columns = GDALGetRasterXSize(dataset);
   const int rows = GDALGetRasterYSize(dataset);
-  const std::optional<WorldFile> world = FindWorldFile(path);
-  Coefficients own{};
-  if (GDALGetGeoTransform(dataset, own.data()) == CE_None) {
+  const std::optional<WorldFile> world = FindWorldFile(dem.path);
+  Coefficients own = dem.aux.geotransform.value_or(Coefficients{});
+  if (dem.aux.geotransform || GDALGetGeoTransform(dataset, own.data()) == CE_None) {
     Result<GeoTransform> place = AlongTheAxes(own, columns, rows, "the raster");
     if (!place || !world || !world->geotransform) return place;
     const Result<GeoTransform> other =
@@ -178,12 +180,13 @@ Result<GeoTransform> ReadGeoTransform(void* dataset, const std::filesystem::path
                  "degenerate-geotransform");
 }
 
-Result<std::string> ReadFileCrs(void* dataset, const std::filesystem::path& path,
-                                Assumptions& assumptions) {
+Result<std::string> ReadFileCrs(const OpenedDem& dem, Assumptions& assumptions) {
+  if (dem.aux.crs) return *dem.aux.crs;
+  void* const dataset = dem.dataset;
   OGRSpatialReferenceH crs = GDALGetSpatialRef(dataset);
   if (crs == nullptr && GDALGetGCPCount(dataset) > 0) crs = GDALGetGCPSpatialRef(dataset);
-  if (crs != nullptr) return TextOf(crs);
-  const std::optional<std::filesystem::path> prj = FindBeside(path, ".prj");
+  if (crs != nullptr) return NameOfCrs(crs);
+  const std::optional<std::filesystem::path> prj = FindBeside(dem.path, ".prj");
   if (!prj) {
     return BadData("the DEM has no reference system; name it with --crs, for example EPSG:4326",
                    "no-crs");
@@ -197,7 +200,7 @@ Result<std::string> ReadFileCrs(void* dataset, const std::filesystem::path& path
   }
   assumptions.push_back({"prj-file", "the DEM has no reference system; " + name +
                                          " beside it was taken (--crs states another)"});
-  return TextOf(beside.get());
+  return NameOfCrs(beside.get());
 }
 
 }  // namespace farhorizon

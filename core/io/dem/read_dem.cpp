@@ -77,12 +77,11 @@ Result<Dem> ReadOpened(OpenedDem opened) {
   if (Status found = FindHeights(opened); !found) return std::move(found.error());
   Result<ValueTags> tags = ReadValueTags(opened);
   if (!tags) return std::move(tags.error());
-  Result<GeoTransform> transform =
-      ReadGeoTransform(opened.dataset, opened.path, opened.assumptions);
+  Result<GeoTransform> transform = ReadGeoTransform(opened);
   if (!transform) return std::move(transform.error());
   dem.transform = *transform;
   Assumptions about_crs;
-  const Result<std::string> crs = ReadFileCrs(opened.dataset, opened.path, about_crs);
+  const Result<std::string> crs = ReadFileCrs(opened, about_crs);
   if (!crs && !options.crs) return crs.error();
   dem.crs = options.crs ? *options.crs : *crs;
   if (!options.crs) std::ranges::copy(about_crs, std::back_inserter(opened.assumptions));

@@ -166,6 +166,18 @@ std::int64_t TiffFile::Integer(std::size_t directory, TiffTag tag, std::int64_t 
   return whole ? static_cast<std::int64_t>(numbers[0]) : otherwise;
 }
 
+std::optional<int> TiffFile::GeoKey(int key) {
+  // Four numbers of a head, then four of each key: key, place (0: right here), count, value.
+  constexpr std::size_t kMostNumbers = 4000;
+  const std::vector<double> numbers = Numbers(0, TiffTag::kGeoKeyDirectory, kMostNumbers);
+  for (std::size_t at = 4; at + 3 < numbers.size(); at += 4) {
+    const double value = numbers[at + 3];
+    if (numbers[at] != key || numbers[at + 1] != 0) continue;
+    if (value >= 0 && value <= 65535) return static_cast<int>(value);
+  }
+  return std::nullopt;
+}
+
 std::string TiffFile::Text(std::size_t directory, TiffTag tag) {
   const Entry* entry = Find(directory, tag);
   if (entry == nullptr || entry->type != 2) return "";

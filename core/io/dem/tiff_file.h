@@ -29,6 +29,7 @@ enum class TiffTag : std::uint16_t {
   kSampleFormat = 339,
   kModelPixelScale = 33550,
   kModelTiepoint = 33922,
+  kGeoKeyDirectory = 34735,
   kGdalNodata = 42113,
 };
 
@@ -49,6 +50,8 @@ class TiffFile {
   std::vector<double> Numbers(std::size_t directory, TiffTag tag, std::size_t at_most);
   /// The first number of a tag where it is whole and within 0..2^32, else `otherwise`.
   std::int64_t Integer(std::size_t directory, TiffTag tag, std::int64_t otherwise);
+  /// The number of a GeoKey of the first directory; nullopt where it has none of that key, or text.
+  std::optional<int> GeoKey(int key);
   /// A tag of text up to its first NUL; at most 256 bytes of it.
   std::string Text(std::size_t directory, TiffTag tag);
 

@@ -99,6 +99,16 @@ Error BeyondGround(std::size_t post, std::int64_t posts, int columns, double val
   return {ErrorCode::kUnsupportedData, message, "height-out-of-range"};
 }
 
+Error TooLarge(double value, std::size_t post, int columns) {
+  return {ErrorCode::kUnsupportedData,
+          CellName(post, columns) + " is stored as " + NumberText(value) +
+              ", numbers below 2^30 are read; if it means no data, name it with --nodata=" +
+              NumberText(value) +
+              "; else put the scale into the heights with gdal_translate -unscale -ot Float64 IN "
+              "OUT",
+          "height-out-of-range"};
+}
+
 Result<Suspects> FindSuspects(const std::vector<double>& values, const ValueScale& scale,
                               const SampleType& samples, int columns) {
   Suspects found;
@@ -107,6 +117,7 @@ Result<Suspects> FindSuspects(const std::vector<double>& values, const ValueScal
     if (std::isnan(value)) continue;
     if (std::isinf(value)) return Infinite(value, post, columns);
     const bool beyond = IsBeyondGround(value * scale.scale + scale.offset);
+    if (!beyond && std::abs(value) >= kMaxHeight) return TooLarge(value, post, columns);
     const bool ordinary = !beyond && std::abs(value) < kLeastVoid && value != samples.greatest &&
                           value != samples.least;
     const std::optional<double> customary = ordinary ? std::nullopt : CustomaryVoid(value, samples);

@@ -28,8 +28,8 @@ Status LeaveOutUntaggedVoids(const SampleType& samples, const ValueScale& scale,
                              std::vector<double>& values, Assumptions& assumptions);
 
 /// True for values that are customary for no data, whatever they mean in metres: 999 and more nines
-/// (-9999, 99999, -9999.9), the extremes of 16-bit integers (in floats too), powers of ten from 1e5,
-/// the extreme of `samples` (that of unsigned types is their greatest), and everything from 2^30:
+/// (-9999, 99999, -9999.9); the extremes of 16-bit integers, in floats too; powers of ten from 1e4;
+/// the extremes of the type of `samples`, except the 0 of unsigned ones; and everything from 2^30:
 /// no unit of length, not the millimetre, makes ground of that.
 bool IsCustomaryVoid(double value, const SampleType& samples);
 

@@ -68,17 +68,30 @@ std::optional<HeightUnit> UnitOf(const std::optional<HeightSystem>& system,
                     .source = system->names_datum ? system->name + " of " + source : source};
 }
 
+// GDAL reads this key only where the file names no vertical system.
+std::optional<HeightUnit> UnitOfKey(TiffFile* tiff) {
+  constexpr int kVerticalUnitsGeoKey = 4099;  // OGC 19-008r4, 7.5.1
+  const std::optional<int> code =
+      tiff != nullptr ? tiff->GeoKey(kVerticalUnitsGeoKey) : std::nullopt;
+  const std::optional<LengthUnit> unit =
+      code ? ListedLengthUnit(std::to_string(*code)) : std::nullopt;
+  if (!unit) return std::nullopt;
+  return HeightUnit{
+      .name = unit->name, .metres = unit->metres, .source = "the file's VerticalUnitsGeoKey"};
+}
+
 // GDAL makes the band's unit of the vertical system's where the band has none of its own.
-Result<HeightUnit> DecideUnit(GDALRasterBandH band, const DemReadOptions& options,
-                              const Systems& systems, Assumptions& assumptions) {
+Result<HeightUnit> DecideUnit(OpenedDem& dem, const Systems& systems) {
+  const DemReadOptions& options = dem.options;
   HeightUnitSources sources{.call_system = UnitOf(systems.call, systems.call_flag),
+                            .file_key = UnitOfKey(dem.Tiff()),
                             .file_system = UnitOf(systems.file, "the file"),
                             .map_unit = systems.map_unit};
   if (options.height_unit) {
     Result<HeightUnit> stated = ReadHeightUnit(*options.height_unit);
     if (!stated) return stated;
     sources.stated = *std::move(stated);
-  } else if (const std::string name = GDALGetRasterUnitType(band); !name.empty()) {
+  } else if (const std::string name = GDALGetRasterUnitType(dem.band.heights); !name.empty()) {
     Result<HeightUnit> unit = ReadHeightUnit(name);
     if (!unit) return unit;
     unit->source = "the band";
@@ -86,7 +99,7 @@ Result<HeightUnit> DecideUnit(GDALRasterBandH band, const DemReadOptions& option
       sources.band = *std::move(unit);
     }
   }
-  return DecideHeightUnit(sources, assumptions);
+  return DecideHeightUnit(sources, dem.assumptions);
 }
 
 bool CountsDown(const Systems& systems) {
@@ -128,7 +141,7 @@ Result<ValueScale> ReadValueScale(OpenedDem& dem, const std::optional<std::strin
   }
   const Result<Systems> systems = ReadSystems(file_crs, dem.options);
   if (!systems) return systems.error();
-  Result<HeightUnit> unit = DecideUnit(band, dem.options, *systems, dem.assumptions);
+  Result<HeightUnit> unit = DecideUnit(dem, *systems);
   if (!unit) return std::move(unit.error());
   double metres = unit->metres;
   if (CountsDown(*systems)) {

@@ -72,6 +72,8 @@ FileKind KindOfFile(const FileFacts& file) {
                      "dy", "cellsize", "nodata_value"})) {
     return FileKind::kArcGrid;
   }
+  // "ncols:" and "ncols=4" are named as what they are where the header is read.
+  if (word.starts_with("ncols") || word.starts_with("nrows")) return FileKind::kArcGrid;
   if (IsOneOf(word, {"north:", "south:", "east:", "west:", "rows:", "cols:"})) {
     return FileKind::kGrassGrid;
   }

@@ -3,6 +3,7 @@
 #include "core/io/file_kind/unread_formats.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <iterator>
 #include <string>
@@ -106,6 +107,9 @@ constexpr Mark kMarks[] = {
     {0,
      "version https://git-lfs"sv,
      {"a pointer of Git LFS, not the file itself", "fetch that with git lfs pull"}},
+    {0,
+     "\xff\xfe\0\0"sv,
+     {"text in UTF-32", "write it in UTF-8: iconv -f UTF-32 -t UTF-8 IN > OUT"}},
     {0, "\xff\xfe"sv, {"text in UTF-16", "write it in UTF-8: iconv -f UTF-16 -t UTF-8 IN > OUT"}},
     {0, "\xfe\xff"sv, {"text in UTF-16", "write it in UTF-8: iconv -f UTF-16 -t UTF-8 IN > OUT"}},
 };
@@ -131,9 +135,17 @@ constexpr Opening kOpenings[] = {
     {"<pamdataset", {"the .aux.xml of a raster", kBeside}},
     {"<gdal_wms", {"the description of a map service", kTranslate}},
     {"<",
-     {"an XML file, not a raster",
+     {"an XML file, not a raster (a server's error?)",
       "where GDAL knows it, convert it with gdal_translate IN OUT.tif"}},
-    {"{", {"a JSON file, not a raster", kVector}},
+    {"[internetshortcut]",
+     {"a shortcut to an address, not the file itself", "fetch that, and give it"}},
+    {"{", {"a JSON file, not a raster (a server's error?)", kVector}},
+    {"#",
+     {"a text that begins with a comment",
+      "where a grid follows, take the comments out (sed '/^#/d' IN > OUT)"}},
+    {"//",
+     {"a text that begins with a comment",
+      "where a grid follows, take the comments out (sed '/^[/][/]/d' IN > OUT)"}},
     {"envi", {"the header of an ENVI raster", kBeside}},
     {"byteorder", {"the header of an Esri raster (.flt, .bil)", kBeside}},
     {"http://", {"the address of a file, not the file itself", "fetch that, and give it"}},
@@ -162,6 +174,7 @@ constexpr Opening kEndings[] = {
     {".rst", {"an Idrisi raster", kTranslate}},
     {".gtx", {"a grid of a geoid, not of heights", "give the DEM itself"}},
     {".grd", {"a grid that is not Surfer's", kTranslate}},
+    {".srtmswbd.raw", {"a mask of the water in an SRTM tile", "give the .hgt of the same name"}},
     {".dwg", {"a drawing", kVector}},
     {".dxf", {"a drawing", kVector}},
     {".dbf", {"the table of a shapefile", kVector}},
@@ -170,8 +183,46 @@ constexpr Opening kEndings[] = {
 constexpr UnreadFormat kEmpty = {"empty", "it has no bytes; fetch or make it again"};
 constexpr UnreadFormat kZeros = {"nothing but zeros at its beginning",
                                  "its transfer may have broken off; fetch it again"};
+constexpr UnreadFormat kUtf16 = {"text in UTF-16",
+                                 "write it in UTF-8: iconv -f UTF-16LE -t UTF-8 IN > OUT"};
+constexpr UnreadFormat kUtf16BigEndian = {"text in UTF-16",
+                                          "write it in UTF-8: iconv -f UTF-16BE -t UTF-8 IN > OUT"};
+constexpr UnreadFormat kTable = {
+    "a table of numbers that is no grid",
+    "as a grid it needs the header of an Arc/Info ASCII grid (ncols, nrows, xllcorner, yllcorner, "
+    "cellsize); as a list of points it must have three columns, x, y and height (cut -d, -f2-4 IN "
+    "> OUT takes the second to the fourth)"};
+constexpr UnreadFormat kText = {"a text that is no grid",
+                                "see what it says; where it is not the DEM, fetch that again"};
 constexpr UnreadFormat kTiff = {"a TIFF that cannot be opened, damaged or cut short",
                                 "fetch or make the file again"};
+
+// Text of two bytes a letter without a byte order mark: every other byte is 0, and no other is.
+const UnreadFormat* WideText(std::string_view bytes) {
+  const std::string_view part = bytes.substr(0, 16);
+  if (part.size() < 16) return nullptr;
+  std::array<int, 2> zeros = {0, 0};
+  for (std::size_t i = 0; i < part.size(); ++i) zeros[i % 2] += part[i] == '\0' ? 1 : 0;
+  if (zeros[0] == 0 && zeros[1] == 8) return &kUtf16;
+  return zeros[0] == 8 && zeros[1] == 0 ? &kUtf16BigEndian : nullptr;
+}
+
+// Text without any format's mark: a table where its second line has numbers alone.
+const UnreadFormat* PlainText(std::string_view bytes) {
+  const auto is_text = [](unsigned char c) {
+    return c >= 0x80 || std::isprint(c) != 0 || std::isspace(c) != 0;
+  };
+  if (!std::ranges::all_of(bytes, is_text)) return nullptr;
+  constexpr std::string_view kLineEnds = "\r\n";
+  const std::size_t first = bytes.find_first_of(kLineEnds);
+  const std::size_t second = bytes.find_first_not_of(kLineEnds, first);
+  if (first == std::string_view::npos || second == std::string_view::npos) return &kText;
+  const std::string_view line =
+      bytes.substr(second, bytes.find_first_of(kLineEnds, second) - second);
+  const bool numbers = line.find_first_not_of("0123456789.,;eE+- \t") == std::string_view::npos &&
+                       line.find_first_of("0123456789") != std::string_view::npos;
+  return numbers ? &kTable : &kText;
+}
 
 // The first 64 bytes after white space, in lower case.
 std::string Opened(std::string_view bytes) {
@@ -211,8 +262,10 @@ const UnreadFormat* FindUnreadFormat(std::string_view beginning, std::int64_t by
   for (const Opening& ending : kEndings) {
     if (HasEnding(filename, ending.text)) return &ending.format;
   }
-  if (beginning.find_first_not_of('\0') == std::string_view::npos) return &kZeros;
-  return nullptr;
+  const bool zeros = beginning.find_first_not_of('\0') == std::string_view::npos;
+  if (zeros && !IsHgtSize(bytes)) return &kZeros;  // a tile of sea is all zeros
+  if (const UnreadFormat* wide = WideText(beginning)) return wide;
+  return PlainText(beginning);
 }
 
 }  // namespace farhorizon

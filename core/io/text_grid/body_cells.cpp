@@ -30,24 +30,43 @@ std::string Replacement(const std::string& word, const std::string& with) {
          (plain ? word : "WORD") + "\") $i = \"" + with + "\"} 1' IN > OUT";
 }
 
-Error NoNumber(const TextWord& word, const BodyRules& rules) {
-  std::string remedy;
-  if (word.text.find(',') != std::string::npos) {
-    remedy = "commas that part thousands must go (sed 's/,//g' IN > OUT)";
-  } else if (!rules.null_word.empty()) {
-    remedy = "a cell without data is " + QuotedWord(rules.null_word) +
-             " in this grid, as its header says";
-  } else if (!rules.nodata_number.empty()) {
-    remedy = "where it means no data, write the header's number for that: " +
-             Replacement(word.text, rules.nodata_number);
-  } else {
-    remedy =
-        "where it means no data, write a number that is no height for it and name that with "
-        "--nodata -9999: " +
-        Replacement(word.text, "-9999");
+// Whether the commas of `word` part cells, and not thousands: a group has not three digits.
+bool PartsCells(std::string_view word) {
+  std::size_t comma = word.find(',');
+  while (comma != std::string_view::npos) {
+    word.remove_prefix(comma + 1);
+    comma = word.find_first_of(",.");
+    if (std::min(comma, word.size()) != 3) return true;
+    comma = word.find(',');
   }
-  return BadGrid("the grid has " + QuotedWord(word.text) + " in " + PlaceOf(word) +
-                 ", where a number must stand; " + remedy);
+  return false;
+}
+
+std::string RemedyFor(const std::string& word, const BodyRules& rules) {
+  if (word.find(';') != std::string::npos)
+    return "part the cells with blanks (sed 's/;/ /g' IN > OUT)";
+  if (word.find(',') != std::string::npos) {
+    return PartsCells(word) ? "part the cells with blanks (sed 's/,/ /g' IN > OUT)"
+                            : "commas that part thousands must go (sed 's/,//g' IN > OUT)";
+  }
+  if (!rules.null_word.empty()) {
+    return "a cell without data is " + QuotedWord(rules.null_word) +
+           " in this grid, as its header says";
+  }
+  if (!rules.nodata_number.empty()) {
+    return "where it means no data, write the header's number for that: " +
+           Replacement(word, rules.nodata_number);
+  }
+  return "where it means no data, write a number that is no height for it and name that with "
+         "--nodata -9999: " +
+         Replacement(word, "-9999");
+}
+
+Error NoNumber(const TextWord& word, bool after_the_last, const BodyRules& rules) {
+  const std::string what = "the grid has " + QuotedWord(word.text) + " in " + PlaceOf(word);
+  return after_the_last
+             ? BadGrid(what + ", after its last cell; take out what is no cell")
+             : BadGrid(what + ", where a number must stand; " + RemedyFor(word.text, rules));
 }
 
 }  // namespace
@@ -74,7 +93,7 @@ Status ReadBody(TextWords& words, TextWord first, const BodyRules& rules, TextGr
     } else if (!rules.null_word.empty() && word.text == rules.null_word) {
       number = TextNumber{.value = std::numeric_limits<double>::quiet_NaN()};
     } else {
-      return NoNumber(word, rules);
+      return NoNumber(word, lines.cells() >= wanted, rules);
     }
     lines.Take(word.line);
     if (lines.cells() <= wanted) grid.cells.Add(number->value, number->whole);

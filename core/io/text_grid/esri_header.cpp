@@ -30,6 +30,14 @@ Result<std::int64_t> CountOr(const GridHeader& header, const std::string& key,
 
 Status CheckPlace(const GridHeader& header, std::int64_t rows) {
   const bool upper_left = header.Has("ulxmap") || header.Has("ulymap");
+  // GDAL takes both for centres where one is.
+  if ((header.Has("xllcenter") || header.Has("yllcenter")) &&
+      (header.Has("xllcorner") || header.Has("yllcorner"))) {
+    return BadGrid(
+        "the raster's header has a corner and a centre (xllcorner, yllcenter); write corners "
+        "alone, "
+        "which lie half a cell to the west and south of the centres");
+  }
   if (!upper_left) {
     Result<std::array<double, 6>> place = LowerLeftPlace(header, rows);
     return place ? Status(Ok{}) : Status(std::move(place.error()));

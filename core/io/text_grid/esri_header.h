@@ -8,8 +8,8 @@
 namespace farhorizon {
 
 /// Checks the .hdr at `header` of an Esri raster (.bil, .bip, .bsq, .flt) whose numbers take
-/// `bytes` bytes: GDAL takes what is missing or no number for 0, a missing byte order for the other one,
-/// and cells as they come, whatever the length of a row.
+/// `bytes` bytes: GDAL takes what is missing or no number for 0, a missing byte order for the other
+/// one, and cells as they come, whatever the length of a row.
 ///
 /// Sizes must be whole numbers, the place must be there (ulxmap, ulymap, xdim and ydim, or
 /// xllcorner, yllcorner and cellsize), the byte order must be stated for numbers of several bytes,

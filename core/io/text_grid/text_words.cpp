@@ -62,7 +62,7 @@ std::string QuotedWord(const std::string& word) {
   constexpr std::size_t kShown = 24;
   std::string quoted(1, '"');
   for (const char c : word.substr(0, kShown)) {
-    quoted += c >= ' ' && c <= '~' && c != '"' ? c : '?';
+    quoted += c >= ' ' && c <= '~' && c != '"' ? c : c == '"' ? '\'' : '?';
   }
   return quoted + (word.size() > kShown ? "...\"" : "\"");
 }

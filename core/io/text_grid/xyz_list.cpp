@@ -25,8 +25,10 @@ namespace {
 constexpr char kScattered[] =
     "; make a grid of its points first, with gdal_grid or pdal (writers.gdal)";
 
-// Which of the columns x, y, height a name means; nullopt for any other.
+// Which of the columns x, y, height a name means, whatever unit it has in brackets; nullopt for any
+// other.
 std::optional<int> AxisOf(std::string name) {
+  name.resize(std::min(name.find_first_of("(["), name.size()));
   std::erase_if(name, [](unsigned char c) { return std::isalnum(c) == 0; });
   std::ranges::transform(name, name.begin(),
                          [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -41,6 +43,8 @@ std::optional<int> AxisOf(std::string name) {
   return std::nullopt;
 }
 
+bool IsColumn(const std::string& name) { return AxisOf(name).has_value(); }
+
 // What parts the numbers of a line beside white space: ';', ',', or nothing more.
 char SeparatorOf(std::string_view line) {
   if (line.find(';') != std::string_view::npos) return ';';
@@ -53,14 +57,18 @@ std::string_view FirstLine(std::string_view text) {
   return text.substr(0, text.find_first_of("\r\n"));
 }
 
+// The fields of a line; those without a letter or digit (the "#" of a comment) are left out. Names
+// may have blanks inside where something else parts them.
 std::vector<std::string> Fields(std::string_view line) {
-  const std::string apart = std::string(" \t") + SeparatorOf(line);
+  const char separator = SeparatorOf(line);
+  const std::string apart = separator == ' ' ? " \t" : std::string(1, separator);
   std::vector<std::string> fields;
   while (!line.empty() && fields.size() < 5) {
-    line.remove_prefix(std::min(line.find_first_not_of(apart), line.size()));
     const std::string_view field = line.substr(0, line.find_first_of(apart));
-    if (!field.empty()) fields.emplace_back(field);
-    line.remove_prefix(field.size());
+    line.remove_prefix(std::min(field.size() + 1, line.size()));
+    if (std::ranges::none_of(field, [](unsigned char c) { return std::isalnum(c) != 0; })) continue;
+    const std::size_t first = field.find_first_not_of(" \t");
+    fields.emplace_back(field.substr(first, field.find_last_not_of(" \t") + 1 - first));
   }
   return fields;
 }
@@ -104,19 +112,24 @@ class XyzReader {
 };
 
 Status XyzReader::ReadHeader() {
-  words_.SeparateAt(SeparatorOf(FirstLine(words_.Ahead())));
+  const std::string first(FirstLine(words_.Ahead()));
+  words_.SeparateAt(SeparatorOf(first));
   more_ = words_.Next(word_);
-  if (!more_ || ParseNumber(word_.text)) return Ok{};
+  const std::vector<std::string> names = Fields(first);
+  if (!more_ || names.empty() || ParseNumber(names[0])) return Ok{};
   std::array<bool, 3> named{};
-  const std::int64_t line = word_.line;
-  for (std::size_t i = 0; i < 3; ++i, more_ = words_.Next(word_)) {
-    const std::optional<int> axis = AxisOf(word_.text);
-    if (!more_ || word_.line != line || !axis || named[static_cast<std::size_t>(*axis)]) {
-      return BadLine(word_, "which names no column of such a list, or one twice");
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const std::optional<int> axis = AxisOf(names[i]);
+    if (i >= 3 || !axis || named[static_cast<std::size_t>(*axis)]) {
+      return BadGrid("the list of points has a column " + QuotedWord(names[i]) +
+                     "; it must have three, x (easting, longitude), y (northing, latitude) and "
+                     "height");
     }
     axes_[i] = *axis;
     named[static_cast<std::size_t>(*axis)] = true;
   }
+  const std::int64_t line = word_.line;
+  while (more_ && word_.line == line) more_ = words_.Next(word_);
   order_is_stated_ = true;
   return Ok{};
 }
@@ -166,7 +179,9 @@ class Axis {
   }
   // The cell at `at`; nullopt where that is further off than rounding explains.
   [[nodiscard]] std::optional<std::int64_t> CellAt(double at) const {
-    constexpr double kOff = 1.0 / 40;
+    // Five decimals of a degree move a point by 1/55 of an arc second at most, and the ends of the
+    // axis likewise.
+    constexpr double kOff = 1.0 / 20;
     const double cell = (at - low_) / step_;
     if (std::abs(cell - std::round(cell)) > kOff) return std::nullopt;
     return static_cast<std::int64_t>(std::round(cell));
@@ -243,7 +258,7 @@ bool LooksLikeXyz(std::string_view beginning) {
     if (fields.size() != 3) return false;
     if (AllNumbers(fields)) {
       ++points;
-    } else if (lines > 0 || !AxisOf(fields[0])) {
+    } else if (lines > 0 || !std::ranges::all_of(fields, IsColumn)) {
       return false;
     }
     rest.remove_prefix(std::min(end, rest.size()));

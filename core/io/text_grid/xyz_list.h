@@ -23,9 +23,9 @@ bool LooksLikeXyz(std::string_view beginning);
 /// grid; cells that it leaves out have no data. A first line may name the columns, in any order:
 /// x, easting, longitude; y, northing, latitude; z, height, elevation.
 ///
-/// The grid has the spacing of points that follow one another. A point may lie a fortieth of a cell
-/// off, as far as five decimals of a degree round an arc second; a cell may stand in the list once,
-/// and half of the cells must.
+/// The grid has the spacing of points that follow one another. A point may lie a twentieth of a
+/// cell off, since coordinates are rounded; a cell may stand in the list once, and half of the
+/// cells must.
 /// Errors: kUnsupportedData "not-a-raster", which names the line; kResourceExhausted
 ///   "raster-too-large"; kIo.
 /// Cost: two passes; 4 bytes a cell.

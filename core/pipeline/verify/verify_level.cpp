@@ -134,7 +134,8 @@ std::vector<Edge> VerifyLevel(const LevelContext& context, const std::filesystem
   const LocalMesh& mesh = decoded->mesh;
   claims.Same(name + " lattice's step, metres", claimed.quantization_step_m,
               decoded->lattice.step_m);
-  claims.Add(AllTurnLeft(mesh, context.georeference.frame()), name + ": no triangle is flipped or without area");
+  claims.Add(AllTurnLeft(mesh, context.georeference.frame()),
+             name + ": no triangle is flipped or without area");
   Result<LevelReport> found = MeasureLevel(context, mesh, claimed.level,
                                            claimed.quantization_step_m, claimed.asked_silhouette_m);
   claims.Add(found.has_value(),

@@ -37,6 +37,11 @@ TEST(NameOf, IsTheCodeOfAnEquivalentSystemWhereItsOwnIsMissing) {
             "EPSG:32613");
 }
 
+TEST(NameOf, IsThatOfTheMapWhereHeightsAreAboveItsEllipsoid) {
+  EXPECT_EQ(NameIn("+proj=utm +zone=13 +datum=WGS84 +vunits=us-ft"), "EPSG:32613");
+  EXPECT_EQ(NameIn("EPSG:4979"), "EPSG:4979");
+}
+
 TEST(NameOf, IsTheProjStringOfWhatIsUnnamedAndNoOther) {
   // A datum that is not known is not WGS 84, however alike their ellipsoids are.
   EXPECT_EQ(NameIn("+proj=utm +zone=13 +ellps=GRS80"), "+proj=utm +zone=13 +ellps=GRS80 +units=m");

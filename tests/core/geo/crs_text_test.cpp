@@ -13,8 +13,8 @@ TEST(CheckCrsText, LetsReferenceSystemsPass) {
        {"EPSG:4326", "EPSG:4326+5773", "epsg:32610", "WGS 84", "NAD27 / UTM zone 10N",
         "urn:ogc:def:crs:EPSG::4326", "+proj=utm +zone=10 +datum=WGS84 +type=crs",
         "+proj=merc +a=6378137 +b=6378137 +nadgrids=@null +type=crs",
-        "LOCAL_CS[\"x\",UNIT[\"metre\",1]]",
-        "GEOGCRS[\"x\",REMARK[\"see https://example.org\"]]"}) {
+        "LOCAL_CS[\"x\",UNIT[\"metre\",1]]", "GEOGCRS[\"x\",REMARK[\"see https://example.org\"]]",
+        "{\"type\": \"ProjectedCRS\", \"parameters\": [{\"name\": \"x\", \"value\": 0.9996}]}"}) {
     EXPECT_TRUE(CheckCrsText(text)) << text;
   }
 }
@@ -29,12 +29,27 @@ TEST(CheckCrsText, RefusesNothingAtAll) {
 
 TEST(CheckCrsText, RefusesWhateverNamesAFileOrAServer) {
   for (const char* text :
-       {"http://example.org/crs.wkt", "https://example.org", "file:///etc/passwd", "/etc/passwd",
-        "./crs.wkt", "../crs.wkt", "~/crs", "a\\b", "ESRI::../x", "+init=epsg:4326",
-        "+proj=pipeline +step +proj=utm +zone=10", "+proj=longlat +nadgrids=/etc/passwd +type=crs",
-        "+proj=longlat +geoidgrids=x.gtx +type=crs", "+proj=hgridshift +grids=x",
-        "+proj=longlat +nadgrids=@null,x.gsb", "+proj=longlat +nadgrids=@null +nadgrids=x.gsb",
-        "BOUNDCRS[SOURCECRS[],PARAMETERFILE[\"f\",\"/etc/passwd\"]]"}) {
+       {"http://example.org/crs.wkt",
+        "https://example.org",
+        "file:///etc/passwd",
+        "/etc/passwd",
+        "./crs.wkt",
+        "../crs.wkt",
+        "~/crs",
+        "a\\b",
+        "ESRI::../x",
+        "+init=epsg:4326",
+        "+proj=pipeline +step +proj=utm +zone=10",
+        "+proj=longlat +nadgrids=/etc/passwd +type=crs",
+        "+proj=longlat +geoidgrids=x.gtx +type=crs",
+        "+proj=hgridshift +grids=x",
+        "+proj=longlat +nadgrids=@null,x.gsb",
+        "+proj=longlat +nadgrids=@null +nadgrids=x.gsb",
+        "BOUNDCRS[SOURCECRS[],PARAMETERFILE[\"f\",\"/etc/passwd\"]]",
+        "VERT_CS[\"x\",VERT_DATUM[\"x\",2005,EXTENSION[\"PROJ4_GRIDS\",\"/etc/passwd\"]]]",
+        "DERIVEDPROJCRS[METHOD[\"PROJ hgridshift grids=/etc/passwd\"]]",
+        "{\"type\": \"BoundCRS\", \"parameters\": [{\"value\" : \"/etc/passwd\"}]}",
+        "{\"type\": \"BoundCRS\", \"parameters\": [{\"v\\u0061lue\" : \"/etc/passwd\"}]}"}) {
     Status checked = CheckCrsText(text);
     ASSERT_FALSE(checked) << text;
     EXPECT_EQ(checked.error().kind, "unknown-crs") << text;
@@ -64,6 +79,8 @@ TEST(CompletedCrsText, PutsRightWhatPeopleWrite) {
       {"EPSG:4326 5773", "EPSG:4326+5773"},
       {"EPSG:4326 + EPSG:5773", "EPSG:4326+5773"},
       {"ESRI:102003+EPSG:5773", "ESRI:102003+EPSG:5773"},
+      {"http://www.opengis.net/def/crs/EPSG/0/4326", "EPSG:4326"},
+      {"https://www.opengis.net/def/crs/OGC/1.3/CRS84", "OGC:CRS84"},
       {"+init=epsg:4326", "EPSG:4326"},
       {"init=EPSG:32613 +type=crs", "EPSG:32613"},
       {"+proj=utm +zone=13 +datum=WGS84", "+proj=utm +zone=13 +datum=WGS84 +type=crs"},

@@ -11,7 +11,10 @@
 namespace farhorizon {
 namespace {
 
+using ::testing::Contains;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 GlobeTransform MustOpen(const std::string& crs, const std::string& datum = "",
                         std::optional<MapPoint> about = std::nullopt) {
@@ -189,6 +192,23 @@ TEST(GlobeTransform, ReadsSystemsAsPeopleWriteThem) {
       MustOpen("+proj=ob_tran +o_proj=longlat +o_lon_p=-162 +o_lat_p=39.25 +lon_0=180 +R=6371000"),
       {0, 90, 0});
   EXPECT_NEAR(rotated.lat_deg, 39.25, 1e-6);
+}
+
+TEST(GlobeTransform, SaysWhereADemLiesFarFromTheAreaOfItsSystem) {
+  const auto codes = [](const std::string& crs, MapPoint about) {
+    std::vector<std::string> found;
+    const GlobeTransform globe = MustOpen(crs, "", about);
+    for (const Assumption& assumption : globe.assumptions()) {
+      found.push_back(assumption.code);
+    }
+    return found;
+  };
+  EXPECT_THAT(codes("EPSG:32613", {500000, 4500000, 0}), IsEmpty());
+  EXPECT_THAT(codes("EPSG:32613", {100000, 4500000, 0}), IsEmpty());
+  EXPECT_THAT(codes("EPSG:32613", {-1500000, 4500000, 0}), ElementsAre("outside-area"));
+  EXPECT_THAT(codes("EPSG:32760", {500000, 6000000, 0}), IsEmpty());         // next to 180 degrees
+  EXPECT_THAT(codes("EPSG:2193", {174, -41, 0}), Contains("outside-area"));  // degrees as metres
+  EXPECT_THAT(codes("EPSG:4326", {174, -41, 0}), IsEmpty());
 }
 
 TEST(GlobeTransform, NamesTheOperationWhoseGridEnds) {

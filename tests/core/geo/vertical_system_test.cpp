@@ -95,12 +95,31 @@ TEST(VerticalSystem, AUnitAloneIsNoDatum) {
   EXPECT_NEAR(HeightOf(unit_only, "EPSG:5773", 1000), 1051.853, 0.002);
 }
 
+// GeoTIFF 1.0's code 5030 for heights above the ellipsoid of WGS 84, as GDAL hands it on.
+TEST(VerticalSystem, AnEllipsoidMayBeAVerticalDatum) {
+  const std::string crs =
+      "COMPD_CS[\"unknown\",GEOGCS[\"WGS 84\",DATUM[\"WGS_1984\",SPHEROID[\"WGS 84\",6378137,"
+      "298.257223563]],PRIMEM[\"Greenwich\",0],UNIT[\"degree\",0.0174532925199433]],VERT_CS["
+      "\"unknown\",VERT_DATUM[\"Not specified (based on WGS 84 ellipsoid)\",2002],"
+      "UNIT[\"foot\",0.3048],AXIS[\"Up\",UP]]]";
+  EXPECT_NEAR(HeightOf(crs, "", 1000), 1000, 1e-6);
+}
+
 TEST(VerticalSystem, AnUnknownDatumIsRefusedWithARemedyThatWorks) {
   Result<GlobeTransform> globe = GlobeTransform::Open("EPSG:4326+5861");  // lowest tide's depth
   ASSERT_FALSE(globe);
   EXPECT_THAT(globe.error().message, HasSubstr("--vertical-datum EPSG:5773"));
   EXPECT_TRUE(GlobeTransform::Open("EPSG:4326+5861", {.vertical_datum = "EPSG:5773"}));
   EXPECT_TRUE(GlobeTransform::Open("EPSG:4326+5861", {.vertical_datum = "ellipsoid"}));
+}
+
+TEST(VerticalSystem, AMissingGeoidGridHasARemedyThatWorks) {
+  Result<GlobeTransform> globe = GlobeTransform::Open("EPSG:26913+5703");
+  ASSERT_FALSE(globe);
+  EXPECT_EQ(globe.error().kind, "no-geoid-grid");
+  EXPECT_THAT(globe.error().message, HasSubstr("--vertical-datum EPSG:5773"));
+  EXPECT_TRUE(GlobeTransform::Open("EPSG:26913+5703", {.vertical_datum = "EPSG:5773"}));
+  EXPECT_TRUE(GlobeTransform::Open("EPSG:26913+5703", {.vertical_datum = "ellipsoid"}));
 }
 
 }  // namespace

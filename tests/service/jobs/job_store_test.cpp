@@ -27,7 +27,7 @@ class JobStoreConformance : public testing::TestWithParam<OpenJobs> {
   }
   Job Insert(const std::string& content = "a", std::optional<std::string> key = {}) {
     NewJob job{NewJobId(++time_),           "dem.tif", {{"levels", "2"}},
-               std::string(64, content[0]), 5,         key};
+               std::string(64, content[0]), 5,         std::move(key)};
     auto inserted = store_->Insert(job, time_);
     EXPECT_TRUE(inserted);
     return *inserted;

@@ -109,5 +109,15 @@ TEST(DecideHeightUnit, SaysMetresWhereNothingIsSaid) {
   EXPECT_THAT(assumptions[1].text, HasSubstr("US survey foot"));
 }
 
+TEST(DecideHeightUnit, SaysMetresOfTheCallsDatumOverAMapInFeet) {
+  Assumptions assumptions;
+  EXPECT_EQ(DecideHeightUnit({.call_system = kMetre, .map_unit = "foot"}, assumptions).metres, 1);
+  ASSERT_EQ(assumptions.size(), 1U);
+  EXPECT_THAT(assumptions[0].text, HasSubstr("--height-unit"));
+  DecideHeightUnit({.call_system = kMetre, .file_system = kMetre, .map_unit = "foot"}, assumptions);
+  DecideHeightUnit({.file_system = kMetre, .map_unit = "foot"}, assumptions);
+  EXPECT_EQ(assumptions.size(), 1U);
+}
+
 }  // namespace
 }  // namespace farhorizon

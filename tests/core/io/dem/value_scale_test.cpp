@@ -24,10 +24,25 @@ constexpr char kEgm96InFeet[] =
     "VERTCRS[\"EGM96 height\",VDATUM[\"EGM96 geoid\"],CS[vertical,1],AXIS[\"up\",up],"
     "LENGTHUNIT[\"foot\",0.3048]]";
 
+// Changes EPSG's code of the unit of heights that a little-endian TIFF has (VerticalUnitsGeoKey).
+void SetVerticalUnits(const std::filesystem::path& path, int code) {
+  std::string bytes = SlurpFile(path);
+  const std::string key = {3, 16, 0, 0, 1, 0};  // 4099, no tag, one value
+  const std::size_t at = bytes.find(key);
+  if (at == std::string::npos) throw std::runtime_error("no VerticalUnitsGeoKey");
+  bytes[at + 6] = static_cast<char>(code & 0xFF);
+  bytes[at + 7] = static_cast<char>(code >> 8);
+  SpillFile(path, bytes);
+}
+
 class ValueScaleOf : public ::testing::Test {
  protected:
   Dem Read(const TestRaster& raster, const DemReadOptions& options = {}) {
     WriteTiff(dir_ / "dem.tif", raster);
+    return ReadAgain(options);
+  }
+
+  Dem ReadAgain(const DemReadOptions& options = {}) {
     Result<Dem> dem = ReadDem(dir_ / "dem.tif", options);
     if (!dem) throw std::runtime_error(dem.error().message);
     codes_.clear();
@@ -99,6 +114,31 @@ TEST_F(ValueScaleOf, ADatumInMetresMakesNoMetresOfFeet) {
   EXPECT_EQ(Last({.unit = "US survey foot"}, {.vertical_datum = "EPSG:5773", .height_unit = "m"}),
             6);
   EXPECT_THAT(codes_, IsEmpty());
+}
+
+// The file says EGM96 height, in metres, and VerticalUnitsGeoKey: GDAL passes over the key.
+TEST_F(ValueScaleOf, AKeyInFeetCountsBeforeASystemInMetres) {
+  WriteTiff(dir_ / "dem.tif", {.crs = "EPSG:32610+5773", .options = {"GEOTIFF_VERSION=1.0"}});
+  const std::pair<int, double> kUnits[] = {
+      {9001, 1}, {9002, kFoot}, {9003, kSurveyFoot}, {9014, 1.8288}};
+  for (const auto& [code, metres] : kUnits) {
+    SetVerticalUnits(dir_ / "dem.tif", code);
+    EXPECT_NEAR(ReadAgain().HeightM(5), 6 * metres, 1e-9) << code;
+    if (code == 9001) {
+      EXPECT_THAT(codes_, IsEmpty());
+      continue;
+    }
+    EXPECT_THAT(codes_, ElementsAre("height-unit")) << code;
+    EXPECT_THAT(text_, AllOf(HasSubstr("VerticalUnitsGeoKey"), HasSubstr("EPSG:5773"),
+                             HasSubstr("metre"), HasSubstr("--height-unit")));
+    EXPECT_EQ(ReadAgain({.height_unit = "m"}).HeightM(5), 6) << code;  // the remedy
+    EXPECT_THAT(codes_, IsEmpty());
+  }
+  // No unit of length, or one of the user's own.
+  for (const int code : {0, 9102, 32767}) {
+    SetVerticalUnits(dir_ / "dem.tif", code);
+    EXPECT_EQ(ReadAgain().HeightM(5), 6) << code;
+  }
 }
 
 TEST_F(ValueScaleOf, AStatedUnitTakesThePlaceOfOneThatIsNotKnown) {

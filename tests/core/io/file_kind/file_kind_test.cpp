@@ -76,7 +76,18 @@ TEST(FileKind, NamesWhatIsNotRead) {
   EXPECT_THAT(Said("II*\0"s), HasSubstr("TIFF that cannot be opened"));
   EXPECT_THAT(Said("12 34", "dem.bil"), HasSubstr(".hdr"));
   EXPECT_THAT(Said("ENVI\nsamples = 3", "dem.hdr"), HasSubstr("header of an ENVI raster"));
-  EXPECT_THAT(Said("hello", "dem.tif"), HasSubstr("no raster that can be read"));
+  EXPECT_THAT(Said("n\0c\0o\0l\0s\0 \0"
+                   "4\0\n\0"s),
+              HasSubstr("iconv -f UTF-16LE"));
+  EXPECT_THAT(Said("\0n\0c\0o\0l\0s\0 \0"
+                   "4\0\n"s),
+              HasSubstr("iconv -f UTF-16BE"));
+  EXPECT_THAT(Said("\xff\xfe\0\0n\0\0\0"s), HasSubstr("UTF-32"));
+  EXPECT_THAT(Said("1 2 3 4\n1 2 3 4\n"), HasSubstr("table of numbers"));
+  EXPECT_THAT(Said("id,x,y,z\n1,2,3,4\n"), HasSubstr("table of numbers"));
+  EXPECT_THAT(Said("# made by hand\nncols 3\n"), HasSubstr("sed '/^#/d'"));
+  EXPECT_THAT(Said("404: Not Found", "dem.tif"), HasSubstr("text that is no grid"));
+  EXPECT_THAT(Said("\1\2\3\4\5", "dem.tif"), HasSubstr("no raster that can be read"));
 }
 
 }  // namespace

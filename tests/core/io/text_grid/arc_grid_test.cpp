@@ -156,7 +156,11 @@ TEST_F(ArcGrid, RefusesAHeaderOfNoUse) {
 
 TEST_F(ArcGrid, RefusesWhatFollowsTheCells) {
   EXPECT_THAT(Refusal(std::string(kHeader) + "1 2 3\n4 5 6\nend\n"),
-              HasSubstr("\"end\" in line 8"));
+              HasSubstr("\"end\" in line 8, column 1, after its last cell"));
+  EXPECT_THAT(Refusal("ncols: 3\nnrows: 2\n"), HasSubstr("\"ncols:\" in line 1"));
+  EXPECT_THAT(Refusal(std::string(kHeader) + "1,2,3\n4,5,6\n"), HasSubstr("sed 's/,/ /g'"));
+  EXPECT_THAT(Refusal(std::string(kHeader) + "1;2;3\n4;5;6\n"), HasSubstr("sed 's/;/ /g'"));
+  EXPECT_THAT(Refusal(std::string(kHeader) + "1,234.5 2 3\n4 5 6\n"), HasSubstr("sed 's/,//g'"));
   EXPECT_THAT(Refusal(std::string(kHeader) + "1 2 3\n4 5 6\n7\n"), HasSubstr("line 8 has 1"));
 }
 

@@ -1,4 +1,4 @@
-#include "core/pipeline/number_text.h"
+#include "core/pipeline/option_numbers.h"
 
 #include <algorithm>
 #include <charconv>

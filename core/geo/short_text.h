@@ -1,0 +1,15 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+namespace farhorizon {
+
+/// `text` for a message: at most `bytes` bytes of it, whole characters of UTF-8, "..." where it
+/// goes on; blanks for line breaks and other control characters.
+std::string ShortText(const std::string& text, std::size_t bytes);
+
+/// `text` in small letters, those of ASCII.
+std::string Lower(std::string text);
+
+}  // namespace farhorizon
