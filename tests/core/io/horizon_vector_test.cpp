@@ -67,6 +67,30 @@ TEST(HorizonVector, LeavesTheWitnessOfAnUndecidedEdgeNull) {
   }
 }
 
+TEST(HorizonVector, AnEdgeAcross180DegreesMakesALayerOfMultiLineStrings) {
+  const TempDir dir;
+  HorizonFeature across = SomeFeature();
+  across.from.lon_deg = 179.5;
+  across.to.lon_deg = -179.5;
+  for (const char* name : {"horizon.fgb", "horizon.gpkg"}) {
+    Status written = WriteHorizonVector({SomeFeature(), across}, dir / name);
+    ASSERT_TRUE(written) << written.error().message;
+    const GDALDatasetH dataset =
+        GDALOpenEx((dir / name).c_str(), GDAL_OF_VECTOR, nullptr, nullptr, nullptr);
+    ASSERT_NE(dataset, nullptr) << name;
+    const OGRLayerH layer = GDALDatasetGetLayer(dataset, 0);
+    EXPECT_EQ(OGR_L_GetGeomType(layer), wkbMultiLineString25D);
+    int parts = 0;
+    while (const OGRFeatureH f = OGR_L_GetNextFeature(layer)) {
+      EXPECT_EQ(OGR_G_GetGeometryType(OGR_F_GetGeometryRef(f)), wkbMultiLineString25D);
+      parts += OGR_G_GetGeometryCount(OGR_F_GetGeometryRef(f));
+      OGR_F_Destroy(f);
+    }
+    EXPECT_EQ(parts, 3);
+    GDALClose(dataset);
+  }
+}
+
 TEST(HorizonVector, SameFeaturesSameBytes) {
   const TempDir dir;
   for (const char* ending : {".fgb", ".gpkg"}) {
