@@ -22,8 +22,8 @@ class MeshRegion {
   Status Add(const LocalMesh& mesh);
 
   /// West, south, east and north, radians within [-pi, pi] and [-pi/2, pi/2]; west > east where the
-  /// meshes lie on both sides of the meridian of 180 degrees, west -pi and east pi where they go all
-  /// the way round. Heights are zero.
+  /// meshes lie on both sides of the meridian of 180 degrees, west -pi and east pi where they go
+  /// all the way round. Heights are zero.
   ///
   /// slack_m: a side that is over the meridian by no more than this is put on it: vertices are
   /// rounded, those of a tile that ends there too.

@@ -20,7 +20,8 @@ class TerrainInput {
  public:
   /// Takes from `options` what says how to read and to place a DEM, and tells `control` of each
   /// assumption.
-  /// Errors: those of ReadDem, Terrain::Build and Georeference::Of and CheckPlacement, each with the step's name.
+  /// Errors: those of ReadDem, Terrain::Build, Georeference::Of and CheckPlacement, each with the
+  ///   step's name.
   static Result<std::unique_ptr<TerrainInput>> Open(const std::filesystem::path& path,
                                                     const BuildOptions& options,
                                                     const RunControl& control);
