@@ -180,6 +180,8 @@ std::string GlobeTransform::Name() const { return state_->way.name; }
 
 double GlobeTransform::FullTurn() const { return state_->way.full_turn; }
 
+const std::optional<AreaOfUse>& GlobeTransform::Area() const { return state_->way.area; }
+
 const Assumptions& GlobeTransform::assumptions() const { return state_->way.assumptions; }
 
 }  // namespace farhorizon

@@ -7,6 +7,7 @@
 
 #include "core/base/assumption.h"
 #include "core/base/result.h"
+#include "core/geo/area_of_use.h"
 #include "core/geo/frames.h"
 
 namespace farhorizon {
@@ -67,6 +68,9 @@ class GlobeTransform {
 
   /// A full turn in the unit of a geographic system's axes; 0 for any other system.
   [[nodiscard]] double FullTurn() const;
+
+  /// Where the system is meant to be used; nullopt where nobody says so.
+  [[nodiscard]] const std::optional<AreaOfUse>& Area() const;
 
   /// What was assumed about the way: codes "datum-operation" and "vertical-datum".
   [[nodiscard]] const Assumptions& assumptions() const;

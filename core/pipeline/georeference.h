@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "core/base/result.h"
@@ -28,6 +29,7 @@ class Georeference {
   [[nodiscard]] std::string CrsName() const { return transform_.Name(); }
   /// As GlobeTransform has it.
   [[nodiscard]] double FullTurn() const { return transform_.FullTurn(); }
+  [[nodiscard]] const std::optional<AreaOfUse>& Area() const { return transform_.Area(); }
   /// What was assumed about the place.
   [[nodiscard]] const Assumptions& assumptions() const { return transform_.assumptions(); }
   /// Distance of neighbouring posts along a row and along a column in the middle of the grid,

@@ -70,12 +70,20 @@ void VerifyAccessors(const std::string& name, const GlbContents& glb, const Deco
              name + ".glb has the lattice of its Draco stream in the node's matrix");
 }
 
-bool AllTurnLeft(const LocalMesh& mesh) {
-  return std::all_of(mesh.triangles.begin(), mesh.triangles.end(), [&mesh](const auto& t) {
+// Whether every triangle runs counter-clockwise seen from above it: from away from the earth's
+// centre, which is not the frame's up where a DEM is large and steep.
+bool AllTurnLeft(const LocalMesh& mesh, const TangentFrame& frame) {
+  const Enu centre = frame.ToEnu({0, 0, 0});
+  return std::all_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const auto& t) {
     const Enu& a = mesh.positions[t[0]];
     const Enu& b = mesh.positions[t[1]];
     const Enu& c = mesh.positions[t[2]];
-    return (b.east - a.east) * (c.north - a.north) - (b.north - a.north) * (c.east - a.east) > 0;
+    const Enu u = {b.east - a.east, b.north - a.north, b.up - a.up};
+    const Enu v = {c.east - a.east, c.north - a.north, c.up - a.up};
+    return (u.north * v.up - u.up * v.north) * (a.east - centre.east) +
+               (u.up * v.east - u.east * v.up) * (a.north - centre.north) +
+               (u.east * v.north - u.north * v.east) * (a.up - centre.up) >
+           0;
   });
 }
 
@@ -126,7 +134,8 @@ std::vector<Edge> VerifyLevel(const LevelContext& context, const std::filesystem
   const LocalMesh& mesh = decoded->mesh;
   claims.Same(name + " lattice's step, metres", claimed.quantization_step_m,
               decoded->lattice.step_m);
-  claims.Add(AllTurnLeft(mesh), name + ": no triangle is flipped or without area");
+  claims.Add(AllTurnLeft(mesh, context.georeference.frame()),
+             name + ": no triangle is flipped or without area");
   Result<LevelReport> found = MeasureLevel(context, mesh, claimed.level,
                                            claimed.quantization_step_m, claimed.asked_silhouette_m);
   claims.Add(found.has_value(),
