@@ -180,7 +180,10 @@ std::string GlobeTransform::Name() const { return state_->way.name; }
 
 double GlobeTransform::FullTurn() const { return state_->way.full_turn; }
 
-const std::optional<AreaOfUse>& GlobeTransform::Area() const { return state_->way.area; }
+bool GlobeTransform::InAreaOfUse(const Geodetic& place) const {
+  const std::optional<AreaOfUse>& area = state_->way.area;
+  return !area || area->Contains(place.lon_deg, place.lat_deg);
+}
 
 const Assumptions& GlobeTransform::assumptions() const { return state_->way.assumptions; }
 

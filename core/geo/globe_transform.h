@@ -7,7 +7,6 @@
 
 #include "core/base/assumption.h"
 #include "core/base/result.h"
-#include "core/geo/area_of_use.h"
 #include "core/geo/frames.h"
 
 namespace farhorizon {
@@ -69,8 +68,8 @@ class GlobeTransform {
   /// A full turn in the unit of a geographic system's axes; 0 for any other system.
   [[nodiscard]] double FullTurn() const;
 
-  /// Where the system is meant to be used; nullopt where nobody says so.
-  [[nodiscard]] const std::optional<AreaOfUse>& Area() const;
+  /// Whether the place is in the area where the system is used; true where none is stated.
+  [[nodiscard]] bool InAreaOfUse(const Geodetic& place) const;
 
   /// What was assumed about the way: codes "datum-operation" and "vertical-datum".
   [[nodiscard]] const Assumptions& assumptions() const;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <optional>
 #include <vector>
 
 #include "core/base/result.h"
@@ -29,7 +28,8 @@ class Georeference {
   [[nodiscard]] std::string CrsName() const { return transform_.Name(); }
   /// As GlobeTransform has it.
   [[nodiscard]] double FullTurn() const { return transform_.FullTurn(); }
-  [[nodiscard]] const std::optional<AreaOfUse>& Area() const { return transform_.Area(); }
+  /// Whether the grid's middle is in the area where the reference system is used.
+  [[nodiscard]] bool InAreaOfUse() const { return transform_.InAreaOfUse(frame_.origin()); }
   /// What was assumed about the place.
   [[nodiscard]] const Assumptions& assumptions() const { return transform_.assumptions(); }
   /// Distance of neighbouring posts along a row and along a column in the middle of the grid,

@@ -82,21 +82,18 @@ std::vector<VertexId> SamplePosts(const Dem& dem, const Rows& rows) {
   return posts;
 }
 
-// Degrees that are taken for metres lie within a kilometre of the origin of a projection.
-Status CheckUnit(const Dem& dem, const Georeference& georeference) {
-  const std::optional<AreaOfUse>& area = georeference.Area();
-  const Geodetic middle = georeference.frame().origin();
-  if (!area || georeference.FullTurn() > 0 || area->Contains(middle.lon_deg, middle.lat_deg)) {
-    return Ok{};
-  }
+// Degrees that are taken for metres lie within 360 m of a map's origin, which is no place of its
+// own in systems with false eastings; one whose area is there is left alone.
+Status CheckNoDegrees(const Dem& dem, const Georeference& georeference) {
   const GeoTransform& t = dem.transform;
   const double x = std::max(std::abs(t.origin_x), std::abs(t.origin_x + dem.columns * t.step_x));
   const double y = std::max(std::abs(t.origin_y), std::abs(t.origin_y + dem.rows * t.step_y));
-  if (x > 360 || y > 90) return Ok{};
-  return Bad("the DEM's middle is at longitude " + Number(middle.lon_deg) + ", latitude " +
-                 Number(middle.lat_deg) + ", outside the area for which " + georeference.CrsName() +
-                 " is made, and its coordinates look like degrees; is "
-                 "--crs right? Degrees of GPS are --crs EPSG:4326",
+  if (x > 360 || y > 90 || georeference.FullTurn() > 0 || georeference.InAreaOfUse()) return Ok{};
+  const Geodetic middle = georeference.frame().origin();
+  return Bad("the DEM's middle would be at longitude " + Number(middle.lon_deg) + ", latitude " +
+                 Number(middle.lat_deg) + ", outside the area where " + georeference.CrsName() +
+                 " is used, and its coordinates look like degrees; is --crs right? Degrees of GPS "
+                 "are --crs EPSG:4326",
              "outside-crs");
 }
 
@@ -290,7 +287,7 @@ class PlacementCheck {
 
 Status CheckPlacement(const Terrain& terrain, const Georeference& georeference) {
   if (Status placed = PlacementCheck(terrain, georeference).Run(); !placed) return placed;
-  return CheckUnit(terrain.dem(), georeference);
+  return CheckNoDegrees(terrain.dem(), georeference);
 }
 
 }  // namespace farhorizon

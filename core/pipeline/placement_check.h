@@ -1,6 +1,5 @@
 #pragma once
 
-#include "core/base/assumption.h"
 #include "core/base/result.h"
 #include "core/pipeline/georeference.h"
 #include "core/terrain/terrain.h"
@@ -18,8 +17,8 @@ inline constexpr double kMostDegreesFromMiddle = 20;
 /// that one local frame and positions of 16 bits can show.
 /// Errors: kUnsupportedData: kind "too-large-extent"; kind "cells-too-narrow" where posts lie
 ///   closer to one another than positions can tell, as at a pole; kind "outside-crs" where posts
-///   are beyond a pole or do not come back from the globe, or where degrees are taken for metres;
-///   each with a remedy.
+///   are beyond a pole, do not come back from the globe, or have coordinates that look like the
+///   degrees of another system; each with a remedy.
 /// Cost: O(posts) for finding those with data, a few thousand points through PROJ.
 Status CheckPlacement(const Terrain& terrain, const Georeference& georeference);
 
