@@ -111,7 +111,9 @@ class PlacementCheck {
     enu_ = *std::move(enu);
     if (Status near = CheckExtent(); !near) return near;
     if (placed.first > data_.first || placed.last < data_.last) return BeyondThePole(placed);
-    step_m_ = ChooseLattice(enu_, SmallestCell() / 1024).step_m;
+    // Cells without extent get a step, too, and are too narrow for it: PROJ is no truer than this.
+    constexpr double kLeastStep = 1e-9;
+    step_m_ = ChooseLattice(enu_, std::max(SmallestCell() / 1024, kLeastStep)).step_m;
     if (Status wide = CheckCells(); !wide) return wide;
     return CheckReturn();
   }

@@ -107,7 +107,7 @@ TEST_F(HorizonE2e, EndsPastTheWorkBudgetAndNamesTheRemedy) {
   EXPECT_EQ(Run("edges.geojson", {"--engine", "kinetic", "--work-budget", "100"}), 1);
   EXPECT_THAT(Said(), HasSubstr("take the adaptive engine"));
   EXPECT_EQ(Run("edges.geojson", {"--work-budget", "0"}), 2);
-  EXPECT_THAT(Said(), HasSubstr("workBudget"));
+  EXPECT_THAT(Said(), HasSubstr("--work-budget"));
 }
 
 TEST_F(HorizonE2e, WritesAMarkedSupersetWhereItMayBeApproximate) {

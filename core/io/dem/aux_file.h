@@ -12,8 +12,8 @@
 
 namespace farhorizon {
 
-/// What an auxiliary file says and its dataset has no room for: the nodata values of the band, which
-/// add to the file's own; GDAL's geotransform; the reference system, as WKT or a code.
+/// What an auxiliary file says and its dataset has no room for: the nodata values of the band,
+/// which add to the file's own; GDAL's geotransform; the reference system, as WKT or a code.
 struct AuxTags {
   std::vector<double> nodata = {};
   std::optional<std::array<double, 6>> geotransform = {};
@@ -22,8 +22,9 @@ struct AuxTags {
 
 /// Reads FILE.aux.xml beside the file at `path`, in which GDAL and QGIS keep what a format has no
 /// place for. Scale, offset and unit of band `number` are put into `dataset` (a GDALDatasetH), the
-/// rest is returned. As with GDAL, it wins over the file itself; where they differ, and where something in it is not read (control points,
-/// Esri's transformation), that is said. Statistics and histograms mean nothing here.
+/// rest is returned. As with GDAL, it wins over the file itself; where they differ, and where
+/// something in it is not read (control points, Esri's transformation), that is said. Statistics
+/// and histograms mean nothing here.
 ///
 /// The text is parsed, at most 16 MiB of it; no name in it is ever opened. Nothing is written.
 AuxTags ReadAuxFile(const std::filesystem::path& path, void* dataset, int number,

@@ -20,7 +20,7 @@ struct DemReadOptions {
   std::optional<std::string> height_unit = {};     ///< "m", "ft" or "us-ft": overrides the file's
 };
 
-/// Reads the band of heights of a raster (GTiff, AAIGrid, SRTMHGT, DTED, USGSDEM, ENVI) as a DEM.
+/// Reads the band of heights of a raster, of any format that OpenRaster opens, as a DEM.
 ///
 /// Heights are exact: integers as they are, signed ones of any number of bits too; floats scaled
 /// where they are multiples of one power of two, others rounded to a stated quantum
@@ -35,14 +35,14 @@ struct DemReadOptions {
 /// `Dem::assumptions` has what the file leaves open or says twice; it is empty for a file that
 /// states everything. Its codes, and how each is stated otherwise: proto/assumptions.md.
 ///
-/// Of files beside, only FILE.aux.xml, FILE.msk, the .prj of an AAIGrid and the .hdr of an ENVI
+/// Of files beside, only FILE.aux.xml, FILE.msk, the world file, the .prj and the .hdr of a flat
 /// raster are read; no name in any file is followed. Messages name the file, not its folder.
 /// Errors: kNotFound no such file; kInvalidArgument "virtual-path"; kUnsupportedData, by kind:
 ///   "not-a-raster", "several-bands", "no-crs", "rotated-geotransform", "degenerate-geotransform",
 ///   "too-small", "all-nodata", "infinite-height", "height-out-of-range", "unsupported-type",
 ///   "unknown-unit", "truncated"; kResourceExhausted "raster-too-large", "block-too-large", both
 ///   before any pixel is read.
-/// Cost: at its peak 12 bytes a post.
+/// Cost: at its peak 12 bytes a post, 16 for text.
 Result<Dem> ReadDem(const std::filesystem::path& path, const DemReadOptions& options);
 
 }  // namespace farhorizon

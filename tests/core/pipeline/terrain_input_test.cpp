@@ -159,6 +159,11 @@ TEST_F(OnTheGlobe, PostsAtAPoleOrBeyondAreRefusedWithTheRowsToCut) {
   EXPECT_THAT(Refusal().message, HasSubstr("EPSG:3031"));
 }
 
+TEST_F(OnTheGlobe, CellsWithoutExtentAreTooNarrow) {
+  Make("EPSG:32632", 0, 0, 1e-40, -1e-40);
+  EXPECT_EQ(Refusal().kind, "cells-too-narrow");
+}
+
 TEST_F(OnTheGlobe, AWrongReferenceSystemIsNamed) {
   MakeDegrees(-105.5, 40.2, 0.001);
   BuildOptions utm;
