@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <sstream>
+#include <string>
 #include <utility>
 
 #include <cpl_conv.h>
@@ -31,7 +33,11 @@ constexpr double kMostOff = 1e-3;
 
 // Bilinear: the nearest cell's height moves posts by half a cell. Cells that the warped raster has
 // and this one has not get a value that is no height; without -dstnodata they are ground at zero.
-constexpr const char* kWarp = "gdalwarp -r bilinear -ot Float32 -dstnodata -9999 IN OUT.tif";
+constexpr const char* kWarp =
+    "gdalwarp -r bilinear -ot Float32 -dstnodata -9999 IN OUT.tif (with -srcnodata V before IN "
+    "where a value V that no tag names means no data: it would be blended with the ground)";
+
+constexpr std::uintmax_t kMostPrjBytes = 65536;  // as CheckCrsText
 
 constexpr const char* kStateCorners =
     "if you know its corners, state them with gdal_translate -a_ullr WEST NORTH EAST SOUTH";
@@ -103,6 +109,19 @@ bool SamePlace(const GeoTransform& a, const GeoTransform& b, int columns, int ro
          near(a.step_y * rows, b.step_y * rows, a.step_y);
 }
 
+// The unit of heights that the old form of a .prj names, where that is not the metre; "" else.
+std::string HeightUnitOfPrj(const std::filesystem::path& prj) {
+  const Result<std::string> text = ReadFile(prj, kMostPrjBytes);
+  std::istringstream words(text ? *text : "");
+  for (std::string word; words >> word;) {
+    if (!EQUAL(word.c_str(), "Zunits") || !(words >> word)) continue;
+    const bool metres = STARTS_WITH_CI(word.c_str(), "met") || EQUAL(word.c_str(), "no") ||
+                        EQUAL(word.c_str(), "none");
+    return metres ? "" : word.substr(0, 20);
+  }
+  return "";
+}
+
 struct ReleaseCrs {
   void operator()(void* crs) const { OSRRelease(crs); }
 };
@@ -110,8 +129,7 @@ using CrsPtr = std::unique_ptr<void, ReleaseCrs>;
 
 // The reference system that the text of a .prj states; null where it states none.
 CrsPtr FromPrj(const std::filesystem::path& prj) {
-  constexpr std::uintmax_t kMostBytes = 65536;  // as CheckCrsText
-  const Result<std::string> text = ReadFile(prj, kMostBytes);
+  const Result<std::string> text = ReadFile(prj, kMostPrjBytes);
   if (!text) return nullptr;
   CrsPtr crs(OSRNewSpatialReference(nullptr));
   CPLStringList lines(CSLTokenizeString2(text->c_str(), "\r\n", 0));
@@ -200,6 +218,10 @@ Result<std::string> ReadFileCrs(const OpenedDem& dem, Assumptions& assumptions) 
   }
   assumptions.push_back({"prj-file", "the DEM has no reference system; " + name +
                                          " beside it was taken (--crs states another)"});
+  if (const std::string unit = HeightUnitOfPrj(*prj); !unit.empty()) {
+    assumptions.push_back({"prj-file", name + " says that heights are in " + unit +
+                                           ", which was not read; state it with --height-unit"});
+  }
   return NameOfCrs(beside.get());
 }
 

@@ -2,12 +2,15 @@
 // opens no other file.
 #include "core/io/raster/open_raster.h"
 
+#include <algorithm>
+#include <array>
 #include <fstream>
 #include <string>
 #include <utility>
 
 #include "core/io/file_kind/file_kind.h"
 #include "core/io/file_kind/hgt_name.h"
+#include "core/io/file_kind/unread_formats.h"
 #include "core/io/raster/described_raster.h"
 #include "core/io/raster/sealed_folder.h"
 #include "core/io/raster/text_raster.h"
@@ -126,6 +129,13 @@ Result<RasterPtr> OpenOfKind(const std::filesystem::path& path, FileKind kind,
   }
 }
 
+// Files of numbers alone have any first bytes, also those that mark another format.
+bool MayBeNumbersAlone(const std::string& filename) {
+  constexpr std::array kEndings = {".bil", ".bip", ".bsq", ".flt", ".img", ".dat", ".raw", ".bin"};
+  return std::ranges::any_of(
+      kEndings, [&filename](const char* ending) { return HasEnding(filename, ending); });
+}
+
 }  // namespace
 
 Result<OpenedRaster> OpenRaster(const std::filesystem::path& path, std::int64_t max_cells,
@@ -144,6 +154,10 @@ Result<OpenedRaster> OpenRaster(const std::filesystem::path& path, std::int64_t 
       *beginning, static_cast<std::int64_t>(std::filesystem::file_size(path, failure)), filename};
   if (HasEnding(filename, ".hdr")) return HeaderAlone(path);
   const FileKind kind = KindOfFile(facts);
+  if (kind == FileKind::kOther && !MayBeNumbersAlone(filename) &&
+      FindUnreadFormat(*beginning, facts.bytes, filename) != nullptr) {
+    return UnreadFile(facts, Quoted(path), "");
+  }
   if (IsTextGrid(kind)) return OpenTextRaster(path, kind, max_cells);
   Result<RasterPtr> dataset = OpenOfKind(absolute, kind, session);
   if (!dataset) return std::move(dataset.error());

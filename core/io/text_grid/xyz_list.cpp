@@ -43,6 +43,17 @@ std::optional<int> AxisOf(std::string name) {
   return std::nullopt;
 }
 
+// Whether a name has a unit in brackets that is not the metre.
+bool HasOtherUnit(const std::string& name) {
+  std::string unit = name.substr(std::min(name.find_first_of("(["), name.size()));
+  std::erase_if(unit, [](unsigned char c) { return std::isalpha(c) == 0; });
+  std::ranges::transform(unit, unit.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  static constexpr auto kMetres =
+      std::to_array<std::string_view>({"", "m", "meter", "meters", "metre", "metres", "masl"});
+  return std::ranges::find(kMetres, unit) == kMetres.end();
+}
+
 bool IsColumn(const std::string& name) { return AxisOf(name).has_value(); }
 
 // What parts the numbers of a line beside white space: ';', ',', or nothing more.
@@ -124,6 +135,11 @@ Status XyzReader::ReadHeader() {
       return BadGrid("the list of points has a column " + QuotedWord(names[i]) +
                      "; it must have three, x (easting, longitude), y (northing, latitude) and "
                      "height");
+    }
+    if (*axis == 2 && HasOtherUnit(names[i])) {
+      return BadGrid("the list of points has heights in a unit of its own, " +
+                     QuotedWord(names[i]) +
+                     "; name that column height, and state the unit with --height-unit");
     }
     axes_[i] = *axis;
     named[static_cast<std::size_t>(*axis)] = true;

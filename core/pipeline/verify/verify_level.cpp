@@ -70,19 +70,28 @@ void VerifyAccessors(const std::string& name, const GlbContents& glb, const Deco
              name + ".glb has the lattice of its Draco stream in the node's matrix");
 }
 
-// Whether every triangle runs counter-clockwise seen from above it: from away from the earth's
-// centre, which is not the frame's up where a DEM is large and steep.
+// The direction of `p` along which heights are counted, unscaled: the normal of the ellipsoid
+// through p. From the surface up it is (x, y, z / (1 - e^2)); at 9 km it is off by less than 5e-6.
+Enu Upwards(const Enu& p, const TangentFrame& frame) {
+  constexpr double kOneLessE2 = 1 - 0.00669437999014;  // WGS 84
+  const Ecef at = frame.ToEcef(p);
+  const Enu ahead = frame.ToEnu({at.x + at.x, at.y + at.y, at.z + at.z / kOneLessE2});
+  return {ahead.east - p.east, ahead.north - p.north, ahead.up - p.up};
+}
+
+// Whether every triangle runs counter-clockwise seen from above it. Above is not the frame's up
+// where a DEM is large and steep, and not away from the earth's centre where it is steep.
 bool AllTurnLeft(const LocalMesh& mesh, const TangentFrame& frame) {
-  const Enu centre = frame.ToEnu({0, 0, 0});
   return std::all_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const auto& t) {
     const Enu& a = mesh.positions[t[0]];
     const Enu& b = mesh.positions[t[1]];
     const Enu& c = mesh.positions[t[2]];
     const Enu u = {b.east - a.east, b.north - a.north, b.up - a.up};
     const Enu v = {c.east - a.east, c.north - a.north, c.up - a.up};
-    return (u.north * v.up - u.up * v.north) * (a.east - centre.east) +
-               (u.up * v.east - u.east * v.up) * (a.north - centre.north) +
-               (u.east * v.north - u.north * v.east) * (a.up - centre.up) >
+    const Enu up = Upwards(a, frame);
+    return (u.north * v.up - u.up * v.north) * up.east +
+               (u.up * v.east - u.east * v.up) * up.north +
+               (u.east * v.north - u.north * v.east) * up.up >
            0;
   });
 }
