@@ -182,6 +182,10 @@ TEST_F(OpenRasterTest, ReadsAZippedHgt) {
   EXPECT_THAT(Refusal("N46E007.hgt.zip"), HasSubstr("0 HGT files"));
   Spill("N46E007.hgt.zip", ZipOf("N46E007.hgt", "ab", 4'000'000'000U));
   EXPECT_THAT(Refusal("N46E007.hgt.zip"), HasSubstr("truncated"));
+  std::string damaged = ZipOf("N46E007.hgt", tile, size);
+  damaged[8] = 99;  // the member's own header names an unknown compression, the list does not
+  Spill("N46E007.hgt.zip", damaged);
+  EXPECT_THAT(Refusal("N46E007.hgt.zip"), HasSubstr("damaged"));
   Spill("N46E007.hgt.zip", "PK\x03\x04 and no archive");
   EXPECT_THAT(Refusal("N46E007.hgt.zip"), HasSubstr("0 HGT files"));
 }
