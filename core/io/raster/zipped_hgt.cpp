@@ -18,8 +18,8 @@ namespace {
 // Archives of one tile have a few files more at most; the list stops here.
 constexpr int kMaxMembers = 64;
 
-// Whether `bytes` bytes can be unpacked. GDAL 3.6's driver trusts the archive's list of contents: it
-// reads from a null handle where the member itself cannot be opened (found by fuzzing).
+// Whether `bytes` bytes can be unpacked. GDAL 3.6's driver trusts the archive's list of contents:
+// it reads from a null handle where the member itself cannot be opened (found by fuzzing).
 bool Unpacks(const std::string& member, std::int64_t bytes) {
   VSILFILE* file = VSIFOpenL(member.c_str(), "rb");
   if (file == nullptr) return false;
