@@ -5,14 +5,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <memory>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include <cpl_conv.h>
 #include <cpl_string.h>
 #include <gdal.h>
+#include <ogr_spatialref.h>
 #include <ogr_srs_api.h>
 
 #include "core/io/dem/band_values.h"
@@ -109,19 +112,6 @@ bool SamePlace(const GeoTransform& a, const GeoTransform& b, int columns, int ro
          near(a.step_y * rows, b.step_y * rows, a.step_y);
 }
 
-// The unit of heights that the old form of a .prj names, where that is not the metre; "" else.
-std::string HeightUnitOfPrj(const std::filesystem::path& prj) {
-  const Result<std::string> text = ReadFile(prj, kMostPrjBytes);
-  std::istringstream words(text ? *text : "");
-  for (std::string word; words >> word;) {
-    if (!EQUAL(word.c_str(), "Zunits") || !(words >> word)) continue;
-    const bool metres = STARTS_WITH_CI(word.c_str(), "met") || EQUAL(word.c_str(), "no") ||
-                        EQUAL(word.c_str(), "none");
-    return metres ? "" : word.substr(0, 20);
-  }
-  return "";
-}
-
 struct ReleaseCrs {
   void operator()(void* crs) const { OSRRelease(crs); }
 };
@@ -135,6 +125,55 @@ CrsPtr FromPrj(const std::filesystem::path& prj) {
   CPLStringList lines(CSLTokenizeString2(text->c_str(), "\r\n", 0));
   const bool read = lines.Count() > 0 && OSRImportFromESRI(crs.get(), lines.List()) == OGRERR_NONE;
   return read ? std::move(crs) : nullptr;
+}
+
+// Says what of a .prj is not taken with its system: the unit of heights of its old form, and a
+// shift of heights.
+void SayUnreadOfPrj(const std::filesystem::path& prj, Assumptions& assumptions) {
+  const Result<std::string> text = ReadFile(prj, kMostPrjBytes);
+  const std::string name = prj.filename().string();
+  std::istringstream words(text ? *text : "");
+  for (std::string word; words >> word;) {
+    if (!EQUAL(word.c_str(), "Zunits") || !(words >> word)) continue;
+    if (STARTS_WITH_CI(word.c_str(), "met") || STARTS_WITH_CI(word.c_str(), "no")) continue;
+    assumptions.push_back({"prj-file", name + " says that heights are in " + word.substr(0, 20) +
+                                           ", which was not read; state it with --height-unit"});
+  }
+  constexpr std::string_view kShift = "\"Vertical_Shift\",";
+  const std::size_t at = text ? text->find(kShift) : std::string::npos;
+  if (at == std::string::npos) return;
+  const double shift = std::strtod(text->c_str() + at + kShift.size(), nullptr);
+  if (shift != 0) {
+    assumptions.push_back({"prj-file", name + " shifts heights by " + std::to_string(shift) +
+                                           ", which was not done; put it in with gdal_translate "
+                                           "-a_offset"});
+  }
+}
+
+bool SameHorizontally(OGRSpatialReferenceH a, OGRSpatialReferenceH b) {
+  const std::unique_ptr<OGRSpatialReference> plan_a(OGRSpatialReference::FromHandle(a)->Clone());
+  const std::unique_ptr<OGRSpatialReference> plan_b(OGRSpatialReference::FromHandle(b)->Clone());
+  plan_a->StripVertical();
+  plan_b->StripVertical();
+  const char* const options[] = {"CRITERION=EQUIVALENT_EXCEPT_AXIS_ORDER_GEOGCRS",
+                                 "IGNORE_DATA_AXIS_TO_SRS_AXIS_MAPPING=YES", nullptr};
+  return plan_a->IsSame(plan_b.get(), options) != 0;
+}
+
+// Says where the .prj beside a raster with a system of its own, `own`, says something else, or
+// more.
+void SayPassedOverPrj(const std::filesystem::path& path, OGRSpatialReferenceH own,
+                      Assumptions& assumptions) {
+  const std::optional<std::filesystem::path> prj = FindBeside(path, ".prj");
+  const CrsPtr beside = prj ? FromPrj(*prj) : nullptr;
+  if (!beside) return;
+  const bool more = OSRIsCompound(beside.get()) != 0 && OSRIsCompound(own) == 0;
+  if (!more && SameHorizontally(own, beside.get())) return SayUnreadOfPrj(*prj, assumptions);
+  assumptions.push_back(
+      {"prj-file", prj->filename().string() + " beside the raster names " +
+                       (more ? "a vertical system, too; the raster's own system"
+                             : "another reference system than the raster itself, which") +
+                       " was taken; state the right one with --crs, or move the .prj away"});
 }
 
 }  // namespace
@@ -203,7 +242,10 @@ Result<std::string> ReadFileCrs(const OpenedDem& dem, Assumptions& assumptions) 
   void* const dataset = dem.dataset;
   OGRSpatialReferenceH crs = GDALGetSpatialRef(dataset);
   if (crs == nullptr && GDALGetGCPCount(dataset) > 0) crs = GDALGetGCPSpatialRef(dataset);
-  if (crs != nullptr) return NameOfCrs(crs);
+  if (crs != nullptr) {
+    SayPassedOverPrj(dem.path, crs, assumptions);
+    return NameOfCrs(crs);
+  }
   const std::optional<std::filesystem::path> prj = FindBeside(dem.path, ".prj");
   if (!prj) {
     return BadData("the DEM has no reference system; name it with --crs, for example EPSG:4326",
@@ -218,10 +260,7 @@ Result<std::string> ReadFileCrs(const OpenedDem& dem, Assumptions& assumptions) 
   }
   assumptions.push_back({"prj-file", "the DEM has no reference system; " + name +
                                          " beside it was taken (--crs states another)"});
-  if (const std::string unit = HeightUnitOfPrj(*prj); !unit.empty()) {
-    assumptions.push_back({"prj-file", name + " says that heights are in " + unit +
-                                           ", which was not read; state it with --height-unit"});
-  }
+  SayUnreadOfPrj(*prj, assumptions);
   return NameOfCrs(beside.get());
 }
 

@@ -67,6 +67,19 @@ Status CheckByteOrder(const GridHeader& header) {
                  std::to_string(word->line) + ", which is neither LSBFIRST (I) nor MSBFIRST (M)");
 }
 
+// GDAL passes over the unit of heights.
+Status CheckHeightUnit(const GridHeader& header) {
+  const TextWord* word = header.Find("zunits");
+  if (word == nullptr) return Ok{};
+  constexpr std::array<std::string_view, 7> kMetres = {"m",      "meter", "meters", "metre",
+                                                       "metres", "1",     "no"};
+  if (std::ranges::find(kMetres, Lower(word->text)) != kMetres.end()) return Ok{};
+  return BadGrid("the raster's header has heights in " + QuotedWord(word->text) +
+                 " (zunits, line " + std::to_string(word->line) +
+                 "), which is not read; take that line out, and state the unit with "
+                 "--height-unit");
+}
+
 // That rows of `row_bytes` bytes follow one another, and fill the file.
 Status CheckRows(const GridHeader& header, std::int64_t row_bytes) {
   for (const char* key : {"bandrowbytes", "totalrowbytes"}) {
@@ -97,6 +110,7 @@ Status CheckEsriHeader(const std::filesystem::path& path, std::int64_t bytes) {
   Result<std::int64_t> skipped = CountOr(*header, "skipbytes", 0);
   if (!skipped) return std::move(skipped.error());
   if (Status placed = CheckPlace(*header, *rows); !placed) return placed;
+  if (Status metres = CheckHeightUnit(*header); !metres) return metres;
   if (*bands != 1) return Ok{};  // which is refused as such
   const std::int64_t cells = *columns * *rows;
   // Where nbits is missing (.flt has none), GDAL divides the bytes by the cells.

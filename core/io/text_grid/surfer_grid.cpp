@@ -61,11 +61,11 @@ Result<TextGrid> ReadSurferGrid(const std::filesystem::path& path, std::int64_t 
   const double width = (east - west) / (columns - 1);
   const double height = (north - south) / (rows - 1);
   grid.geotransform = {west - width / 2, width, 0, north + height / 2, 0, -height};
-  grid.nodata = kBlank;
   if (Status fits = CheckGridSize(grid, max_cells); !fits) return std::move(fits.error());
   words->Next(word);
   Status filled = ReadBody(*words, std::move(word), {.nodata_number = "1.70141e38"}, grid);
   if (!filled) return std::move(filled.error());
+  if (grid.cells.is_float()) grid.nodata = kBlank;  // no whole number can be that
   grid.cells.FlipRows(static_cast<std::size_t>(grid.columns));
   return grid;
 }

@@ -133,6 +133,22 @@ TEST_F(RasterPlace, TheRastersOwnPlaceWinsOverAWorldFileWhichIsSaidWhereTheyDiff
   EXPECT_TRUE(Says(*other, "world-file"));
 }
 
+TEST_F(RasterPlace, APrjThatSaysOtherwiseThanTheRasterOrMoreIsSaid) {
+  const std::string utm10 =
+      "Projection UTM\nZone 10\nDatum WGS84\nSpheroid WGS84\nUnits METERS\nZunits METERS\n"
+      "Xshift 0.0\nYshift 0.0\nParameters\n";
+  const auto said = [&](const std::string& from, const std::string& to) {
+    std::string text = utm10;
+    text.replace(text.find(from), from.size(), to);
+    SpillFile(dir_ / "dem.prj", text);
+    Result<Dem> dem = ReadDem(Tiff(kUsual), {});
+    return dem && Says(*dem, "prj-file");
+  };
+  EXPECT_FALSE(said("Zone 10", "Zone 10"));
+  EXPECT_TRUE(said("Zone 10", "Zone 11"));
+  EXPECT_TRUE(said("Zunits METERS", "Zunits FEET"));
+}
+
 TEST_F(RasterPlace, APrjBesideIsReadAndSaidUnlessTheCallStatesASystem) {
   const std::filesystem::path path = Tiff(kUsual, "");
   SpillFile(dir_ / "dem.prj",

@@ -141,6 +141,7 @@ TEST_F(TextFormats, RefusesListsThatAreNoGrid) {
   EXPECT_THAT(Refusal(ReadXyzList, "10 20 NA\n12 20 2\n"), HasSubstr("\"NA\" in line 1, column 7"));
   EXPECT_THAT(Refusal(ReadXyzList, "x y colour\n10 20 1\n"), HasSubstr("column \"colour\""));
   EXPECT_THAT(Refusal(ReadXyzList, "x y x\n10 20 1\n"), HasSubstr("column \"x\""));
+  EXPECT_THAT(Refusal(ReadXyzList, "x y z(ft)\n10 20 1\n"), HasSubstr("--height-unit"));
 }
 
 TEST(LooksLikeXyz, WantsTwoLinesOfThreeNumbers) {
@@ -178,6 +179,11 @@ TEST_F(EsriHeader, TakesWhatIsWhole) {
   EXPECT_EQ(
       Said("ncols 3\nnrows 2\nxllcorner 1\nyllcorner 2\ncellsize 1\nbyteorder MSBFIRST\n", 24),
       "sound");
+}
+
+TEST_F(EsriHeader, RefusesAUnitThatGdalPassesOver) {
+  EXPECT_THAT(With("BYTEORDER I\n", "BYTEORDER I\nZUNITS FEET\n", 12), HasSubstr("--height-unit"));
+  EXPECT_THAT(With("BYTEORDER I\n", "BYTEORDER I\nZUNITS METERS\n", 12), "sound");
 }
 
 TEST_F(EsriHeader, RefusesWhatGdalWouldGuess) {
