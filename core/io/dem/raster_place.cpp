@@ -232,7 +232,8 @@ Result<GeoTransform> ReadGeoTransform(OpenedDem& dem) {
         "rotated-geotransform");
   }
   return BadData(std::string("the raster does not say where its cells lie (no geotransform); put "
-                             "its world file (.tfw) beside it under the same name, or ") +
+                             "its world file (.tfw) beside it under the same name (for a service: "
+                             "there, and send what gdal_translate IN OUT.tif makes of both), or ") +
                      kStateCorners,
                  "degenerate-geotransform");
 }

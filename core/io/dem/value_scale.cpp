@@ -146,12 +146,16 @@ Result<ValueScale> ReadValueScale(OpenedDem& dem, const std::optional<std::strin
   double metres = unit->metres;
   if (CountsDown(*systems)) {
     metres = -metres;
-    const HeightSystem& down =
-        systems->call && systems->call->down ? *systems->call : *systems->file;
+    const bool by_call = systems->call && systems->call->down;
+    const HeightSystem& down = by_call ? *systems->call : *systems->file;
+    const std::string remedy =
+        by_call ? "name a system of heights with " + systems->call_flag
+                : "name the map's own system with one of heights with --crs, as EPSG:32633+5773";
     dem.assumptions.push_back(
         {"depths", "values are depths, for " + down.name +
                        " counts downwards: heights are their negatives; where they are heights "
-                       "already, name a system of heights with --crs, such as EPSG:4326+5773"});
+                       "already, " +
+                       remedy});
   }
   if (!systems->names_datum) AssumeDatum(dem.dataset, *systems, dem.assumptions);
   return ValueScale{scale * metres, offset * metres};
