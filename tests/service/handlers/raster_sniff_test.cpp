@@ -34,12 +34,12 @@ TEST(RasterSniff, TakesTheFormatsThatAreOneFile) {
 }
 
 TEST(RasterSniff, SaysWhyOthersAreNot) {
-  EXPECT_THAT(Said("", 2 * 1201 * 1201, "dem"), HasSubstr("known by its name"));
+  EXPECT_THAT(Said("\1\2", 2 * 1201 * 1201, "dem"), HasSubstr("known by its name"));
   EXPECT_THAT(Said("\1", 100, "N46E007.hgt"), HasSubstr("bytes"));
   EXPECT_THAT(Said("<VRTDataset>", 100, "a.tif"), HasSubstr("the DEM is a VRT"));
   EXPECT_THAT(Said("PK\x03\x04", 3544, "tiles.zip"), HasSubstr("zip archive"));
   EXPECT_THAT(Said("", 0, "a.tif"), HasSubstr("no bytes"));
-  EXPECT_THAT(Said("VOL1", 4, "a"), HasSubstr("expected GeoTIFF"));
+  EXPECT_THAT(Said("\1\2\3\4", 4, "a"), HasSubstr("expected GeoTIFF"));
 }
 
 }  // namespace

@@ -152,7 +152,7 @@ TEST_F(OpenRasterTest, SaysHowTheColumnsOfAListWereTaken) {
 
 // A stored (not deflated) archive of one member; checksums are read only at a member's end.
 std::string ZipOf(const std::string& name, const std::string& bytes, std::uint32_t claimed) {
-  const auto number = [](std::uint32_t value, int width) {
+  const auto number = [](std::uint64_t value, int width) {
     std::string text;
     for (int i = 0; i < width; ++i) text += static_cast<char>(value >> (8 * i) & 0xffU);
     return text;
