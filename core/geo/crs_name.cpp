@@ -1,3 +1,6 @@
+// A name must come out the same for every tile of a survey, so it is made of the system alone: its
+// code, that of an equivalent system, its own words, its PROJ string, in that order. A compound is
+// named by its parts.
 #include "core/geo/crs_name.h"
 
 #include <memory>

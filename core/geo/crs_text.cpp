@@ -1,3 +1,6 @@
+// Two passes over a text that may come from a stranger: the first completes what people write for
+// codes, the second refuses whatever would make PROJ open a file or a URL. Words are looked for in
+// lower case, and escapes that could hide one in JSON count as one.
 #include "core/geo/crs_text.h"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// One sentence about the operation that was taken. Its parts are left out where they say nothing:
+// an exact operation needs no word, missing grids are named at most a few at a time.
 #include "core/geo/datum_assumption.h"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// What the reader asks of a reference system, without a word of PROJ in the header: a session is
+// opened, the vertical axis is looked up, and units and direction are handed out as plain values.
 #include "core/geo/height_system.h"
 
 #include <cstdio>

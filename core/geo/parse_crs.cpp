@@ -1,3 +1,5 @@
+// From a text to a system that can be placed: completed, checked, read by PROJ, then judged by its
+// type. Engineering systems and those of other bodies have no place on Earth, which the error says.
 #include "core/geo/parse_crs.h"
 
 #include <utility>

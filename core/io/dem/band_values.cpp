@@ -1,3 +1,6 @@
+// Header first: the tags of the file, of its directory and of the file beside are gathered before a
+// sample is read. Then one pass of GDAL's reads the samples, and all that hides posts is applied in
+// turn: nodata values, masks, absent blocks.
 #include "core/io/dem/band_values.h"
 
 #include <limits>

@@ -38,8 +38,9 @@ struct ValueTags {
   AbsentBlocks absent;
 };
 
-/// Reads the tags of the values of `dem`. Scale, offset and unit, geotransform and reference system
-/// that stand beside the usual places are put into its dataset.
+/// Reads the tags of the values of `dem`. Scale, offset and unit that stand beside the usual places
+/// are put into its dataset, geotransform and reference system of the auxiliary file into
+/// `dem.aux`.
 /// Errors: kUnsupportedData, kinds "unsupported-type", "truncated".
 Result<ValueTags> ReadValueTags(OpenedDem& dem);
 

@@ -1,3 +1,6 @@
+// A picture must not pass for heights, nor heights with a palette for a picture. What tells them
+// apart is the number of bands, their colour interpretation and the width of the samples; every
+// refusal names the command that makes a DEM of the raster.
 #include "core/io/dem/height_band.h"
 
 #include <algorithm>

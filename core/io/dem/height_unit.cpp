@@ -1,3 +1,6 @@
+// Names of units are brought to one spelling (lower case, without marks and trailing words) and
+// looked up in one list. The rule that chooses among several sources is in the header; the first
+// source that decides is kept, the others are compared with it.
 #include "core/io/dem/height_unit.h"
 
 #include <algorithm>

@@ -21,8 +21,8 @@ struct OpenedDem;
 Result<GeoTransform> ReadGeoTransform(OpenedDem& dem);
 
 /// The reference system of `dem` as PROJ reads it: that of the auxiliary file, else the file's own,
-/// else that of its control points, else that of the .prj beside it, which is said in
-/// `assumptions`.
+/// else that of its control points, else that of the .prj beside it. That a .prj was taken, or says
+/// otherwise and was not, is said in `assumptions`.
 /// Errors: kUnsupportedData, kind "no-crs".
 Result<std::string> ReadFileCrs(const OpenedDem& dem, Assumptions& assumptions);
 
