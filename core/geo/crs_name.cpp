@@ -8,6 +8,7 @@
 #include <proj.h>
 #include <proj_experimental.h>  // demotion to 2-D; GDAL builds on it too
 
+#include "core/base/lower.h"
 #include "core/geo/short_text.h"
 
 namespace farhorizon {

@@ -9,6 +9,7 @@
 #include <regex>
 #include <string_view>
 
+#include "core/base/lower.h"
 #include "core/geo/short_text.h"
 
 namespace farhorizon {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/base/lower.h"
 #include "core/geo/crs_name.h"
 #include "core/geo/crs_text.h"
 #include "core/geo/parse_crs.h"

@@ -8,6 +8,7 @@
 
 #include <proj.h>
 
+#include "core/base/lower.h"
 #include "core/geo/crs_name.h"
 #include "core/geo/parse_crs.h"
 #include "core/geo/short_text.h"

@@ -1,7 +1,6 @@
 #include "core/geo/short_text.h"
 
 #include <algorithm>
-#include <cctype>
 
 namespace farhorizon {
 
@@ -16,12 +15,6 @@ std::string ShortText(const std::string& text, std::size_t bytes) {
     if (static_cast<unsigned char>(c) < 0x20) c = ' ';
   }
   return end < text.size() ? shown + "..." : shown;
-}
-
-std::string Lower(std::string text) {
-  std::ranges::transform(text, text.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
 }
 
 }  // namespace farhorizon

@@ -9,7 +9,4 @@ namespace farhorizon {
 /// goes on; blanks for line breaks and other control characters.
 std::string ShortText(const std::string& text, std::size_t bytes);
 
-/// `text` in small letters, those of ASCII.
-std::string Lower(std::string text);
-
 }  // namespace farhorizon

@@ -10,6 +10,7 @@
 #include <proj.h>
 #include <proj_experimental.h>  // compound systems, demotion to 2-D; GDAL builds on it too
 
+#include "core/base/lower.h"
 #include "core/geo/crs_name.h"
 #include "core/geo/parse_crs.h"
 #include "core/geo/short_text.h"

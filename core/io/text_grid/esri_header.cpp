@@ -7,18 +7,13 @@
 #include <string_view>
 #include <utility>
 
+#include "core/base/lower.h"
 #include "core/io/text_grid/grid_header.h"
 #include "core/io/text_grid/grid_place.h"
 
 namespace farhorizon {
 
 namespace {
-
-std::string Lower(std::string text) {
-  std::ranges::transform(text, text.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
 
 // A count that may be left out, for `otherwise`; 0 is one, too.
 Result<std::int64_t> CountOr(const GridHeader& header, const std::string& key,

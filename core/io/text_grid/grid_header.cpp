@@ -5,15 +5,11 @@
 #include <cmath>
 #include <utility>
 
+#include "core/base/lower.h"
+
 namespace farhorizon {
 
 namespace {
-
-std::string Lower(std::string text) {
-  std::ranges::transform(text, text.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
 
 // The same number, or the same word.
 bool SameValue(const std::string& a, const std::string& b) {
