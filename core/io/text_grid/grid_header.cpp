@@ -1,7 +1,6 @@
 #include "core/io/text_grid/grid_header.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <utility>
 
