@@ -34,6 +34,8 @@ declare -A may=(
   [core/io/text_grid]="core/base"
   [core/io/raster]="core/base core/io core/io/file_kind core/io/text_grid"
   [core/io/dem]="core/base core/geometry core/terrain core/geo core/io core/io/text_grid core/io/raster"
+  # Meshes that others wrote; `compare` alone reads them.
+  [core/io/mesh_files]="core/base core/io"
   [core/pipeline]="$below_pipeline"
   [core/pipeline/verify]="$below_pipeline core/pipeline"
   # The service's own root: clock, log, and the wrapper header of Asio. main.cpp is below.
@@ -53,12 +55,13 @@ declare -A may=(
 # so that a new dependency has to be entered here.
 foreign=(
   '(gdal|ogr|cpl_|vrt) @ ^core/io/(dem/|raster/)?[^/]+\.cpp$ ^service/jobs/[a-z_0-9]*object_store\.cpp$'
-  'draco/ @ ^core/io/[^/]+\.cpp$'
+  'draco/ @ ^core/io/(mesh_files/)?[^/]+\.cpp$'
+  'meshoptimizer\.h$ @ ^core/io/mesh_files/[^/]+\.cpp$'
   'proj(_[a-z]+)?(\.h$|/) @ ^core/geo/[^/]+\.cpp$'
   'boost/multiprecision/ @ ^core/exact/'
   'boost/ @ ^service/asio\.h$ ^service/(http|worker|cli)/'
   'sqlite3 @ ^service/jobs/[a-z_0-9]+\.cpp$'
-  'nlohmann/ @ ^core/(io|pipeline)/[^/]+\.cpp$ ^service/[a-z_0-9]+\.(h|cpp)$ ^service/(handlers|jobs|worker|config|cli)/'
+  'nlohmann/ @ ^core/(io|pipeline)/(compare/)?[^/]+\.cpp$ ^core/io/mesh_files/(gltf_json\.h|[^/]+\.cpp)$ ^service/[a-z_0-9]+\.(h|cpp)$ ^service/(handlers|jobs|worker|config|cli)/'
   'openssl/ @ ^core/io/[^/]+\.cpp$'
   'CLI/ @ ^service/(main\.cpp$|cli/)'
   # The system's own: files in core/io, processes and sockets in service.
