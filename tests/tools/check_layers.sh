@@ -37,6 +37,7 @@ declare -A may=(
   # Meshes that others wrote; `compare` alone reads them.
   [core/io/mesh_files]="core/base core/io"
   [core/pipeline]="$below_pipeline"
+  [core/pipeline/compare]="$below_pipeline core/io/mesh_files core/pipeline"
   [core/pipeline/verify]="$below_pipeline core/pipeline"
   # The service's own root: clock, log, and the wrapper header of Asio. main.cpp is below.
   [service]="core/base"
@@ -46,7 +47,7 @@ declare -A may=(
   [service/http]="core/base service service/handlers"
   # The configuration consists of the options of the parts, so it stands above them.
   [service/config]="core/base service service/worker service/jobs service/http"
-  [service/cli]="core/base core/io core/pipeline service service/worker service/jobs service/handlers service/http core/pipeline/verify core/horizon core/horizon/search service/config"
+  [service/cli]="core/base core/io core/pipeline service service/worker service/jobs service/handlers service/http core/pipeline/verify core/pipeline/compare core/horizon core/horizon/search service/config"
   [service/main.cpp]="core/base service service/cli"
 )
 

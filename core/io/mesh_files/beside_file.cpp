@@ -45,10 +45,7 @@ int Base64Digit(char c) {
 Result<std::filesystem::path> PathBeside(const std::filesystem::path& folder,
                                          std::string_view uri) {
   const auto refuse = [&](const char* why) {
-    std::string shown(uri.substr(0, 60));
-    std::ranges::replace_if(
-        shown, [](char c) { return c < ' ' || c > '~'; }, '?');
-    return BadMeshFile("it names \"" + shown + "\", " + why +
+    return BadMeshFile("it names \"" + std::string(uri.substr(0, 60)) + "\", " + why +
                        "; only files beside it and below are read");
   };
   const std::string name = PercentDecoded(uri.substr(0, uri.find_first_of("?#")));

@@ -1,6 +1,6 @@
 // A Draco bitstream of unknown origin. libdraco allocates by the numbers of faces and points that
 // the stream states, before it finds that they are not there: they are read first, and refused.
-//   header · metadata where the flag is set · traversal (edgebreaker alone) · two numbers · the rest
+//   header · metadata where flagged · traversal (edgebreaker alone) · two numbers · the rest
 #include "core/io/mesh_files/draco_file.h"
 
 #include <cmath>

@@ -30,8 +30,15 @@ Status CheckTriangles(const FileMesh& mesh) {
 
 }  // namespace
 
+std::string Printable(std::string text) {
+  constexpr char kDelete = 0x7f;
+  std::ranges::replace_if(
+      text, [](char c) { return static_cast<unsigned char>(c) < ' ' || c == kDelete; }, '?');
+  return text;
+}
+
 Error BadMeshFile(const std::string& message) {
-  return {ErrorCode::kUnsupportedData, message, "bad-mesh-file"};
+  return {ErrorCode::kUnsupportedData, Printable(message), "bad-mesh-file"};
 }
 
 Status CheckCounts(std::uint64_t points, std::uint64_t triangles, const MeshLimits& limits) {

@@ -37,7 +37,10 @@ struct MeshLimits {
   std::uintmax_t max_bytes = std::uintmax_t{4} << 30U;
 };
 
-/// kUnsupportedData, kind "bad-mesh-file".
+/// `text` of a stranger's file with "?" for each control character, so that no terminal obeys it.
+std::string Printable(std::string text);
+
+/// kUnsupportedData, kind "bad-mesh-file"; the message is made printable.
 Error BadMeshFile(const std::string& message);
 
 /// Whether so many points and triangles may be read.

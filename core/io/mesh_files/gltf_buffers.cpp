@@ -111,8 +111,10 @@ Result<GltfBuffers::View> GltfBuffers::Decompressed(std::uint64_t index,
   view.stride = CountIn(extension.at("byteStride"));
   view.count = CountIn(extension.at("count"));
   view.mode = extension.at("mode").get_ref<const std::string&>();
-  const MeshJson* filter = Member(extension, "filter");
-  view.filter = filter == nullptr ? "NONE" : filter->get_ref<const std::string&>();
+  view.filter = "NONE";
+  if (const MeshJson* filter = Member(extension, "filter")) {
+    view.filter = filter->get_ref<const std::string&>();
+  }
   if (const auto known = decompressed_.find(index); known != decompressed_.end()) {
     return View{known->second, view.stride};
   }
@@ -146,20 +148,20 @@ Result<GltfBuffers::View> GltfBuffers::ViewOf(std::uint64_t index) {
 Result<GltfBuffers::Elements> GltfBuffers::ElementsOf(const MeshJson& accessor,
                                                       std::size_t components) {
   if (accessor.contains("sparse")) return BadMeshFile("sparse accessors are not read");
+  Elements elements;
+  elements.count = CountIn(accessor.at("count"));
+  if (elements.count == 0) return elements;
   const MeshJson* view_index = Member(accessor, "bufferView");
   if (view_index == nullptr) return BadMeshFile("an accessor of positions or indices has no view");
   Result<View> view = ViewOf(CountIn(*view_index));
   if (!view) return std::move(view.error());
   const std::optional<ScalarType> type = TypeOf(CountIn(accessor.at("componentType")));
   if (!type) return BadMeshFile("an accessor has an unknown componentType");
-  Elements elements;
   elements.type = *type;
-  elements.count = CountIn(accessor.at("count"));
   const std::uint64_t bytes = BytesOf(*type) * components;
   elements.stride = view->stride == 0 ? bytes : view->stride;
   const std::uint64_t offset = CountOr(accessor, "byteOffset", 0);
   const std::uint64_t size = view->bytes.size();
-  if (elements.count == 0) return elements;
   if (offset > size || bytes > size - offset ||
       elements.count - 1 > (size - offset - bytes) / elements.stride) {
     return BadMeshFile("an accessor of " + std::to_string(elements.count) +
@@ -196,8 +198,8 @@ Result<std::vector<std::uint32_t>> GltfBuffers::Indices(std::uint64_t index) {
   if (Status few = CheckCounts(0, elements->count / 3, limits_); !few) {
     return std::move(few.error());
   }
-  if (elements->type != ScalarType::kUint8 && elements->type != ScalarType::kUint16 &&
-      elements->type != ScalarType::kUint32) {
+  if (elements->count > 0 && elements->type != ScalarType::kUint8 &&
+      elements->type != ScalarType::kUint16 && elements->type != ScalarType::kUint32) {
     return BadMeshFile("indices are no unsigned numbers");
   }
   std::vector<std::uint32_t> indices(elements->count);

@@ -103,8 +103,8 @@ class TileReader {
         continue;
       }
       drawn = true;
-      contents_.push_back({uri->get<std::string>(), *file, Multiply(below.above, up_), open.depth,
-                           tile.value("geometricError", 0.0)});
+      contents_.push_back({Printable(uri->get<std::string>()), *file, Multiply(below.above, up_),
+                           open.depth, tile.value("geometricError", 0.0)});
     }
     if (drawn) ++below.depth;
     return below;

@@ -88,13 +88,15 @@ TEST_P(MeshFormats, EndInAnErrorWhereverTheyAreCut) {
 TEST_P(MeshFormats, StandAnyChangeOfAByte) {
   const std::string whole = GetParam().write(Hills());
   std::uint32_t random = 1;
-  for (int i = 0; i < 400; ++i) {
+  for (int i = 0; i < 200; ++i) {
     std::string changed = whole;
     for (int k = 0; k <= i % 3; ++k) {
       random = random * 1664525U + 1013904223U;
       changed[(random >> 8U) % changed.size()] = static_cast<char>(random >> 4U);
     }
-    const Result<FileMesh> mesh = ReadBytes(GetParam().file, changed);
+    const Result<FileMesh> mesh = ReadBytes(
+        GetParam().file, changed,
+        {.max_points = 1000, .max_triangles = 1000, .max_bytes = std::uintmax_t{1} << 20U});
     if (!mesh) continue;
     for (const auto& t : mesh->triangles) {
       for (const std::uint32_t v : t) {
@@ -114,16 +116,19 @@ TEST_P(MeshFormats, KeepToTheLimits) {
   }
 }
 
-TEST_P(MeshFormats, HaveNoTriangleInAnEmptyMesh) {
-  if (GetParam().name.find("Draco") != std::string::npos ||
-      GetParam().name.find("Meshopt") != std::string::npos) {
-    GTEST_SKIP() << "the encoder refuses";
-  }
-  EXPECT_THAT(Complaint(GetParam().file, GetParam().write({})), HasSubstr("no triangle"));
-}
-
 INSTANTIATE_TEST_SUITE_P(All, MeshFormats, testing::ValuesIn(kFormats),
                          [](const auto& format) { return format.param.name; });
+
+TEST(ReadMesh, SaysThatAnEmptyMeshHasNoTriangle) {
+  for (const auto& [file, bytes] : {std::pair{"a.obj", ObjText({})},
+                                    {"a.ply", PlyText({})},
+                                    {"a.ply", PlyBytes({}, true)},
+                                    {"a.stl", StlText({})},
+                                    {"a.stl", StlBytes({})},
+                                    {"a.glb", GlbBytes(PlainGltf({}))}}) {
+    EXPECT_THAT(Complaint(file, bytes), HasSubstr("no triangle"));
+  }
+}
 
 TEST(ReadMesh, NamesWhatItReadsWhereItCannotTellTheFormat) {
   EXPECT_THAT(Complaint("a.tif", "II*"), HasSubstr("OBJ, PLY, STL"));
