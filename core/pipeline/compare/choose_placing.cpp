@@ -1,11 +1,14 @@
 // Every frame is tried with either axis up on a sample of the mesh (frame_fit.h). Among those in
 // which it lies within the DEM's box, the best is the one whose heights follow the DEM's; others
 // that follow about as well compete with it, except where they cover far less of the DEM: a mesh in
-// posts is also a mesh of a few metres in a corner. Competitors that put the mesh at the same
-// places are one.
+// posts is also a mesh of a few metres in a corner. Frames that differ by little, such as metres
+// over the map and metres in a tangent plane, do not compete: the better one is taken. What cannot
+// be told is whether a mesh is turned or mirrored, where the ground is level or symmetric.
 #include "core/pipeline/compare/choose_placing.h"
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -21,6 +24,8 @@ namespace {
 constexpr double kAsGoodFactor = 1.5;
 constexpr double kAsGoodMargin = 0.05;
 constexpr double kAsMuchCovered = 0.5;
+// A hundred times the root of what double leaves of 1 - correlation^2.
+constexpr double kRounding = 1e-6;
 
 std::string Span(double from, double to) { return Rounded(from, 1) + " to " + Rounded(to, 1); }
 
@@ -40,7 +45,7 @@ std::string AxisText(const MeshPlacing& placing) {
 }
 
 std::string NameOf(const MeshPlacing& placing) {
-  if (placing.frame == MeshFrame::kEcef) return MeshFrameName(placing.frame);
+  if (placing.frame == MeshFrame::kEcef) return "--mesh-frame ecef";
   return std::string("--mesh-frame ") + MeshFrameName(placing.frame) +
          (placing.up == UpAxis::kY ? " --mesh-up y" : " --mesh-up z");
 }
@@ -63,8 +68,9 @@ std::vector<FrameFit> FitAll(const MeshSample& sample, const std::vector<MeshFra
   return fits;
 }
 
-// Those in which the mesh lies on the DEM, and about as well as in the best of them.
-std::vector<FrameFit> Best(const std::vector<FrameFit>& fits) {
+// The fit whose heights follow the DEM's best, first; then those that follow about as well on
+// another plan. None where the mesh lies on the DEM in no frame.
+std::vector<FrameFit> Best(const std::vector<FrameFit>& fits, const Dem& dem) {
   std::vector<FrameFit> best;
   std::ranges::copy_if(fits, std::back_inserter(best), &FrameFit::Lies);
   if (best.empty()) return best;
@@ -74,10 +80,13 @@ std::vector<FrameFit> Best(const std::vector<FrameFit>& fits) {
   });
   const double most = std::ranges::max(best, {}, &FrameFit::coverage).coverage;
   std::erase_if(best, [&](const FrameFit& fit) { return fit.coverage < kAsMuchCovered * most; });
+  // Frames that are one, such as degrees by two names, differ by rounding: the first is taken.
+  std::ranges::stable_sort(
+      best, {}, [](const FrameFit& fit) { return std::round(fit.Misfit() / kRounding); });
   std::vector<FrameFit> apart;
   for (const FrameFit& fit : best) {
-    const bool known =
-        std::ranges::any_of(apart, [&](const FrameFit& other) { return SamePlaces(fit, other); });
+    const bool known = std::ranges::any_of(
+        apart, [&](const FrameFit& other) { return OnOnePlan(fit, other, dem); });
     if (!known) apart.push_back(fit);
   }
   return apart;
@@ -153,10 +162,11 @@ Result<ChosenPlacing> ChoosePlacing(const FileMesh& mesh, const StatedPlacing& s
   const MeshSample sample = SampleOf(mesh);
   const std::vector<FrameFit> fits =
       FitAll(sample, FramesFor(mesh, stated), AxesFor(mesh, stated), stated, input);
-  std::vector<FrameFit> best = Best(fits);
+  std::vector<FrameFit> best = Best(fits, input.dem());
   if (best.empty()) return Elsewhere(mesh, fits, input);
-  if (best.size() > 1 && mesh.frame == FileFrame::kYUp && best.front().placing.up == UpAxis::kY) {
-    std::erase_if(best, [](const FrameFit& fit) { return fit.placing.up == UpAxis::kZ; });
+  const auto y_up = [](const FrameFit& fit) { return fit.placing.up == UpAxis::kY; };
+  if (mesh.frame == FileFrame::kYUp && std::ranges::any_of(best, y_up)) {
+    std::erase_if(best, std::not_fn(y_up));
   }
   if (best.size() > 1) return Ambiguous(best);
   ChosenPlacing chosen;

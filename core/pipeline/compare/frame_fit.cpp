@@ -176,10 +176,10 @@ std::optional<FrameFit> FitFrame(const MeshSample& sample, MeshPlacing placing,
   return fit;
 }
 
-bool SamePlaces(const FrameFit& a, const FrameFit& b) {
-  return std::ranges::equal(a.sample, b.sample, [](const GridPoint& p, const GridPoint& q) {
-    return std::abs(p.column - q.column) < 0.01 && std::abs(p.row - q.row) < 0.01 &&
-           std::abs(p.height_m - q.height_m) < 0.01;
+bool OnOnePlan(const FrameFit& a, const FrameFit& b, const Dem& dem) {
+  const double most = 0.03 * std::max(dem.columns, dem.rows);
+  return std::ranges::equal(a.sample, b.sample, [most](const GridPoint& p, const GridPoint& q) {
+    return std::hypot(p.column - q.column, p.row - q.row) <= most;
   });
 }
 

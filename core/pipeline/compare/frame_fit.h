@@ -42,8 +42,8 @@ MeshSample SampleOf(const FileMesh& mesh);
 std::optional<FrameFit> FitFrame(const MeshSample& sample, MeshPlacing placing,
                                  const TerrainInput& input);
 
-/// Whether two placings put the sample at the same places, within a hundredth of a cell and a
-/// centimetre.
-bool SamePlaces(const FrameFit& a, const FrameFit& b);
+/// Whether two placings put the sample at about the same places in plan, within 3 % of the DEM's
+/// longer side: on one plan, that is, and not turned or mirrored.
+bool OnOnePlan(const FrameFit& a, const FrameFit& b, const Dem& dem);
 
 }  // namespace farhorizon

@@ -119,7 +119,8 @@ TEST(ChoosePlacing, AsksWhereHeightsCannotTell) {
   EXPECT_EQ(chosen.error().kind, "mesh-frame");
   EXPECT_EQ(chosen.error().code, ErrorCode::kInvalidArgument);
   EXPECT_THAT(chosen.error().message,
-              HasSubstr("--mesh-frame posts --mesh-up z, or --mesh-frame posts-up --mesh-up z"));
+              HasSubstr("--mesh-frame posts --mesh-up z, or --mesh-frame posts-up --mesh-up z"))
+      << "level ground does not tell where north is";
   const auto stated =
       ChoosePlacing(AsFile(flat.InPosts()), {.frame = MeshFrame::kPosts}, flat.input());
   ASSERT_TRUE(stated) << stated.error().message;
