@@ -106,7 +106,10 @@ std::string DrawPair(const SkylinePair& pair, double top) {
       most = std::max(most, height);
     }
     const double off = pair.mesh_m[i] - pair.dem_m[i];
-    if (std::isfinite(off)) greatest = std::max(greatest, std::abs(off));
+    // What grazes the outline, where a skyline ends in a cliff, does not set the scale.
+    const std::size_t rim = pair.dem_m.size() / 100;
+    const bool within = i >= rim && i + rim < pair.dem_m.size();
+    if (std::isfinite(off) && within) greatest = std::max(greatest, std::abs(off));
     above.push_back(std::isfinite(off) ? std::max(off, 0.0) : off);
     below.push_back(std::isfinite(off) ? std::min(off, 0.0) : off);
   }
@@ -116,7 +119,9 @@ std::string DrawPair(const SkylinePair& pair, double top) {
   const auto y = [&](double height) { return bottom - (height - least) / range * kSkyline; };
   const double zero = bottom + 8 + kDifference / 2;
   const double scale = greatest > 0 ? kDifference / 2 / greatest : 0;
-  const auto difference = [&](double off) { return zero - off * scale; };
+  const auto difference = [&](double off) {
+    return zero - std::clamp(off, -greatest, greatest) * scale;
+  };
   const double width = pair.offsets_m.back() - pair.offsets_m.front();
   std::string text = PathTag("dem", AreaOf(pair.dem_m, bottom, y));
   text += PathTag("demline", PathOf(pair.dem_m, y));
@@ -132,7 +137,9 @@ std::string DrawPair(const SkylinePair& pair, double top) {
   std::string told = "towards " + Rounded(pair.azimuth_deg, 1) + " degrees, " + Rounded(width, 0) +
                      " m wide, heights drawn " + Rounded(kSkyline / range / (kWidth / width), 1) +
                      " times as large";
-  if (scale > 0) told += "; the difference " + Rounded(scale * range / kSkyline, 1) + " times more";
+  if (scale > 0) {
+    told += "; the difference enlarged " + Rounded(scale * range / kSkyline, 1) + " times more";
+  }
   return text + Text(kLeft, top - 8, told);
 }
 

@@ -114,7 +114,7 @@ Result<FileMesh> ReadDracoMesh(std::span<const std::uint8_t> bytes,
     const draco::Mesh::Face& face = mesh->face(draco::FaceIndex(i));
     result.triangles[i] = {face[0].value(), face[1].value(), face[2].value()};
   }
-  ApplyLattice(*mesh, result);
+  if (!position) ApplyLattice(*mesh, result);
   return result;
 }
 

@@ -24,6 +24,9 @@ namespace {
 constexpr double kAsGoodFactor = 1.5;
 constexpr double kAsGoodMargin = 0.05;
 constexpr double kAsMuchCovered = 0.5;
+constexpr double kFollows = 0.5;
+constexpr double kClearly = 1.25;
+constexpr double kClearMargin = 0.01;
 // A hundred times the root of what double leaves of 1 - correlation^2.
 constexpr double kRounding = 1e-6;
 
@@ -41,6 +44,7 @@ std::string BoxOf(const Dem& dem) {
 }
 
 std::string AxisText(const MeshPlacing& placing) {
+  if (placing.frame == MeshFrame::kEcef) return "";
   return placing.up == UpAxis::kY ? ", y up" : ", z up";
 }
 
@@ -50,22 +54,35 @@ std::string NameOf(const MeshPlacing& placing) {
          (placing.up == UpAxis::kY ? " --mesh-up y" : " --mesh-up z");
 }
 
+// What may be tried.
+struct Choice {
+  std::vector<MeshFrame> frames;
+  std::vector<UpAxis> axes;
+  double height_offset_m;
+};
+
 // The fits of all frames that may be, in which the sample has a place.
-std::vector<FrameFit> FitAll(const MeshSample& sample, const std::vector<MeshFrame>& frames,
-                             const std::vector<UpAxis>& axes, const StatedPlacing& stated,
+std::vector<FrameFit> FitAll(const MeshSample& sample, const Choice& choice, Extent extent,
                              const TerrainInput& input) {
   const auto [column_m, row_m] = NominalSteps(input);
   std::vector<FrameFit> fits;
-  for (const UpAxis up : axes) {
-    for (const MeshFrame frame : frames) {
+  for (const UpAxis up : choice.axes) {
+    for (const MeshFrame frame : choice.frames) {
       // Earth-fixed coordinates have no axis that is up.
-      if (frame == MeshFrame::kEcef && up == UpAxis::kY && axes.size() > 1) continue;
-      std::optional<FrameFit> fit =
-          FitFrame(sample, {frame, up, column_m, row_m, stated.height_offset_m}, input);
+      if (frame == MeshFrame::kEcef && up == UpAxis::kY && choice.axes.size() > 1) continue;
+      std::optional<FrameFit> fit = FitFrame(
+          sample, {frame, up, column_m, row_m, {0, 0}, choice.height_offset_m}, extent, input);
       if (fit) fits.push_back(*std::move(fit));
     }
   }
   return fits;
+}
+
+// What fits are ordered by. Frames that are one, such as degrees by two names, differ by rounding:
+// the first is taken. A box laid on the DEM's must follow clearly better than a frame with a place.
+double Rank(const FrameFit& fit) {
+  const bool laid = fit.extent == Extent::kWhole;
+  return std::round((laid ? kClearly * fit.Misfit() + kClearMargin : fit.Misfit()) / kRounding);
 }
 
 // The fit whose heights follow the DEM's best, first; then those that follow about as well on
@@ -80,9 +97,7 @@ std::vector<FrameFit> Best(const std::vector<FrameFit>& fits, const Dem& dem) {
   });
   const double most = std::ranges::max(best, {}, &FrameFit::coverage).coverage;
   std::erase_if(best, [&](const FrameFit& fit) { return fit.coverage < kAsMuchCovered * most; });
-  // Frames that are one, such as degrees by two names, differ by rounding: the first is taken.
-  std::ranges::stable_sort(
-      best, {}, [](const FrameFit& fit) { return std::round(fit.Misfit() / kRounding); });
+  std::ranges::stable_sort(best, {}, Rank);
   std::vector<FrameFit> apart;
   for (const FrameFit& fit : best) {
     const bool known = std::ranges::any_of(
@@ -160,9 +175,22 @@ std::vector<UpAxis> AxesFor(const FileMesh& mesh, const StatedPlacing& stated) {
 Result<ChosenPlacing> ChoosePlacing(const FileMesh& mesh, const StatedPlacing& stated,
                                     const TerrainInput& input) {
   const MeshSample sample = SampleOf(mesh);
-  const std::vector<FrameFit> fits =
-      FitAll(sample, FramesFor(mesh, stated), AxesFor(mesh, stated), stated, input);
-  std::vector<FrameFit> best = Best(fits, input.dem());
+  const Choice choice = {FramesFor(mesh, stated), AxesFor(mesh, stated), stated.height_offset_m};
+  const std::vector<FrameFit> fits = FitAll(sample, choice, Extent::kStated, input);
+  // Cells of another size than the DEM's, such as squares for degrees, or another origin: heights
+  // must tell, or the call.
+  Choice from_corner = choice;
+  std::erase_if(from_corner.frames, [](MeshFrame frame) {
+    return frame != MeshFrame::kCorner && frame != MeshFrame::kCornerDown;
+  });
+  std::vector<FrameFit> laid = FitAll(sample, from_corner, Extent::kWhole, input);
+  std::erase_if(laid, [&](const FrameFit& fit) {
+    return fit.extent != Extent::kWhole || (!stated.frame && fit.Misfit() > kFollows);
+  });
+  std::vector<FrameFit> all = fits;
+  const bool placed = stated.frame && std::ranges::any_of(fits, &FrameFit::Lies);
+  if (!placed) all.insert(all.end(), laid.begin(), laid.end());
+  std::vector<FrameFit> best = Best(all, input.dem());
   if (best.empty()) return Elsewhere(mesh, fits, input);
   const auto y_up = [](const FrameFit& fit) { return fit.placing.up == UpAxis::kY; };
   if (mesh.frame == FileFrame::kYUp && std::ranges::any_of(best, y_up)) {
@@ -174,12 +202,11 @@ Result<ChosenPlacing> ChoosePlacing(const FileMesh& mesh, const StatedPlacing& s
   const bool by_file = mesh.frame == FileFrame::kEcef || mesh.frame == FileFrame::kTile;
   chosen.assumed = !by_file && !(stated.frame && stated.up);
   chosen.text = "the mesh's coordinates are " + std::string(chosen.assumed ? "taken for " : "") +
-                MeshFrameMeaning(chosen.placing.frame) +
-                (chosen.placing.frame == MeshFrame::kEcef ? "" : AxisText(chosen.placing));
+                MeshFrameMeaning(chosen.placing.frame) + AxisText(chosen.placing);
   const auto [column_m, row_m] = NominalSteps(input);
   const MeshPlacing& p = chosen.placing;
   if (p.column_m != 1 && (p.column_m != column_m || p.row_m != row_m)) {
-    chosen.text += ", stretched from side to side: a cell is " + Rounded(p.column_m, 3) + " x " +
+    chosen.text += ", reaching from side to side: a cell is " + Rounded(p.column_m, 3) + " x " +
                    Rounded(p.row_m, 3) + " of its metres";
   }
   if (chosen.assumed) chosen.text += ", in which it fits the DEM; --mesh-frame states it otherwise";

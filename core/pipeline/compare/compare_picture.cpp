@@ -38,9 +38,10 @@ class Across {
 // Greatest heights over lines at regular offsets.
 class Skyline {
  public:
+  // Lines in the middles of equal parts: the outermost graze no outline.
   Skyline(double from, double to)
-      : from_(from),
-        step_((to - from) / (kLines - 1)),
+      : from_(from + (to - from) / kLines / 2),
+        step_((to - from) / kLines),
         heights_(kLines, -std::numeric_limits<double>::infinity()) {}
 
   void Add(std::array<double, 2> a, std::array<double, 2> b) {  // offset, height

@@ -69,25 +69,59 @@ double CorrelationWithDem(const std::vector<GridPoint>& corners, const Dem& dem)
   return moments.Correlation();
 }
 
-// For frames in metres from a corner or the middle: the step that makes the mesh reach from side to
-// side, where that is within 2 % of the nominal step but more than half a cell off. Degrees have
-// metres of several makes: at one latitude, on a sphere, rounded.
-void FitSteps(const FilePoint& least, const FilePoint& most, const Dem& dem, MeshPlacing& placing) {
-  const bool counted = placing.frame == MeshFrame::kCorner ||
-                       placing.frame == MeshFrame::kCornerDown ||
-                       placing.frame == MeshFrame::kCentre;
-  if (!counted) {
-    placing.column_m = placing.row_m = 1;
-    return;
-  }
-  const auto fit = [](double extent, double cells, double step) {
-    const double off = extent - cells * step;
-    return std::abs(off) > 0.5 * step && std::abs(off) < 0.02 * cells * step ? extent / cells
-                                                                             : step;
+bool IsCounted(MeshFrame frame) {
+  return frame == MeshFrame::kCorner || frame == MeshFrame::kCornerDown ||
+         frame == MeshFrame::kCentre;
+}
+
+// The share by which a step may differ from the nominal one. Degrees have metres of several makes:
+// at one latitude, on a sphere, rounded.
+constexpr double kSameStep = 0.02;
+
+// Sets the steps of frames in metres from a corner or the middle: those that make the mesh reach
+// from side to side, where they are near the nominal ones. A map's own steps stay, unless they are
+// off by half a cell from side to side. least, most: the mesh's box, z up.
+void FitSteps(const FilePoint& least, const FilePoint& most, const TerrainInput& input,
+              MeshPlacing& placing) {
+  const double slack = input.georeference().FullTurn() > 0 ? 0 : 0.5;
+  const auto fit = [slack](double extent, double cells, double step) {
+    const double off = std::abs(extent - cells * step);
+    return off > slack * step && off < kSameStep * cells * step ? extent / cells : step;
   };
-  const std::size_t y = placing.up == UpAxis::kZ ? 1 : 2;
-  placing.column_m = fit(most[0] - least[0], dem.columns - 1, placing.column_m);
-  placing.row_m = fit(most[y] - least[y], dem.rows - 1, placing.row_m);
+  placing.column_m = fit(most[0] - least[0], input.dem().columns - 1, placing.column_m);
+  placing.row_m = fit(most[1] - least[1], input.dem().rows - 1, placing.row_m);
+}
+
+// Lays the mesh's box on the DEM's, whatever its size and its origin.
+void FitBox(const FilePoint& least, const FilePoint& most, const Dem& dem, MeshPlacing& placing) {
+  placing.column_m = (most[0] - least[0]) / (dem.columns - 1);
+  placing.row_m = (most[1] - least[1]) / (dem.rows - 1);
+  placing.origin = {least[0], least[1]};
+}
+
+// What was taken of the two extents: only frames from a corner can be laid on the DEM.
+Extent FitCounted(const MeshSample& sample, Extent extent, const TerrainInput& input,
+                  MeshPlacing& placing) {
+  if (!IsCounted(placing.frame)) {
+    placing.column_m = placing.row_m = 1;
+    return Extent::kStated;
+  }
+  FilePoint least = ZUp(sample.extremes.front(), placing.up);
+  FilePoint most = least;
+  for (const FilePoint& point : sample.extremes) {
+    const FilePoint p = ZUp(point, placing.up);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      least[axis] = std::min(least[axis], p[axis]);
+      most[axis] = std::max(most[axis], p[axis]);
+    }
+  }
+  const bool flat = most[0] == least[0] || most[1] == least[1];
+  if (extent == Extent::kWhole && placing.frame != MeshFrame::kCentre && !flat) {
+    FitBox(least, most, input.dem(), placing);
+    return Extent::kWhole;
+  }
+  FitSteps(least, most, input, placing);
+  return Extent::kStated;
 }
 
 // Whether coordinates of this size can be of the frame at all: PROJ takes degrees modulo a turn.
@@ -131,23 +165,18 @@ MeshSample SampleOf(const FileMesh& mesh) {
   return sample;
 }
 
-std::optional<FrameFit> FitFrame(const MeshSample& sample, MeshPlacing placing,
+std::optional<FrameFit> FitFrame(const MeshSample& sample, MeshPlacing placing, Extent extent,
                                  const TerrainInput& input) {
   if (!Plausible(sample, placing)) return std::nullopt;
-  FilePoint least{};
-  FilePoint most{};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    least[axis] = sample.extremes[2 * axis][axis];
-    most[axis] = sample.extremes[2 * axis + 1][axis];
-  }
   const Dem& dem = input.dem();
-  FitSteps(least, most, dem, placing);
+  extent = FitCounted(sample, extent, input, placing);
   std::vector<FilePoint> points = sample.corners;
   points.insert(points.end(), sample.extremes.begin(), sample.extremes.end());
   Result<std::vector<GridPoint>> placed = PlaceOnGrid(points, placing, input);
   if (!placed) return std::nullopt;
   FrameFit fit;
   fit.placing = placing;
+  fit.extent = extent;
   fit.sample = *std::move(placed);
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   fit.least = {kInfinity, kInfinity, kInfinity};

@@ -9,6 +9,10 @@
 
 namespace farhorizon {
 
+/// What is taken of a mesh in metres from a corner: kStated: its cells are the DEM's and it is
+/// counted from there; kWhole: it reaches over the whole DEM, whatever its cells and its origin.
+enum class Extent { kStated, kWhole };
+
 /// How a mesh lies on the DEM under one placing, by a sample of its triangles.
 ///
 /// least, greatest: the box of the mesh, columns, rows, metres. inside: the share of sampled
@@ -17,6 +21,7 @@ namespace farhorizon {
 ///   area in plan; 1 where both are level, 0 where one is, or nothing can be compared.
 struct FrameFit {
   MeshPlacing placing;
+  Extent extent = Extent::kStated;
   GridPoint least;
   GridPoint greatest;
   double inside = 0;
@@ -39,7 +44,7 @@ struct MeshSample {
 MeshSample SampleOf(const FileMesh& mesh);
 
 /// nullopt where a point of the sample has no place in the DEM's reference system.
-std::optional<FrameFit> FitFrame(const MeshSample& sample, MeshPlacing placing,
+std::optional<FrameFit> FitFrame(const MeshSample& sample, MeshPlacing placing, Extent extent,
                                  const TerrainInput& input);
 
 /// Whether two placings put the sample at about the same places in plan, within 3 % of the DEM's

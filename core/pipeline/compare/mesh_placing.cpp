@@ -7,18 +7,14 @@ namespace farhorizon {
 
 namespace {
 
-FilePoint ZUp(const FilePoint& p, UpAxis up) {
-  return up == UpAxis::kZ ? p : FilePoint{p[0], -p[2], p[1]};
-}
-
 // A point of a frame that is a stretched and moved grid.
 GridPoint OnGrid(const FilePoint& p, const MeshPlacing& placing, const Dem& dem) {
   const GeoTransform& map = dem.transform;
   const double columns = dem.columns - 1;
   const double rows = dem.rows - 1;
   // Counted along the map's x, and against its y.
-  const double east = p[0] / placing.column_m;
-  const double south = p[1] / placing.row_m;
+  const double east = (p[0] - placing.origin[0]) / placing.column_m;
+  const double south = (p[1] - placing.origin[1]) / placing.row_m;
   const auto column = [&](double x) { return map.step_x > 0 ? x : columns - x; };
   const auto row = [&](double y) { return map.step_y < 0 ? y : rows - y; };
   switch (placing.frame) {
@@ -65,6 +61,10 @@ Result<std::vector<Enu>> OnGlobe(const std::vector<FilePoint>& points, const Mes
 }
 
 }  // namespace
+
+FilePoint ZUp(const FilePoint& p, UpAxis up) {
+  return up == UpAxis::kZ ? p : FilePoint{p[0], -p[2], p[1]};
+}
 
 std::array<double, 2> NominalSteps(const TerrainInput& input) {
   const Georeference& georeference = input.georeference();

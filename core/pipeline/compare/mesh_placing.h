@@ -12,15 +12,19 @@ namespace farhorizon {
 
 /// How the coordinates of a file's mesh become columns, rows and heights.
 ///
-/// column_m, row_m: what a step of the DEM is in the file, for the frames in metres from a corner
-///   or the middle. height_offset_m: is added to the heights.
+/// column_m, row_m: what a step of the DEM is in the file, and origin: where its corner or middle
+///   is, for the frames in metres from there. height_offset_m: is added to the heights.
 struct MeshPlacing {
   MeshFrame frame = MeshFrame::kCrs;
   UpAxis up = UpAxis::kZ;
   double column_m = 1;
   double row_m = 1;
+  std::array<double, 2> origin = {0, 0};
   double height_offset_m = 0;
 };
+
+/// The point with z up.
+FilePoint ZUp(const FilePoint& p, UpAxis up);
 
 /// The steps of a DEM in metres, for frames that are counted in them: those of its map where that
 /// is no map of degrees, otherwise those on the ground in its middle.

@@ -1,7 +1,7 @@
 #include "core/pipeline/compare/terrain_height.h"
 
 #include <algorithm>
-#include <cmath>
+#include <utility>
 
 namespace farhorizon {
 
@@ -17,11 +17,16 @@ std::optional<double> TerrainHeightAt(const Dem& dem, double column, double row)
   const VertexId first = r * dem.columns + c;
   const VertexId last = first + dem.columns + 1;
   const VertexId third = x >= y ? first + 1 : first + dem.columns;
-  if (!dem.HasData(first) || !dem.HasData(last) || !dem.HasData(third)) return std::nullopt;
-  const double a = dem.HeightM(first);
-  const double b = dem.HeightM(third);
-  const double d = dem.HeightM(last);
-  return x >= y ? a + (b - a) * x + (d - b) * y : a + (b - a) * y + (d - b) * x;
+  // A corner without weight need not be there.
+  double height = 0;
+  for (const auto& [v, weight] : {std::pair{first, 1 - std::max(x, y)},
+                                  {third, std::max(x, y) - std::min(x, y)},
+                                  {last, std::min(x, y)}}) {
+    if (weight == 0) continue;
+    if (!dem.HasData(v)) return std::nullopt;
+    height += weight * dem.HeightM(v);
+  }
+  return height;
 }
 
 }  // namespace farhorizon

@@ -74,6 +74,23 @@ TEST_F(ChoosePlacingTest, FindsEveryFrameWithEitherAxisUp) {
   EXPECT_EQ(Chosen(AsFile(dem_.InEcef())), "ecef");
 }
 
+TEST_F(ChoosePlacingTest, StretchesCellsOfAnotherSizeWhereHeightsTell) {
+  const PlainMesh squares = dem_.In([](double c, double r, double h) -> FilePoint {
+    return {c * 30, (kLastRow - r) * 30, h};
+  });
+  EXPECT_EQ(Chosen(AsFile(squares)), "corner");
+  EXPECT_EQ(Chosen(AsFile(YUp(squares))), "corner y");
+  const auto chosen = ChoosePlacing(AsFile(squares), {}, dem_.input());
+  EXPECT_THAT(chosen->text, HasSubstr("a cell is 30 x 30 of its metres"));
+  // From anywhere: as three.js lays out a grid, rows along z from the first one.
+  const PlainMesh scene = dem_.In([](double c, double r, double h) -> FilePoint {
+    return {7 + c * 2, h, r * 2 - 11};
+  });
+  EXPECT_EQ(Chosen(AsFile(scene)), "corner y");
+  EXPECT_EQ(Chosen(AsFile(scene), {.frame = MeshFrame::kCorner, .up = UpAxis::kY}),
+            "corner y, stated");
+}
+
 TEST_F(ChoosePlacingTest, TakesTheWordOfTheFileAndOfTheCall) {
   EXPECT_EQ(Chosen(AsFile(dem_.InEcef(), FileFrame::kEcef)), "ecef, stated");
   EXPECT_EQ(Chosen(AsFile(dem_.InTileFrame(), FileFrame::kTile)), "tile, stated");
@@ -102,8 +119,8 @@ TEST_F(ChoosePlacingTest, SaysWhereAMeshIsThatLiesElsewhere) {
   for (auto& p : east.points) p[1] += 10'000;
   const std::string far = Chosen(AsFile(east, FileFrame::kEcef));
   EXPECT_THAT(far, HasSubstr("mesh-elsewhere"));
-  // Longitude 7: almost all of y is east.
-  EXPECT_THAT(far, HasSubstr("its middle is 9925."));
+  // At longitude 7 almost all of y is east.
+  EXPECT_THAT(far, HasSubstr("its middle is 9920."));
   const std::string unplaced = Chosen(AsFile(dem_.In([](double c, double r, double h) -> FilePoint {
     return {c * 1e9, r * 1e9, h};
   })));
