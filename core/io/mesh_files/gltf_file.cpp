@@ -7,21 +7,18 @@
 #include <utility>
 
 #include "core/io/glb_container.h"
-#include "core/io/mesh_files/draco_file.h"
 #include "core/io/mesh_files/gltf_buffers.h"
 #include "core/io/mesh_files/gltf_json.h"
+#include "core/io/mesh_files/gltf_primitive.h"
 #include "core/io/mesh_files/placing_matrix.h"
 
 namespace farhorizon {
 
 namespace {
 
-constexpr char kDraco[] = "KHR_draco_mesh_compression";
-constexpr std::uint64_t kTriangles = 4;  // the `mode` of a primitive; 5: strip, 6: fan
-
 // Extensions that move no point, or are handled here.
 bool IsKnown(std::string_view extension) {
-  constexpr std::string_view kHandled[] = {kDraco, "EXT_meshopt_compression",
+  constexpr std::string_view kHandled[] = {kGltfDraco, "EXT_meshopt_compression",
                                            "KHR_mesh_quantization",
                                            "EXT_mesh_primitive_edge_visibility"};
   constexpr std::string_view kOfLooks[] = {"KHR_materials_",
@@ -45,25 +42,6 @@ Status CheckExtensions(const MeshJson& json) {
                        ", which is not known here");
   }
   return Ok{};
-}
-
-// The triangles of indices in a mode of glTF.
-void AddTriangles(const std::vector<std::uint32_t>& indices, std::uint64_t mode, FileMesh& mesh) {
-  if (mode == kTriangles) {
-    for (std::size_t i = 2; i < indices.size(); i += 3) {
-      mesh.triangles.push_back({indices[i - 2], indices[i - 1], indices[i]});
-    }
-    return;
-  }
-  for (std::size_t i = 2; i < indices.size(); ++i) {
-    if (mode == kTriangles + 2) {
-      mesh.triangles.push_back({indices[0], indices[i - 1], indices[i]});
-    } else {
-      const bool odd = i % 2 == 1;
-      mesh.triangles.push_back(
-          {indices[odd ? i - 1 : i - 2], indices[odd ? i - 2 : i - 1], indices[i]});
-    }
-  }
 }
 
 PlacingMatrix MatrixOfNode(const MeshJson& node) {
@@ -149,12 +127,11 @@ class SceneReader {
   }
 
   Status AddPrimitive(const MeshJson& primitive, const PlacingMatrix& placing) {
-    const std::uint64_t mode = CountOr(primitive, "mode", kTriangles);
-    if (mode < kTriangles || mode > kTriangles + 2) {
+    if (!HasTriangles(primitive)) {
       ++others_;
       return Ok{};
     }
-    Result<FileMesh> part = PartOf(primitive, mode);
+    Result<FileMesh> part = ReadPrimitive(primitive, buffers_, limits_);
     if (!part) return std::move(part.error());
     if (Status few = CheckCounts(mesh_.points.size() + part->points.size(),
                                  mesh_.triangles.size() + part->triangles.size(), limits_);
@@ -174,34 +151,6 @@ class SceneReader {
       mesh_.triangles.push_back({first + t[0], first + t[1], first + t[2]});
     }
     return Ok{};
-  }
-
-  Result<FileMesh> PartOf(const MeshJson& primitive, std::uint64_t mode) {
-    const MeshJson* extensions = Member(primitive, "extensions");
-    if (const MeshJson* draco = extensions == nullptr ? nullptr : Member(*extensions, kDraco)) {
-      Result<GltfBuffers::View> view = buffers_.ViewOf(CountIn(draco->at("bufferView")));
-      if (!view) return std::move(view.error());
-      Result<FileMesh> decoded = ReadDracoMesh(
-          view->bytes, static_cast<std::uint32_t>(CountIn(draco->at("attributes").at("POSITION"))),
-          limits_);
-      return decoded;
-    }
-    FileMesh part;
-    const MeshJson* position = Member(primitive.at("attributes"), "POSITION");
-    if (position == nullptr) return part;
-    Result<std::vector<FilePoint>> points = buffers_.Points(CountIn(*position));
-    if (!points) return std::move(points.error());
-    part.points = *std::move(points);
-    if (const MeshJson* accessor = Member(primitive, "indices")) {
-      Result<std::vector<std::uint32_t>> indices = buffers_.Indices(CountIn(*accessor));
-      if (!indices) return std::move(indices.error());
-      AddTriangles(*indices, mode, part);
-      return part;
-    }
-    std::vector<std::uint32_t> indices(part.points.size());
-    for (std::uint32_t i = 0; i < indices.size(); ++i) indices[i] = i;
-    AddTriangles(indices, mode, part);
-    return part;
   }
 
   const MeshJson& json_;

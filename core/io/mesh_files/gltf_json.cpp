@@ -9,12 +9,12 @@ namespace farhorizon {
 namespace {
 
 constexpr int kMaxDepth = 64;
-constexpr std::size_t kMaxText = std::size_t{256} << 20U;
+constexpr std::size_t kMaxText = std::size_t{64} << 20U;
 
 }  // namespace
 
 Result<MeshJson> ParseMeshJson(std::string_view text) {
-  if (text.size() > kMaxText) return BadMeshFile("its JSON has more than 256 MiB");
+  if (text.size() > kMaxText) return BadMeshFile("its JSON has more than 64 MiB");
   bool too_deep = false;
   const auto visit = [&](int depth, MeshJson::parse_event_t /*event*/, MeshJson& /*value*/) {
     too_deep = too_deep || depth > kMaxDepth;

@@ -17,7 +17,7 @@ namespace farhorizon {
 using MeshJson = nlohmann::json;
 
 /// Parses `text`. Errors: "bad-mesh-file" where it is no JSON, more than 64 deep (nlohmann's
-/// destructor recurses), or longer than 256 MiB.
+/// destructor recurses), or longer than 64 MiB (numbers take eight times the memory).
 Result<MeshJson> ParseMeshJson(std::string_view text);
 
 /// A number from 0 to 2^53, without a fraction. Throws nlohmann::json::exception where `value` is

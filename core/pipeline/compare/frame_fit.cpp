@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/pipeline/compare/terrain_height.h"
+#include "core/pipeline/compare/weighted_correlation.h"
 
 namespace farhorizon {
 
@@ -21,37 +22,9 @@ double PlanArea(const GridPoint& a, const GridPoint& b, const GridPoint& c) {
                         (b.row - a.row) * (c.column - a.column));
 }
 
-// Sums for a weighted correlation of x with y.
-struct Moments {
-  double weight = 0;
-  double x = 0;
-  double y = 0;
-  double xx = 0;
-  double xy = 0;
-  double yy = 0;
-
-  void Add(double w, double at, double value) {
-    weight += w;
-    x += w * at;
-    y += w * value;
-    xx += w * at * at;
-    xy += w * at * value;
-    yy += w * value * value;
-  }
-  [[nodiscard]] double Correlation() const {
-    if (weight == 0) return 0;
-    const double var_x = xx / weight - x / weight * (x / weight);
-    const double var_y = yy / weight - y / weight * (y / weight);
-    // A millimetre of relief, or what sums of squares leave of large heights, is level ground.
-    const double level = 1e-6 + 1e-12 * (xx + yy) / weight;
-    if (var_x <= level || var_y <= level) return var_x <= level && var_y <= level ? 1 : 0;
-    return (xy / weight - x / weight * (y / weight)) / std::sqrt(var_x * var_y);
-  }
-};
-
 // The heights are taken from about the DEM's middle height, so that squares stay small.
 double CorrelationWithDem(const std::vector<GridPoint>& corners, const Dem& dem) {
-  Moments moments;
+  WeightedCorrelation sums;
   double about = 0;
   bool known = false;
   for (std::size_t i = 2; i < corners.size(); i += 3) {
@@ -63,10 +36,10 @@ double CorrelationWithDem(const std::vector<GridPoint>& corners, const Dem& dem)
     if (!ground) continue;
     if (!known) about = *ground;
     known = true;
-    moments.Add(PlanArea(a, b, c), *ground - about,
-                (a.height_m + b.height_m + c.height_m) / 3 - about);
+    sums.Add(PlanArea(a, b, c), *ground - about,
+             (a.height_m + b.height_m + c.height_m) / 3 - about);
   }
-  return moments.Correlation();
+  return sums.Value();
 }
 
 bool IsCounted(MeshFrame frame) {

@@ -13,7 +13,10 @@ namespace {
 // Rounding of vertices moves a rim by hundredths of a cell: posts that close to a triangle are
 // covered by it.
 constexpr double kRim = 0.05;
+// Work is bounded: a surface covers the plan once, and its triangles have a few rows each, those of
+// a fan all of them. The latter number of steps takes half a minute.
 constexpr double kMostLayers = 64;
+constexpr double kMostRows = 4e9;
 // Steeper than this, a rise of 10 km over a metre, is no ground.
 constexpr double kWallShare = 1e-4;
 
@@ -139,18 +142,21 @@ std::int64_t DropSkirts(GridMesh& mesh, double cell_m) {
 }
 
 Result<std::vector<double>> HeightsOverPosts(const GridMesh& mesh, const Dem& dem) {
-  double boxes = 0;
+  double posts = 0;  // that are looked at, about
+  double rows = 0;
   for (const auto& triangle : mesh.triangles) {
     const Corners t(mesh, triangle);
-    const double rows = std::min(t.MostRow(), dem.rows - 1.0) - std::max(t.LeastRow(), 0.0);
-    const double columns =
-        std::min(t.MostColumn(), dem.columns - 1.0) - std::max(t.LeastColumn(), 0.0);
-    boxes += std::max(rows, 0.0) * std::max(columns, 0.0);
+    const double height =
+        std::max(std::min(t.MostRow(), dem.rows - 1.0) - std::max(t.LeastRow(), 0.0), 0.0);
+    const double width =
+        std::max(std::min(t.MostColumn(), dem.columns - 1.0) - std::max(t.LeastColumn(), 0.0), 0.0);
+    posts += std::min(std::abs(t.Turn()) / 2, width * height);
+    rows += height;
   }
-  if (boxes > kMostLayers * (dem.columns - 1.0) * (dem.rows - 1.0)) {
+  if (posts > kMostLayers * dem.columns * dem.rows || rows > kMostRows) {
     return Error{ErrorCode::kUnsupportedData,
-                 "the triangles' boxes cover the DEM more than 64 times; is this a surface over "
-                 "the ground?",
+                 "the triangles cover the DEM more than 64 times, or run all over it; is this a "
+                 "surface over the ground?",
                  "overlap"};
   }
   std::vector<double> heights(

@@ -19,8 +19,8 @@ bool TurnCounterClockwise(GridMesh& mesh);
 std::int64_t DropSkirts(GridMesh& mesh, double cell_m);
 
 /// The height of a mesh at each post of a DEM, metres; NaN where the mesh does not cover it.
-/// Errors: kUnsupportedData, kind "overlap", where the triangles' boxes cover the DEM more than 64
-///   times: work would have no bound.
+/// Errors: kUnsupportedData, kind "overlap", where triangles cover the DEM more than 64 times, or
+///   have 4e9 rows of it in all: work would have no bound.
 /// Cost: O(posts + triangles) for meshes that cover the plan once.
 Result<std::vector<double>> HeightsOverPosts(const GridMesh& mesh, const Dem& dem);
 

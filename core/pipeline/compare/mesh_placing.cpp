@@ -3,6 +3,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/geo/ellipsoid_normal.h"
+
 namespace farhorizon {
 
 namespace {
@@ -40,12 +42,9 @@ GridPoint OnGrid(const FilePoint& p, const MeshPlacing& placing, const Dem& dem)
 
 // The point by so much higher along the normal of the ellipsoid.
 Enu Raised(const Enu& p, double height_m, const TangentFrame& frame) {
-  if (height_m == 0) return p;
-  constexpr double kOneLessE2 = 1 - 0.00669437999014;  // WGS 84
-  const Ecef at = frame.ToEcef(p);
-  const Ecef normal = {at.x, at.y, at.z / kOneLessE2};
-  const double share = height_m / std::hypot(normal.x, normal.y, normal.z);
-  return frame.ToEnu({at.x + share * normal.x, at.y + share * normal.y, at.z + share * normal.z});
+  const Enu up = EllipsoidNormal(p, frame);
+  const double share = height_m / std::hypot(up.east, up.north, up.up);
+  return {p.east + share * up.east, p.north + share * up.north, p.up + share * up.up};
 }
 
 Result<std::vector<Enu>> OnGlobe(const std::vector<FilePoint>& points, const MeshPlacing& placing,
