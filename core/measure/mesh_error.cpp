@@ -29,7 +29,6 @@ Error BadMesh(const std::string& what, ErrorKind kind) {
 
 // The greatest distances of vertices from their posts.
 struct Displacement {
-  double greatest = 0;   // in plan, columns or rows
   double by_column = 0;  // along each axis, columns or rows
   double by_row = 0;
   double greatest_m = 0;  // in height
@@ -57,7 +56,6 @@ Result<Displacement> MeasureDisplacement(const Terrain& terrain, const GridMesh&
                          " cells away from its post; half a cell is the most that can be measured",
                      "displaced-vertex");
     }
-    displacement.greatest = std::max(displacement.greatest, off);
     displacement.by_column =
         std::max(displacement.by_column, std::abs(p.column - terrain.dem().Column(v)));
     displacement.by_row = std::max(displacement.by_row, std::abs(p.row - terrain.dem().Row(v)));
@@ -179,7 +177,6 @@ Result<MeshError> MeasureMeshError(const Terrain& terrain, const Horizon& horizo
   }
 
   MeshError error;
-  error.displacement = displacement->greatest;
   error.vertical = VerticalError(terrain, mesh);
   control.Report(Stage::kMeasure, 0.05);
   error.silhouette.rms_m = RmsOverLines(SkylineOf(terrain, horizon), SidesOf(mesh),
