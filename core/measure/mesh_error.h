@@ -106,25 +106,13 @@ class MeshMeasurer {
 
   /// Errors: kUnsupportedData where a triangle names a point that the mesh does not have, a point
   ///   is not finite, or the mesh covers no post; kCancelled.
-  /// Cost: near one pass over posts, triangles and sampled lines; bounded on any input.
-  [[nodiscard]] Result<MeshError> Measure(const PlacedMesh& mesh, const RunControl& control) const;
+  /// Cost: near one pass over posts, triangles and sampled lines; bounded on any input. The first
+  ///   call also samples the DEM.
+  [[nodiscard]] Result<MeshError> Measure(const PlacedMesh& mesh, const RunControl& control);
 
  private:
   struct Dem;
   std::unique_ptr<Dem> dem_;
 };
-
-/// Whether a level covers its DEM: every vertex is within half a cell of its post, no triangle is
-/// flipped, nothing overlaps, there is no hole and no T-junction, and the mesh ends where the
-/// terrain ends. posts: of each point of the mesh.
-/// Errors: kUnsupportedData with the first fault: kinds "unnamed-points", "unknown-post",
-///   "displaced-vertex", "unknown-point", "flipped-triangle", "overlap", "hole".
-Status CheckCovers(const Terrain& terrain, const GridMesh& mesh,
-                   const std::vector<VertexId>& posts);
-
-/// What MeshMeasurer replaces: of a level over posts, with the posts' heights.
-Result<MeshError> MeasureMeshError(const Terrain& terrain, const Horizon& horizon,
-                                   const GridMesh& mesh, const std::vector<VertexId>& posts,
-                                   double asked_m, const RunControl& control);
 
 }  // namespace farhorizon
