@@ -45,49 +45,74 @@ Pencil PencilOf(int direction, std::int32_t columns, std::int32_t rows) {
   return {sine, cosine, least + 0.25 / kLinesPerCell, count};
 }
 
-// Per line of the pencil, the greatest height of the segments; kMissed where none crosses it.
-void GreatestHeights(const std::vector<GridSegment>& segments, const Pencil& pencil,
-                     std::vector<double>& heights) {
-  heights.assign(pencil.count, kMissed);
-  for (const GridSegment& segment : segments) {
-    double from = pencil.IndexOf(segment.a);
-    double to = pencil.IndexOf(segment.b);
-    double at_from = segment.a.height_m;
-    double at_to = segment.b.height_m;
+// Puts into heights[begin ...], one a line of the pencil, the greatest height of the net's segments
+// over it. places: of each point, where it is among the lines.
+void GreatestHeights(const SkylineNet& net, const std::vector<double>& places,
+                     const Pencil& pencil, std::size_t begin, SampledSkyline& skyline) {
+  const double last_line = static_cast<double>(pencil.count) - 1;
+  for (const SkylineNet::Segment& segment : net.segments) {
+    const auto a = static_cast<std::size_t>(segment.a);
+    const auto b = static_cast<std::size_t>(segment.b);
+    double from = places[a];
+    double to = places[b];
+    double at_from = net.points[a].height_m;
+    double at_to = net.points[b].height_m;
     if (from > to) {
       std::swap(from, to);
       std::swap(at_from, at_to);
     }
-    const double first = std::max(std::ceil(from), 0.0);
-    const double last = std::min(std::floor(to), static_cast<double>(pencil.count) - 1);
-    const double slope = to > from ? (at_to - at_from) / (to - from) : 0;
+    if (!(to >= 0) || !(from <= last_line)) continue;
+    // The first line at or after `from`, the last at or before `to`. Conversion cuts off.
+    const auto cut = static_cast<std::int64_t>(std::max(from, 0.0));
+    const std::int64_t first = static_cast<double>(cut) < from ? cut + 1 : cut;
+    const auto last = static_cast<std::int64_t>(std::min(to, last_line));
     if (last < first) continue;
-    for (auto i = static_cast<std::size_t>(first); i <= static_cast<std::size_t>(last); ++i) {
-      heights[i] = std::max(heights[i], at_from + slope * (static_cast<double>(i) - from));
+    const double slope = to > from ? (at_to - at_from) / (to - from) : 0;
+    for (std::int64_t i = first; i <= last; ++i) {
+      const double height = at_from + slope * (static_cast<double>(i) - from);
+      const std::size_t at = begin + static_cast<std::size_t>(i);
+      if (height <= skyline.heights[at]) continue;
+      skyline.heights[at] = height;
+      skyline.outline[at] = segment.outline ? 1 : 0;
     }
   }
 }
 
 }  // namespace
 
-double RmsOverLines(const std::vector<GridSegment>& first, const std::vector<GridSegment>& second,
-                    std::int32_t columns, std::int32_t rows) {
-  std::vector<double> first_heights;
-  std::vector<double> second_heights;
+Result<SampledSkyline> SampleSkyline(const SkylineNet& net, std::int32_t columns,
+                                     std::int32_t rows, const RunControl& control) {
+  SampledSkyline skyline;
+  std::vector<double> places(net.points.size());
+  for (int direction = 0; direction < kDirections; ++direction) {
+    if (control.StopRequested()) {
+      return Error{ErrorCode::kCancelled, "stopped while sampling skylines"};
+    }
+    const Pencil pencil = PencilOf(direction, columns, rows);
+    for (std::size_t i = 0; i < places.size(); ++i) places[i] = pencil.IndexOf(net.points[i]);
+    const std::size_t begin = skyline.heights.size();
+    skyline.heights.resize(begin + pencil.count, kMissed);
+    skyline.outline.resize(begin + pencil.count, 0);
+    GreatestHeights(net, places, pencil, begin, skyline);
+  }
+  return skyline;
+}
+
+SampledError Compare(const SampledSkyline& first, const SampledSkyline& second) {
+  SampledError error;
   double squares = 0;
   std::int64_t lines = 0;
-  for (int direction = 0; direction < kDirections; ++direction) {
-    const Pencil pencil = PencilOf(direction, columns, rows);
-    GreatestHeights(first, pencil, first_heights);
-    GreatestHeights(second, pencil, second_heights);
-    for (std::size_t i = 0; i < pencil.count; ++i) {
-      if (first_heights[i] == kMissed || second_heights[i] == kMissed) continue;
-      const double difference = first_heights[i] - second_heights[i];
-      squares += difference * difference;
-      ++lines;
-    }
+  for (std::size_t i = 0; i < first.heights.size(); ++i) {
+    if (first.heights[i] == kMissed || second.heights[i] == kMissed) continue;
+    const double difference = std::abs(first.heights[i] - second.heights[i]);
+    double& greatest = first.outline[i] != 0 || second.outline[i] != 0 ? error.outline_max_m
+                                                                       : error.max_m;
+    greatest = std::max(greatest, difference);
+    squares += difference * difference;
+    ++lines;
   }
-  return lines > 0 ? std::sqrt(squares / static_cast<double>(lines)) : 0;
+  error.rms_m = lines > 0 ? std::sqrt(squares / static_cast<double>(lines)) : 0;
+  return error;
 }
 
 }  // namespace farhorizon

@@ -8,6 +8,7 @@
 
 #include "core/io/draco_mesh.h"
 #include "core/io/glb.h"
+#include "core/measure/covers.h"
 #include "core/pipeline/geometric_error.h"
 
 namespace farhorizon {
@@ -95,7 +96,7 @@ Result<QuantizationLattice> LatticeFor(const Terrain& terrain, const Georeferenc
 constexpr double kMeshErrorShare = 0.95;
 
 Result<LevelReport> MeasureLevel(const LevelContext& context, const LocalMesh& decoded, int level,
-                                 double step_m, double asked_m) {
+                                 double step_m, double /*asked_m*/) {
   const VertexId post_count = context.terrain.post_count();
   GridMesh grid;
   std::vector<VertexId> posts;
@@ -117,8 +118,11 @@ Result<LevelReport> MeasureLevel(const LevelContext& context, const LocalMesh& d
                               static_cast<std::int32_t>(t[keeps ? 1 : 2]),
                               static_cast<std::int32_t>(t[keeps ? 2 : 1])});
   }
-  Result<MeshError> error = MeasureMeshError(context.terrain, context.horizon, grid, posts, asked_m,
-                                             context.control.Between(0, kMeshErrorShare));
+  Status covers = CheckCovers(context.terrain, grid, posts);
+  if (!covers) return std::move(covers.error());
+  MeshMeasurer measurer(context.terrain, context.horizon, {});
+  Result<MeshError> error =
+      measurer.Measure({grid, {}}, context.control.Between(0, kMeshErrorShare));
   if (!error) return std::move(error.error());
   Result<double> geometric = MeasureGeometricError(context.terrain, context.georeference, decoded);
   if (!geometric) return std::move(geometric.error());
