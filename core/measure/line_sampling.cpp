@@ -47,8 +47,8 @@ Pencil PencilOf(int direction, std::int32_t columns, std::int32_t rows) {
 
 // Puts into heights[begin ...], one a line of the pencil, the greatest height of the net's segments
 // over it. places: of each point, where it is among the lines.
-void GreatestHeights(const SkylineNet& net, const std::vector<double>& places,
-                     const Pencil& pencil, std::size_t begin, SampledSkyline& skyline) {
+void GreatestHeights(const SkylineNet& net, const std::vector<double>& places, const Pencil& pencil,
+                     std::size_t begin, SampledSkyline& skyline) {
   const double last_line = static_cast<double>(pencil.count) - 1;
   for (const SkylineNet::Segment& segment : net.segments) {
     const auto a = static_cast<std::size_t>(segment.a);
@@ -80,8 +80,8 @@ void GreatestHeights(const SkylineNet& net, const std::vector<double>& places,
 
 }  // namespace
 
-Result<SampledSkyline> SampleSkyline(const SkylineNet& net, std::int32_t columns,
-                                     std::int32_t rows, const RunControl& control) {
+Result<SampledSkyline> SampleSkyline(const SkylineNet& net, std::int32_t columns, std::int32_t rows,
+                                     const RunControl& control) {
   SampledSkyline skyline;
   std::vector<double> places(net.points.size());
   for (int direction = 0; direction < kDirections; ++direction) {
@@ -105,8 +105,8 @@ SampledError Compare(const SampledSkyline& first, const SampledSkyline& second) 
   for (std::size_t i = 0; i < first.heights.size(); ++i) {
     if (first.heights[i] == kMissed || second.heights[i] == kMissed) continue;
     const double difference = std::abs(first.heights[i] - second.heights[i]);
-    double& greatest = first.outline[i] != 0 || second.outline[i] != 0 ? error.outline_max_m
-                                                                       : error.max_m;
+    double& greatest =
+        first.outline[i] != 0 || second.outline[i] != 0 ? error.outline_max_m : error.max_m;
     greatest = std::max(greatest, difference);
     squares += difference * difference;
     ++lines;

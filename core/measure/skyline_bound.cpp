@@ -51,9 +51,8 @@ class RaisedSearch {
         lines_(surface.net, surface.hull),
         spans_(surface.net.points.size()) {
     least_room_ = kLeastRoom * (1 + surface.relief_m);
-    most_boxes_ =
-        kLeastBoxes +
-        kMostBoxes * static_cast<std::int64_t>(surface.net.segments.size() + pieces.size());
+    most_boxes_ = kLeastBoxes + kMostBoxes * static_cast<std::int64_t>(surface.net.segments.size() +
+                                                                       pieces.size());
   }
 
   Result<RaisedBounds> Run(const RunControl& control) {
@@ -63,7 +62,8 @@ class RaisedSearch {
       }
       SearchRange(k);
     }
-    fprintf(stderr,"DBG pieces %zu pendings %ld gathered %ld boxes %ld raises %ld\n",pieces_.size(),dbg_p,dbg_g,(long)lines_.boxes(),dbg_r);
+    fprintf(stderr, "DBG pieces %zu pendings %ld gathered %ld boxes %ld raises %ld\n",
+            pieces_.size(), dbg_p, dbg_g, (long)lines_.boxes(), dbg_r);
     return RaisedBounds{Allowed(false), Allowed(true)};
   }
 
@@ -86,9 +86,9 @@ class RaisedSearch {
 
   [[nodiscard]] StripSpan SpanOf(const RaisedPiece& p, const DirectionRange& range) const {
     const LineStrips& strips = floor_.strips;
-    const auto [least, most] = std::minmax(
-        {strips.OffsetOf(p.a, range.first), strips.OffsetOf(p.a, range.last),
-         strips.OffsetOf(p.b, range.first), strips.OffsetOf(p.b, range.last)});
+    const auto [least, most] =
+        std::minmax({strips.OffsetOf(p.a, range.first), strips.OffsetOf(p.a, range.last),
+                     strips.OffsetOf(p.b, range.first), strips.OffsetOf(p.b, range.last)});
     return {strips.StripOf(least - strips.slack), strips.StripOf(most + strips.slack)};
   }
 
@@ -116,9 +116,8 @@ class RaisedSearch {
   void GiveUp(int k) {
     for (const Pending& p : pending_) {
       const RaisedPiece& piece = pieces_[p.piece];
-      const double known =
-          std::max(floor_.Least(k, p.strips.first, p.strips.last) - floor_less_m_,
-                   surface_.lowest_m);
+      const double known = std::max(floor_.Least(k, p.strips.first, p.strips.last) - floor_less_m_,
+                                    surface_.lowest_m);
       double& tolerated = Tolerated(piece.outline);
       tolerated = std::max(tolerated, Highest(piece) - known);
     }
@@ -144,7 +143,7 @@ class RaisedSearch {
   }
 
   // Sorts the occluders that the pending pieces need into wider strips, falling in each.
-  long dbg_p=0,dbg_g=0,dbg_r=0;
+  long dbg_p = 0, dbg_g = 0, dbg_r = 0;
   void Gather() {
     ++dbg_g;
     const std::int32_t count = floor_.strips.count / kWider + 1;
@@ -191,7 +190,11 @@ class RaisedSearch {
 
   void AskPiece(Pending& p, double first, double last) {
     const RaisedPiece& piece = pieces_[p.piece];
-    CollectCandidates(p); dbg_p++; if(dbg_p%1000==0) fprintf(stderr,"%ld piece %zu cand %zu boxes %ld raises %ld t %g %g\n",dbg_p,p.piece,candidates_.size(),(long)lines_.boxes(),dbg_r,bounds_.inner_m,bounds_.outline_m);
+    CollectCandidates(p);
+    dbg_p++;
+    if (dbg_p % 1000 == 0)
+      fprintf(stderr, "%ld piece %zu cand %zu boxes %ld raises %ld t %g %g\n", dbg_p, p.piece,
+              candidates_.size(), (long)lines_.boxes(), dbg_r, bounds_.inner_m, bounds_.outline_m);
     if (!piece.near_outline) return AskDirections(p, first, last);
     // Without the directions that graze an outline: those of the grid's, and the piece's own.
     const double own =
@@ -224,8 +227,7 @@ class RaisedSearch {
       const BoxVerdict verdict = lines_.Ask(question, candidates_);
       if (verdict.proven) return;
       ++dbg_r;
-      Tolerated(piece.outline) =
-          std::max(verdict.excess_m, Tolerated(piece.outline) + least_room_);
+      Tolerated(piece.outline) = std::max(verdict.excess_m, Tolerated(piece.outline) + least_room_);
       const double lower_end = std::min(piece.a.height_m, piece.b.height_m);
       if (lower_end - Allowed(piece.outline) >= p.floor_m) continue;
       Gather();
