@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <numbers>
 #include <numeric>
@@ -63,7 +62,6 @@ class RaisedSearch {
       }
       SearchRange(k);
     }
-    fprintf(stderr,"DBG pieces %zu pendings %ld gathered %ld boxes %ld raises %ld\n",pieces_.size(),dbg_p,dbg_g,(long)lines_.boxes(),dbg_r);
     return RaisedBounds{Allowed(false), Allowed(true)};
   }
 
@@ -144,9 +142,9 @@ class RaisedSearch {
   }
 
   // Sorts the occluders that the pending pieces need into wider strips, falling in each.
-  long dbg_p=0,dbg_g=0,dbg_r=0;
+
   void Gather() {
-    ++dbg_g;
+
     const std::int32_t count = floor_.strips.count / kWider + 1;
     needed_.assign(static_cast<std::size_t>(count), kInfinity);
     wide_.resize(static_cast<std::size_t>(count));
@@ -191,7 +189,7 @@ class RaisedSearch {
 
   void AskPiece(Pending& p, double first, double last) {
     const RaisedPiece& piece = pieces_[p.piece];
-    CollectCandidates(p); dbg_p++; if(dbg_p%1000==0) fprintf(stderr,"%ld piece %zu cand %zu boxes %ld raises %ld t %g %g\n",dbg_p,p.piece,candidates_.size(),(long)lines_.boxes(),dbg_r,bounds_.inner_m,bounds_.outline_m);
+    CollectCandidates(p);
     if (!piece.near_outline) return AskDirections(p, first, last);
     // Without the directions that graze an outline: those of the grid's, and the piece's own.
     const double own =
@@ -223,7 +221,7 @@ class RaisedSearch {
       question.floor_m = p.floor_m;
       const BoxVerdict verdict = lines_.Ask(question, candidates_);
       if (verdict.proven) return;
-      ++dbg_r;
+
       Tolerated(piece.outline) =
           std::max(verdict.excess_m, Tolerated(piece.outline) + least_room_);
       const double lower_end = std::min(piece.a.height_m, piece.b.height_m);
