@@ -22,6 +22,8 @@ class SkylineGuard {
   /// Whether the edge p, q, lowered by so many steps of scale(), is occluded. Exact.
   /// Cost: constant for most edges; for the others about the occluders that are visible from them.
   [[nodiscard]] bool IsOccluded(VertexId p, VertexId q, std::int32_t steps_lower) const;
+  /// The same for a segment between two posts at any heights, in steps of scale().
+  [[nodiscard]] bool IsOccluded(const Segment& scaled) const;
 
   [[nodiscard]] const FinerHeights& scale() const { return scale_; }
 

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "core/horizon/guard/skyline_guard.h"
+#include "core/horizon/horizon.h"
+#include "core/simplify/mesh/half_edge_mesh.h"
+
+namespace farhorizon {
+
+/// What no price buys.
+///
+/// At an exact level: the ends of horizon edges stay at their posts and heights, horizon edges are
+/// not flipped, no new edge rises above the DEM's skyline, no post is off by more than most_m. At
+/// every level: a horizon edge that the finer level does not have does not come back.
+class LevelRules {
+ public:
+  /// Requires: all outlive it.
+  LevelRules(const Ground& ground, const Horizon& horizon);
+
+  void BeginExact(float most_m);
+  /// mesh: the finer level, whose horizon edges may stay.
+  void BeginSoft(const HalfEdgeMesh& mesh);
+
+  [[nodiscard]] bool exact() const { return exact_; }
+  [[nodiscard]] float most_m() const { return most_m_; }
+  /// Whether v must not be changed at all.
+  [[nodiscard]] bool IsLocked(std::int32_t v) const {
+    return exact_ && locked_[static_cast<std::size_t>(v)];
+  }
+  /// Whether the edge between two places is one of the DEM's horizon edges and must stay.
+  [[nodiscard]] bool MustStay(const Place& p, const Place& q) const {
+    return exact_ && Has(p, q, 0);
+  }
+  /// Whether a new edge, or an old one at new heights, is allowed.
+  [[nodiscard]] bool Allows(const Place& p, const Place& q) const;
+  /// A place's height as the rules and the level's mesh have it, metres: the post's own, or the
+  /// nearest step of the guard's scale.
+  [[nodiscard]] double HeightM(const Place& place) const;
+  /// The horizon edges that are edges of `mesh`, by their index, rising.
+  [[nodiscard]] std::vector<std::int32_t> KeptIn(const HalfEdgeMesh& mesh) const;
+
+ private:
+  [[nodiscard]] Point3i Scaled(const Place& place) const;
+  // Bit 0: whether there is such a horizon edge; bit 1: whether it is barred.
+  [[nodiscard]] bool Has(const Place& p, const Place& q, int bit) const;
+  [[nodiscard]] std::uint8_t* FlagsOf(VertexId p, VertexId q, int& shift);
+
+  const Ground* ground_;
+  const Horizon* horizon_;
+  SkylineGuard guard_;
+  bool exact_ = false;
+  float most_m_ = std::numeric_limits<float>::infinity();
+  std::vector<bool> locked_;         // per post
+  std::vector<std::uint8_t> edges_;  // per post: two bits for each direction to a later post
+};
+
+}  // namespace farhorizon
