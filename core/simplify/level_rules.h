@@ -36,6 +36,14 @@ class LevelRules {
   }
   /// Whether a new edge, or an old one at new heights, is allowed.
   [[nodiscard]] bool Allows(const Place& p, const Place& q) const;
+  /// The same for the edge between the places i and j of a ring that is to take the place of spokes
+  /// from `centre`. Asks first whether it runs below them: then it does not rise above the skyline,
+  /// as they do not.
+  [[nodiscard]] bool AllowsChord(const Ring& ring, const Place& centre, std::int32_t i,
+                                 std::int32_t j) const;
+  /// The same for an edge to `other` whose end goes from one place to another. Refuses what only a
+  /// search could allow: polish gains less than that costs.
+  [[nodiscard]] bool AllowsMove(const Place& from, const Place& to, const Place& other) const;
   /// A place's height as the rules and the level's mesh have it, metres: the post's own, or the
   /// nearest step of the guard's scale.
   [[nodiscard]] double HeightM(const Place& place) const;
@@ -44,6 +52,9 @@ class LevelRules {
 
  private:
   [[nodiscard]] Point3i Scaled(const Place& place) const;
+  [[nodiscard]] bool IsOccluded(const Place& p, const Place& q) const;
+  [[nodiscard]] bool RunsBelow(const Ring& ring, const Place& centre, std::int32_t i,
+                               std::int32_t j) const;
   // Bit 0: whether there is such a horizon edge; bit 1: whether it is barred.
   [[nodiscard]] bool Has(const Place& p, const Place& q, int bit) const;
   [[nodiscard]] std::uint8_t* FlagsOf(VertexId p, VertexId q, int& shift);
@@ -54,6 +65,8 @@ class LevelRules {
   bool exact_ = false;
   float most_m_ = std::numeric_limits<float>::infinity();
   std::vector<bool> locked_;         // per post
+  // Per block of posts: what occluded the last edge there that took a search.
+  mutable std::vector<std::vector<OccluderId>> likely_;
   std::vector<std::uint8_t> edges_;  // per post: two bits for each direction to a later post
 };
 

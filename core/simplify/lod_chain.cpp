@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "core/simplify/level_mesh.h"
 #include "core/simplify/order/collapser.h"
@@ -31,7 +32,7 @@ constexpr double kLeastTriangles = 500;
 // A level's share of all triangles as far as its sides are concerned: that of level 0, and then by
 // kNextLevel.
 constexpr double kSideShare = 0.2;
-constexpr int kSweepsOverHeights = 3;
+static const int kSweepsOverHeights = getenv("SW")?atoi(getenv("SW")):3;
 
 class ChainBuilder {
  public:

@@ -31,16 +31,29 @@ bool SkylineGuard::IsOccluded(VertexId p, VertexId q, std::int32_t steps_lower) 
       Lowered({scale_.Scale(terrain_->Point(p)), scale_.Scale(terrain_->Point(q))}, steps_lower));
 }
 
-bool SkylineGuard::IsOccluded(const Segment& scaled) const {
+bool SkylineGuard::IsSurelyOccluded(const Segment& scaled) const {
   const auto post = [this](const Point3i& point) {
     return point.y * terrain_->dem().columns + point.x;
   };
   // Whole quanta only, rounded towards the safe side: what hides the higher hides the lower.
   const std::int32_t most = std::max(scaled.a.z, scaled.b.z);
   const std::int32_t height = scale_.zero - (-most >> scale_.bits);
-  if (hulls_->Occludes(post(scaled.a), post(scaled.b), height)) return true;
-  if (GroundCovers(*terrain_, *hulls_, scale_, scaled)) return true;
-  return !occluders_.FindLineOfSight({.segment = scaled, .ties = Ties::kBlock}).witness;
+  return hulls_->Occludes(post(scaled.a), post(scaled.b), height) ||
+         GroundCovers(*terrain_, *hulls_, scale_, scaled);
+}
+
+bool SkylineGuard::IsOccluded(const Segment& scaled, std::vector<OccluderId>& likely) const {
+  if (IsSurelyOccluded(scaled)) return true;
+  Visibility found = occluders_.FindLineOfSight({.segment = scaled,
+                                                 .ties = Ties::kBlock,
+                                                 .hints = {.likely = likely},
+                                                 .want_occluders = true});
+  if (found.witness) return false;
+  std::sort(found.occluders.begin(), found.occluders.end());
+  found.occluders.erase(std::unique(found.occluders.begin(), found.occluders.end()),
+                        found.occluders.end());
+  likely = std::move(found.occluders);
+  return true;
 }
 
 }  // namespace farhorizon

@@ -73,11 +73,12 @@ std::pair<float, std::int32_t> Collapser::Rate(std::int32_t v, const Refused& re
 }
 
 bool Collapser::IsAllowed(std::int32_t j) const {
+  // At a rim the outline's new piece, from the first neighbour to the last, is among the spokes.
+  const Place& centre = work_->mesh.at(ring_.centre);
   for (std::int32_t i = 0; i < ring_.count; ++i) {
-    if (!ring_.Joined(i, j) && !work_->rules.Allows(ring_.at(j), ring_.at(i))) return false;
+    if (!ring_.Joined(i, j) && !work_->rules.AllowsChord(ring_, centre, j, i)) return false;
   }
-  // At a rim the outline's new piece is a new edge as well.
-  return ring_.closed || work_->rules.Allows(ring_.at(0), ring_.at(ring_.count - 1));
+  return true;
 }
 
 std::int32_t Collapser::PlaceInRing(std::int32_t v) const {

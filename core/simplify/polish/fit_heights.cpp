@@ -22,9 +22,10 @@ void Fit(Workpiece& work, VertexChange& change) {
   if (!(stiffness > 0)) return;
   const float rise = (posts.pull + lines.pull) / stiffness;
   if (!(std::abs(rise) > kLeastStep)) return;
+  const float least = -kLeastGain * (1 + change.before());
   for (const float part : {1.0F, 0.5F}) {
     const Place to = work.ground.WithHeight(from.x, from.y, from.plan + part * rise);
-    if (change.Cost(to, -kLeastGain) >= -kLeastGain || !change.IsAllowed(to)) continue;
+    if (change.Cost(to, least) >= least || !change.IsAllowed(to)) continue;
     change.Make(to);
     return;
   }

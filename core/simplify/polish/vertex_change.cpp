@@ -58,7 +58,7 @@ float VertexChange::Cost(const Place& place, float bound) const {
 
 bool VertexChange::IsAllowed(const Place& place) const {
   for (std::int32_t i = 0; i < ring_.count; ++i) {
-    if (!work_.rules.Allows(place, ring_.at(i))) return false;
+    if (!work_.rules.AllowsMove(this->place(), place, ring_.at(i))) return false;
   }
   return true;
 }
