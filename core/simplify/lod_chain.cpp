@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 #include "core/simplify/level_mesh.h"
 #include "core/simplify/order/collapser.h"
@@ -32,7 +31,7 @@ constexpr double kLeastTriangles = 500;
 // A level's share of all triangles as far as its sides are concerned: that of level 0, and then by
 // kNextLevel.
 constexpr double kSideShare = 0.2;
-static const int kSweepsOverHeights = getenv("SW")?atoi(getenv("SW")):3;
+constexpr int kSweepsOverHeights = 1;
 
 class ChainBuilder {
  public:
