@@ -60,7 +60,7 @@ class ChainBuilder {
 
   [[nodiscard]] Lod Level() const {
     const Surface& surface = collapser_.surface();
-    Lod lod{{{}, {}, surface.Triangles()}, {}};
+    Lod lod{{{}, {}, surface.Triangles()}, {}, false};
     for (VertexId v = 0; v < terrain_.post_count(); ++v) {
       if (!surface.IsVertex(v)) continue;
       lod.mesh.posts.push_back(v);
@@ -73,6 +73,7 @@ class ChainBuilder {
         lod.kept.push_back(static_cast<std::int32_t>(e));
       }
     }
+    lod.exact = lod.kept.size() == horizon_.edges.size();
     return lod;
   }
 
@@ -120,6 +121,19 @@ Result<std::vector<Lod>> BuildLodChain(const Terrain& terrain, const Horizon& ho
   }
   control.Report(Stage::kSimplify, 1.0);
   return levels;
+}
+
+Result<std::vector<Lod>> BuildLodChain(const Terrain& terrain, const Horizon& horizon,
+                                       const LodPlan& plan, const RunControl& control) {
+  const std::size_t count =
+      plan.triangles.empty() ? static_cast<std::size_t>(plan.levels) : plan.triangles.size();
+  double vertical_m = plan.triangles.empty() ? plan.max_error_m : terrain.dem().quantum_m;
+  std::vector<LevelBudget> budgets;
+  for (std::size_t i = 0; i < count; ++i, vertical_m *= 2) {
+    const double silhouette_m = i == 0 ? 0 : vertical_m / 8;
+    budgets.push_back({vertical_m, std::max(plan.silhouette_error_m, silhouette_m), 0, 0.25});
+  }
+  return BuildLodChain(terrain, horizon, budgets, control);
 }
 
 }  // namespace farhorizon

@@ -19,10 +19,32 @@ struct LevelBudget {
   double least_altitude = 0;      ///< of a triangle in plan, in columns or rows
 };
 
+/// What a chain of levels is asked for.
+///
+/// triangles: for each level the most triangles that it may have, falling. Empty: levels by size,
+///   each further level with 2/5 of the triangles of the one before, none but level 0 with fewer
+///   than 500.
+/// levels: how many by size, at most. max_error_m: what level 0 by size may be off at a post.
+/// silhouette_error_m: what level 0 by size may be off at a line; 0: exact.
+/// column_bend, row_bend: the Earth's drop below the tangent plane at a distance of dc columns and
+///   dr rows is column_bend * dc^2 + row_bend * dr^2 metres; edges are straight in that plane.
+struct LodPlan {
+  std::vector<std::int64_t> triangles;
+  int levels = 5;
+  double max_error_m = 0;
+  double silhouette_error_m = 0;
+  double column_bend = 0;
+  double row_bend = 0;
+};
+
 /// One level of detail and the horizon edges that it keeps.
+///
+/// kept: indices into horizon.edges, rising: edges of this mesh. exact: before rounding, the
+/// skyline is the DEM's.
 struct Lod {
   PostMesh mesh;
-  std::vector<std::int32_t> kept;  ///< indices into horizon.edges, ascending: edges of this mesh
+  std::vector<std::int32_t> kept;
+  bool exact = false;
 };
 
 /// A chain of meshes, level 0 the finest, one for each budget.
@@ -39,5 +61,10 @@ struct Lod {
 Result<std::vector<Lod>> BuildLodChain(const Terrain& terrain, const Horizon& horizon,
                                        const std::vector<LevelBudget>& budgets,
                                        const RunControl& control);
+
+/// The same for a plan, by budgets that double from level to level.
+/// Errors: kCancelled.
+Result<std::vector<Lod>> BuildLodChain(const Terrain& terrain, const Horizon& horizon,
+                                       const LodPlan& plan, const RunControl& control);
 
 }  // namespace farhorizon
