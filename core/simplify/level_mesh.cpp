@@ -30,7 +30,7 @@ Lod LevelOf(const Workpiece& work, const std::vector<SidePosts::Height>& sides) 
     lod.mesh.triangles.push_back({post(h), post(h + 2), post(h + 1)});
   }
   lod.kept = work.rules.KeptIn(mesh);
-  lod.exact = work.rules.exact();
+  lod.exact = !work.rules.allows_rises();
   return lod;
 }
 

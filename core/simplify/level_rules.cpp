@@ -57,8 +57,9 @@ bool LevelRules::Has(const Place& p, const Place& q, int bit) const {
   return (flags >> static_cast<unsigned>(2 * direction + bit) & 1U) != 0;
 }
 
-void LevelRules::BeginExact(float most_m) {
+void LevelRules::BeginExact(float most_m, double rise_m) {
   exact_ = true;
+  rise_steps_ = guard_.scale().Steps(rise_m / ground_->terrain().dem().quantum_m);
   most_m_ = most_m;
 }
 
@@ -100,7 +101,7 @@ double LevelRules::HeightM(const Place& place) const {
 bool LevelRules::IsOccluded(const Place& p, const Place& q) const {
   const std::int32_t columns = ground_->columns() / kBlock + 1;
   const std::int32_t block = (p.y + q.y) / (2 * kBlock) * columns + (p.x + q.x) / (2 * kBlock);
-  return guard_.IsOccluded({Scaled(p), Scaled(q)}, likely_[static_cast<std::size_t>(block)]);
+  return guard_.IsOccluded(LoweredEdge(p, q), likely_[static_cast<std::size_t>(block)]);
 }
 
 bool LevelRules::Allows(const Place& p, const Place& q) const {
@@ -118,7 +119,7 @@ bool LevelRules::AllowsChord(const Ring& ring, const Place& centre, std::int32_t
 bool LevelRules::AllowsMove(const Place& from, const Place& to, const Place& other) const {
   if (Has(to, other, 1)) return false;
   const bool lowered = from.x == to.x && from.y == to.y && to.plan <= from.plan;
-  return !exact_ || lowered || guard_.IsSurelyOccluded({Scaled(to), Scaled(other)});
+  return !exact_ || lowered || guard_.IsSurelyOccluded(LoweredEdge(to, other));
 }
 
 // A chord of a ring that its centre sees whole crosses the spokes to the places on its other side,

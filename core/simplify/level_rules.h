@@ -20,11 +20,14 @@ class LevelRules {
   /// Requires: all outlive it.
   LevelRules(const Ground& ground, const Horizon& horizon);
 
-  void BeginExact(float most_m);
+  /// rise_m: by how much an edge may rise above the skyline all the same.
+  void BeginExact(float most_m, double rise_m);
   /// mesh: the finer level, whose horizon edges may stay.
   void BeginSoft(const HalfEdgeMesh& mesh);
 
+  /// Whether the level is an exact one, but for the rises that it was allowed.
   [[nodiscard]] bool exact() const { return exact_; }
+  [[nodiscard]] bool allows_rises() const { return !exact_ || rise_steps_ > 0; }
   [[nodiscard]] float most_m() const { return most_m_; }
   /// Whether v must not be changed at all.
   [[nodiscard]] bool IsLocked(std::int32_t v) const {
@@ -52,6 +55,9 @@ class LevelRules {
 
  private:
   [[nodiscard]] Point3i Scaled(const Place& place) const;
+  [[nodiscard]] Segment LoweredEdge(const Place& p, const Place& q) const {
+    return Lowered({Scaled(p), Scaled(q)}, rise_steps_);
+  }
   [[nodiscard]] bool IsOccluded(const Place& p, const Place& q) const;
   [[nodiscard]] bool RunsBelow(const Ring& ring, const Place& centre, std::int32_t i,
                                std::int32_t j) const;
@@ -63,6 +69,7 @@ class LevelRules {
   const Horizon* horizon_;
   SkylineGuard guard_;
   bool exact_ = false;
+  std::int32_t rise_steps_ = 0;
   float most_m_ = std::numeric_limits<float>::infinity();
   std::vector<bool> locked_;         // per post
   // Per block of posts: what occluded the last edge there that took a search.

@@ -70,7 +70,7 @@ class ChainBuilder {
 
   Status BuildBySize(std::size_t level, const RunControl& control) {
     if (level == 0) {
-      BeginExact(plan_.max_error_m);
+      BeginExact(plan_.max_error_m, plan_.silhouette_error_m);
       return Simplify(ExactTriangles(), control);
     }
     const double budget = kNextLevel * Triangles();
@@ -85,7 +85,7 @@ class ChainBuilder {
     while (kNextLevel * share * full_ >= budget) share *= kNextLevel;
     const bool was_exact = level == 0 || levels_.back().exact;
     if (was_exact && budget >= ExactTriangles() && SidePosts::ShareOf(share) >= 1) {
-      BeginExact(std::numeric_limits<double>::infinity());
+      BeginExact(std::numeric_limits<double>::infinity(), 0);
       Status simplified = Simplify(budget, control);
       if (!simplified || Triangles() <= budget) return simplified;
     }
@@ -93,9 +93,9 @@ class ChainBuilder {
     return Simplify(budget, control);
   }
 
-  void BeginExact(double most_m) {
-    work_.rules.BeginExact(static_cast<float>(most_m));
-    work_.price.AllowRises(false);
+  void BeginExact(double most_m, double rise_m) {
+    work_.rules.BeginExact(static_cast<float>(most_m), rise_m);
+    work_.price.AllowRises(rise_m > 0);
     for (std::int32_t v = 0; v < work_.mesh.vertices(); ++v) {
       work_.stays[static_cast<std::size_t>(v)] =
           work_.mesh.IsVertex(v) && (ground_.OnSide(work_.mesh.at(v)) || !work_.IsFree(v));

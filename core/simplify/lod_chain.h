@@ -17,12 +17,14 @@ namespace farhorizon {
 ///   each with 2/5 of the triangles of the one before, none but level 0 with less than 500.
 /// levels: how many by size, at most.
 /// max_error_m: what level 0 by size may be off at a post.
+/// silhouette_error_m: by how much level 0 by size may rise above the DEM's skyline; 0: not at all.
 /// column_bend, row_bend: the Earth's drop, metres, at one column or row from the tile's middle: it
 ///   grows with the square of the distance. Edges are straight in the tile's frame.
 struct LodPlan {
   std::vector<std::int64_t> triangles;
   int levels = 5;
   double max_error_m = 0;
+  double silhouette_error_m = 0;
   double column_bend = 0;
   double row_bend = 0;
 };
