@@ -8,8 +8,7 @@ Ground::Ground(const Terrain& terrain, const EarthDrop& drop)
     : terrain_(&terrain), columns_(terrain.dem().columns), rows_(terrain.dem().rows), drop_(drop) {
   const Dem& dem = terrain.dem();
   const HeightRange range = HeightRangeOf(dem);
-  base_m_ =
-      dem.height_offset_m + (0.5 * range.least + 0.5 * range.greatest) * dem.quantum_m;
+  base_m_ = dem.height_offset_m + (0.5 * range.least + 0.5 * range.greatest) * dem.quantum_m;
   frame_.reserve(dem.heights.size());
   for (std::int32_t y = 0; y < rows_; ++y) {
     for (std::int32_t x = 0; x < columns_; ++x) {

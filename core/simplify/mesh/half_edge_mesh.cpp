@@ -125,8 +125,7 @@ void HalfEdgeMesh::Flip(std::int32_t h) {
 void HalfEdgeMesh::Measure(std::int32_t triangle) {
   if (!Stands(triangle)) return;
   const std::int32_t h = 3 * triangle;
-  squares_[triangle] =
-      Squares(*ground_, at_[origin_[h]], at_[origin_[h + 1]], at_[origin_[h + 2]]);
+  squares_[triangle] = Squares(*ground_, at_[origin_[h]], at_[origin_[h + 1]], at_[origin_[h + 2]]);
 }
 
 void HalfEdgeMesh::Compact() {
@@ -135,9 +134,7 @@ void HalfEdgeMesh::Compact() {
   for (std::int32_t t = 0; t < moved.size(); ++t) {
     if (Stands(t)) moved[t] = count++;
   }
-  const auto place = [&](std::int32_t h) {
-    return h == kNone ? kNone : 3 * moved[h / 3] + h % 3;
-  };
+  const auto place = [&](std::int32_t h) { return h == kNone ? kNone : 3 * moved[h / 3] + h % 3; };
   for (std::int32_t t = 0; t < moved.size(); ++t) {
     if (moved[t] == kNone) continue;
     for (std::int32_t k = 0; k < 3; ++k) {

@@ -18,8 +18,8 @@ class OpenEdges {
   std::int32_t& From(std::int32_t v, std::int32_t w) {
     const std::int32_t dx = w % columns_ - v % columns_;
     const std::int32_t dy = w / columns_ - v / columns_;
-    return edges_[(v / columns_ % 2 * columns_ + v % columns_) * kDirections +
-                  3 * (dy + 1) + dx + 1];
+    return edges_[(v / columns_ % 2 * columns_ + v % columns_) * kDirections + 3 * (dy + 1) + dx +
+                  1];
   }
   void ForgetRow(std::int32_t row) {
     const std::int32_t first = row % 2 * columns_ * kDirections;

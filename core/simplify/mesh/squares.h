@@ -26,8 +26,7 @@ struct HeightPull {
   float stiffness = 0;
 };
 /// The same for a's height over the posts of triangle abc, added to `sum`.
-void AddPull(const Ground& ground, const Place& a, const Place& b, const Place& c,
-             HeightPull& sum);
+void AddPull(const Ground& ground, const Place& a, const Place& b, const Place& c, HeightPull& sum);
 
 /// Sum over the posts of the rim's edge from a, inclusive, to b, exclusive, that no triangle has;
 /// 0 where triangles have them. The mesh lies on the side of positive turns of a -> b. infinity as

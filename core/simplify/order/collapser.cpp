@@ -140,9 +140,8 @@ void Collapser::Collapse(std::int32_t v) {
   HalfEdgeMesh& mesh = work_->mesh;
   mesh.Collapse(ring_, b);
   for (std::int32_t i = 0; i < ring_.sides(); ++i) mesh.Measure(ring_.triangle_at(i));
-  work_->price.RestoreAfterCollapse(ring_, b, j, [&](std::int32_t u) {
-    work_->stale[static_cast<std::size_t>(u)] = true;
-  });
+  work_->price.RestoreAfterCollapse(
+      ring_, b, j, [&](std::int32_t u) { work_->stale[static_cast<std::size_t>(u)] = true; });
   if (!work_->price.MayRiseAround(ring_, mesh.at(b))) return;
   for (std::int32_t i = 0; i < ring_.count; ++i) {
     if (!ring_.Joined(i, j) && work_->price.MayRise(ring_.at(j), ring_.at(i))) {

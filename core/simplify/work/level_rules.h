@@ -71,7 +71,7 @@ class LevelRules {
   bool exact_ = false;
   std::int32_t rise_steps_ = 0;
   float most_m_ = std::numeric_limits<float>::infinity();
-  std::vector<bool> locked_;         // per post
+  std::vector<bool> locked_;  // per post
   // Per block of posts: what occluded the last edge there that took a search.
   mutable std::vector<std::vector<OccluderId>> likely_;
   std::vector<std::uint8_t> edges_;  // per post: two bits for each direction to a later post

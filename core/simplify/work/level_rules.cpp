@@ -1,4 +1,4 @@
-#include "core/simplify/level_rules.h"
+#include "core/simplify/work/level_rules.h"
 
 #include <algorithm>
 #include <cmath>
@@ -112,8 +112,7 @@ bool LevelRules::Allows(const Place& p, const Place& q) const {
 bool LevelRules::AllowsChord(const Ring& ring, const Place& centre, std::int32_t i,
                              std::int32_t j) const {
   if (Has(ring.at(i), ring.at(j), 1)) return false;
-  return !exact_ || RunsBelow(ring, centre, i, j) ||
-         IsOccluded(ring.at(i), ring.at(j));
+  return !exact_ || RunsBelow(ring, centre, i, j) || IsOccluded(ring.at(i), ring.at(j));
 }
 
 bool LevelRules::AllowsMove(const Place& from, const Place& to, const Place& other) const {
