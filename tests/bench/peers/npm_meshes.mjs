@@ -36,7 +36,7 @@ async function delatin() {
   const Delatin = (await load('delatin')).default;
   begin = performance.now();
   const tin = new Delatin(heights, columns, rows);
-  for (const size of asked.toReversed?.() ?? [...asked].reverse()) {
+  for (const size of [...asked].reverse()) {
     while (tin.triangles.length / 3 < size && tin.getMaxError() > 0) tin.refine();
     const took = seconds(), paused = performance.now();
     const vertices = [];
