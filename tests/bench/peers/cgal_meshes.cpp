@@ -11,7 +11,6 @@
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/GarlandHeckbert_policies.h>
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
@@ -126,9 +125,9 @@ int main(int argc, char** argv) {
   namespace simplification = CGAL::Surface_mesh_simplification;
   if (policy == "gh") {
     const simplification::GarlandHeckbert_plane_policies<Surface, Kernel> quadrics(surface);
-    simplification::edge_collapse(surface, stop,
-                                  CGAL::parameters::get_cost(quadrics.get_cost())
-                                      .get_placement(quadrics.get_placement()));
+    simplification::edge_collapse(
+        surface, stop,
+        CGAL::parameters::get_cost(quadrics.get_cost()).get_placement(quadrics.get_placement()));
   } else {
     simplification::edge_collapse(surface, stop);
   }

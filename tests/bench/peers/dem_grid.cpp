@@ -26,5 +26,6 @@ int main(int argc, char** argv) {
   std::cout << std::setprecision(12) << "{\"columns\": " << grid.columns
             << ", \"rows\": " << grid.rows << ", \"cell_x_m\": " << cell_x
             << ", \"cell_y_m\": " << cell_y << ", \"missing_posts\": " << missing
-            << ", \"triangles\": " << FullMesh(grid).triangles.size() << "}\n";
+            << ", \"triangles\": " << FullMesh(grid).triangles.size()
+            << ", \"system_to_state\": " << std::quoted(raster.SystemToState()) << "}\n";
 }

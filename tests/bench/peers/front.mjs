@@ -158,7 +158,7 @@ export function front(contests) {
   return `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${width} ${round(height)}" ` +
     `width="${width}" height="${round(height)}" ${font} role="img" ` +
     'aria-label="Vertical against silhouette error of the levels of several tools">\n' +
-    `<rect width="${width}" height="${round(height)}" rx="12" fill="${paper}"/>\n` +
+    `<rect width="${width}" height="${round(height)}" rx="12" fill="${paper}" stroke="${faint}"/>\n` +
     text(margin, 38, 'Skyline and ground at the same number of triangles',
          {size: 19, weight: 650}) + '\n' +
     text(margin, 58, 'A point a size, per cent of the DEM\'s triangles; lower left is better. ' +

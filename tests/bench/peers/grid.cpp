@@ -44,8 +44,8 @@ Mesh FullMesh(const Grid& grid) {
     mesh.vertices.push_back(grid.PointAt(post));
   const auto add = [&](std::size_t a, std::size_t b, std::size_t c) {
     if (!grid.Has(a) || !grid.Has(b) || !grid.Has(c)) return;
-    mesh.triangles.push_back({static_cast<std::int32_t>(a), static_cast<std::int32_t>(b),
-                              static_cast<std::int32_t>(c)});
+    mesh.triangles.push_back(
+        {static_cast<std::int32_t>(a), static_cast<std::int32_t>(b), static_cast<std::int32_t>(c)});
   };
   for (std::int32_t row = 0; row + 1 < grid.rows; ++row) {
     for (std::int32_t column = 0; column + 1 < grid.columns; ++column) {
@@ -94,7 +94,8 @@ Mesh ReadMesh(const std::string& path) {
   for (const auto& p : points) mesh.vertices.push_back({p[0], p[1], p[2]});
   for (const auto& triangle : mesh.triangles) {
     for (const std::int32_t vertex : triangle)
-      if (vertex < 0 || vertex >= vertices) Fail(path + ": a triangle of a vertex that is not there");
+      if (vertex < 0 || vertex >= vertices)
+        Fail(path + ": a triangle of a vertex that is not there");
   }
   return mesh;
 }

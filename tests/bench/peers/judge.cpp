@@ -34,7 +34,8 @@ int main(int argc, char** argv) {
               << ", \"silhouette_max_m\": " << silhouette.max
               << ", \"silhouette_rim_max_m\": " << silhouette.rim_max
               << ", \"lines_missed\": " << silhouette.missed
-              << ", \"vertical_rms_m\": " << vertical.rms << ", \"vertical_max_m\": " << vertical.max
+              << ", \"vertical_rms_m\": " << vertical.rms
+              << ", \"vertical_max_m\": " << vertical.max
               << ", \"posts_uncovered\": " << vertical.uncovered
               << ", \"facet_angle_rms_deg\": " << FacetAngleRms(mesh, grid, cell)
               << ", \"needles_percent\": " << 100 * NeedleShare(mesh, cell, 2) << "}" << std::endl;

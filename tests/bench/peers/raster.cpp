@@ -1,13 +1,13 @@
 #include "raster.h"
 
-#include <gdal_priv.h>
-#include <ogr_spatialref.h>
-
 #include <cmath>
 #include <limits>
 #include <map>
 #include <numbers>
 #include <utility>
+
+#include <gdal_priv.h>
+#include <ogr_spatialref.h>
 
 namespace farhorizon::peers {
 
@@ -34,6 +34,21 @@ void Transform(const OGRSpatialReference& from, const OGRSpatialReference& to,
     if (!way->Transform(1, &p.x, &p.y, &p.z)) Fail("a point has no place in a reference system");
 }
 
+/// Leaves a system its projection, its unit of angles and its prime meridian.
+void TakeDatumForWgs84(OGRSpatialReference& system) {
+  const char *meridian = nullptr, *unit = nullptr;
+  const double offset = system.GetPrimeMeridian(&meridian);
+  const double angle = system.GetAngularUnits(&unit);
+  OGRSpatialReference geographic;
+  geographic.SetGeogCS("the raster's, on WGS 84", "WGS_1984", "WGS 84", SRS_WGS84_SEMIMAJOR,
+                       SRS_WGS84_INVFLATTENING, meridian, offset, unit, angle);
+  if (system.IsGeographic())
+    system = geographic;
+  else
+    system.CopyGeogCSFrom(&geographic);
+  system.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+}
+
 OGRSpatialReference SystemOf(int epsg) {
   OGRSpatialReference system;
   system.importFromEPSG(epsg);
@@ -53,6 +68,9 @@ Raster::Raster(const std::string& path) {
   plan_ = std::make_unique<OGRSpatialReference>(*system);
   plan_->StripVertical();
   plan_->SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  const OGRSpatialReference globe = SystemOf(4326);
+  on_wgs84_ = plan_->IsSameGeogCS(&globe) != 0;
+  if (!on_wgs84_) TakeDatumForWgs84(*plan_);
 }
 
 Raster::~Raster() = default;
@@ -93,27 +111,28 @@ std::array<double, 2> Raster::CellMetres() const {
   return {distance(places[0], places[1]), distance(places[0], places[2])};
 }
 
+std::string Raster::SystemToState() const {
+  if (on_wgs84_) return "";
+  char* text = nullptr;
+  plan_->exportToWkt(&text);
+  std::string wkt = text == nullptr ? "" : text;
+  CPLFree(text);
+  return wkt;
+}
+
 std::vector<Point> Raster::OverGrid(const std::vector<Point>& earth) const {
   std::vector<Point> points = earth;
   Transform(SystemOf(4978), SystemOf(4979), points);
+  std::vector<double> heights;
+  for (Point& p : points) heights.push_back(std::exchange(p.z, 0));
+  Transform(SystemOf(4326), *plan_, points);
+  for (std::size_t i = 0; i < points.size(); ++i) points[i].z = heights[i];
   if (plan_->IsGeographic()) {
-    // In the system's own unit, and on the turn on which the raster lies.
-    const double unit = plan_->GetAngularUnits() * 180 / std::numbers::pi, turn = 360 / unit;
+    // Longitudes come within half a turn of the prime meridian; the raster may lie beyond.
+    const double turn = 2 * std::numbers::pi / plan_->GetAngularUnits();
     const double middle = map_[0] + map_[1] * dataset_->GetRasterXSize() / 2 +
                           map_[2] * dataset_->GetRasterYSize() / 2;
-    const double meridian = plan_->GetPrimeMeridian();
-    for (Point& p : points) {
-      p.x = (p.x - meridian) / unit;
-      p.y /= unit;
-      p.x += turn * std::round((middle - p.x) / turn);
-    }
-  } else {
-    const std::unique_ptr<OGRSpatialReference> own(plan_->CloneGeogCS());
-    own->SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-    std::vector<double> heights;
-    for (Point& p : points) heights.push_back(std::exchange(p.z, 0));
-    Transform(*own, *plan_, points);
-    for (std::size_t i = 0; i < points.size(); ++i) points[i].z = heights[i];
+    for (Point& p : points) p.x += turn * std::round((middle - p.x) / turn);
   }
   const double determinant = map_[1] * map_[5] - map_[2] * map_[4];
   for (Point& p : points) {

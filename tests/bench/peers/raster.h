@@ -28,13 +28,18 @@ class Raster {
   /// measured between points of the ellipsoid: it holds for every reference system.
   [[nodiscard]] std::array<double, 2> CellMetres() const;
 
-  /// Points of the Earth (EPSG:4978, metres) over the grid: column, row and metres above the WGS 84
-  /// ellipsoid. No datum shift: longitude and latitude are taken as those of the raster's own system.
+  /// The raster's map, its datum taken for WGS 84, as WKT; empty where WGS 84 is its datum. The contest
+  /// is about shapes: what is placed by this comes back to the grid by the map's projection alone.
+  [[nodiscard]] std::string SystemToState() const;
+
+  /// Points of the Earth (EPSG:4978, metres), where SystemToState puts them, over the grid: column, row
+  /// and metres above the ellipsoid.
   [[nodiscard]] std::vector<Point> OverGrid(const std::vector<Point>& earth) const;
 
  private:
   std::unique_ptr<GDALDataset> dataset_;
-  std::unique_ptr<OGRSpatialReference> plan_;  // the raster's system without heights
+  std::unique_ptr<OGRSpatialReference> plan_;  // the raster's system on WGS 84, without heights
+  bool on_wgs84_ = false;                      // it is the file's own
   std::array<double, 6> map_{};                // of cell corners, as GDAL has it
 };
 

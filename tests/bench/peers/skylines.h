@@ -11,8 +11,9 @@ namespace farhorizon::peers {
 /// Error of a mesh in H, the greatest height of a surface over a plan line, metres.
 struct SilhouetteErrors {
   double rms = 0;
-  double max = 0;      ///< where neither skyline is on an outline
-  double rim_max = 0;  ///< where one is: there a line that grazes the outline sees a rounded vertex far off
+  double max = 0;  ///< where neither skyline is on an outline
+  double rim_max =
+      0;  ///< where one is: there a line that grazes the outline sees a rounded vertex far off
   std::int64_t lines = 0;
   std::int64_t missed = 0;  ///< lines that meet only one of the two surfaces: in no error above
 };

@@ -15,8 +15,9 @@ namespace farhorizon::peers {
 
 namespace {
 
-constexpr double kOnEdge = 1e-6;  // cells; a float32 column of 1201 is rounded by up to 6e-5: see kRim
-constexpr double kRim = 0.06;     // cells; 16 bits a coordinate round by less up to 7,800 posts a side
+constexpr double kOnEdge =
+    1e-6;                      // cells; a float32 column of 1201 is rounded by up to 6e-5: see kRim
+constexpr double kRim = 0.06;  // cells; 16 bits a coordinate round by less up to 7,800 posts a side
 
 /// The plane of a triangle, and what of each row lies within it.
 class Facet {
@@ -163,8 +164,8 @@ double FacetAngleRms(const Mesh& mesh, const Grid& grid, Cell cell) {
     }
     const Point middle = upper ? Point{2. / 3, 1. / 3, 0} : Point{1. / 3, 2. / 3, 0};
     GiveOut(mesh, grid, middle, asked, [&](std::size_t post, const Facet& facet) {
-      const double angle = AngleBetween(slopes[post][0], slopes[post][1],
-                                        facet.slope_x() / cell.x, facet.slope_y() / cell.y);
+      const double angle = AngleBetween(slopes[post][0], slopes[post][1], facet.slope_x() / cell.x,
+                                        facet.slope_y() / cell.y);
       tilt.squares += angle * angle;
       ++tilt.facets;
     });

@@ -16,7 +16,8 @@ struct Cell {
 struct VerticalErrors {
   double rms = 0;
   double max = 0;
-  std::int64_t uncovered = 0;  ///< posts of the DEM's triangles over which there is no mesh: in no error
+  std::int64_t uncovered =
+      0;  ///< posts of the DEM's triangles over which there is no mesh: in no error
 };
 [[nodiscard]] VerticalErrors VerticalErrorsOf(const Mesh& mesh, const Grid& grid);
 

@@ -46,7 +46,8 @@ function summary(contests) {
     percent(shareOf(contest, size)) === percent(shareOf(contests[0], contests[0].sizes[i]))));
   const head = ['DEM', ...Array.from({length: columns}, (_, i) =>
     sameShares ? percent(shareOf(contests[0], contests[0].sizes[i])) : `level ${i}`)];
-  const rows = judged.map(contest => [contest.name, ...contest.sizes.map(size => {
+  const rows = judged.map(contest => [contest.name, ...head.slice(1).map((_, i) => {
+    const size = contest.sizes[i];
     const ours = contest.entries.find(e => e.tool === 'farhorizon' && e.asked === size);
     const ratios = ours && against(contest, ours);
     if (!ratios) return '–';
@@ -94,29 +95,26 @@ function looks(contest) {
       ours ? `${number(highest(ours))} · ` +
              (others.length ? number(Math.min(...others.map(highest))) : '–') : '–',
       ours ? `${number(ours.vertical_max_m)} · ${least('vertical_max_m')}` : '–',
-      ours ? (ours.bytes.drc / ours.triangles).toFixed(2) : '–',
+      ours ? ['drc', 'glb'].map(kind => (ours.bytes[kind] / ours.triangles).toFixed(2)).join(' · ') : '–',
     ];
   });
   return table([['triangles', 'gain / vertical', 'facets off, degrees: ours · best (ratio)',
                  'needles, %: ours · least', 'greatest silhouette error, m: ours · least',
-                 'greatest vertical error, m: ours · least', 'bytes a triangle, .drc'], ...rows]);
+                 'greatest vertical error, m: ours · least', 'bytes a triangle: .drc · .glb'], ...rows]);
 }
 
 function times(contest) {
-  const parts = [];
-  if (contest.ours) {
-    const {seconds, stages, levels} = contest.ours;
-    parts.push(`farhorizon ${number(seconds)} for all ${levels.length} levels, with horizon, ` +
-               `proof and files (of it simplifying ${number(stages.simplify)})`);
-  }
-  for (const tool of tools) {
-    const own = contest.entries.filter(entry => entry.tool === tool.id);
-    if (!own.length) continue;
-    const seconds = own.map(entry => entry.seconds);
+  const ours = contest.ours && `farhorizon ${number(contest.ours.seconds)} for all ` +
+      `${contest.ours.levels.length} levels with horizon, proof and files, of it ` +
+      `${number(contest.ours.stages.simplify)} simplifying, ${number(contest.ours.peak)} MiB; `;
+  const others = tools.flatMap(tool => {
+    const seconds = contest.entries.filter(e => e.tool === tool.id).map(e => e.seconds);
+    if (!seconds.length) return [];
     const low = number(Math.min(...seconds)), high = number(Math.max(...seconds));
-    parts.push(`${tool.name} ${low === high ? low : `${low} to ${high}`}`);
-  }
-  return `Seconds, meshing alone, one mesh from the full grid: ${parts.join('; ')}.`;
+    return `${tool.name} ${low === high ? low : `${low} to ${high}`}`;
+  });
+  return `Seconds of one core: ${ours ?? ''}the others for one mesh, meshing alone: ` +
+         `${others.join(', ')}.`;
 }
 
 function detail(contest) {

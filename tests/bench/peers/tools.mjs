@@ -36,31 +36,52 @@ export function say(message) {
   process.stderr.write(`peers: ${message}\n`);
 }
 
-/** {status, stdout, stderr, stopped}: `stopped` where the limit of seconds ended it. */
+/** The most memory that a running process has had, MiB; undefined once it is gone. */
+function peakOf(pid) {
+  try {
+    const [, kib] = /VmHWM:\s*(\d+)/.exec(fs.readFileSync(`/proc/${pid}/status`, 'utf8')) ?? [];
+    return kib && kib / 1024;
+  } catch {
+    return undefined;
+  }
+}
+
+/**
+ * {status, stdout, stderr, stopped, peak}: `stopped` where the limit of seconds ended it, `peak` its
+ * memory in MiB, but for what it took in its last twentieth of a second.
+ */
 export function runProgram(command, {limit} = {}) {
   return new Promise((resolve, reject) => {
     const child = spawn(command[0], command.slice(1), {stdio: ['ignore', 'pipe', 'pipe']});
-    let stdout = '', stderr = '', stopped = false;
+    let stdout = '', stderr = '', stopped = false, peak = 0;
     const clock = limit && setTimeout(() => { stopped = true; child.kill(); }, 1000 * limit);
+    const look = setInterval(() => peak = peakOf(child.pid) ?? peak, 50);
     child.stdout.on('data', data => stdout += data);
     child.stderr.on('data', data => stderr += data);
     child.on('error', reject);
     child.on('close', status => {
       clearTimeout(clock);
-      resolve({status, stdout, stderr, stopped});
+      clearInterval(look);
+      resolve({status, stdout, stderr, stopped, peak});
     });
   });
+}
+
+/** What a program said of its failure: node's own errors are lines before the last. */
+export function lastWords({stderr, status}) {
+  const said = stderr.trim().split('\n');
+  return said.find(line => /^\w*Error\b/.test(line)) || said.at(-1) || `exit status ${status}`;
 }
 
 /** Runs what has to succeed. */
 export async function must(command, options) {
   const done = await runProgram(command, options);
   if (done.status === 0) return done.stdout;
-  throw new Error(`${path.basename(command[0])} failed: ${done.stderr.trim() || done.status}`);
+  throw new Error(lastWords(done));
 }
 
-const readJson = (file, otherwise) =>
-  fs.existsSync(file) ? JSON.parse(fs.readFileSync(file)) : otherwise;
+export const readJson = (file, otherwise) =>
+  fs.existsSync(file) || otherwise === undefined ? JSON.parse(fs.readFileSync(file)) : otherwise;
 const lines = text => text.split('\n').filter(Boolean).map(line => JSON.parse(line));
 
 /** A DEM in the cache: a folder named after its heights, with its grid and the meshes made of it. */
@@ -72,6 +93,7 @@ export class Dem {
     dem.programs = path.join(cache, 'programs');
     const grid = path.join(cache, `reading-${process.pid}.grid`);
     dem.about = JSON.parse(await must([path.join(dem.programs, 'dem_grid'), file, grid]));
+    if (!dem.about.triangles) throw new Error(`${file}: no triangle of three posts with data`);
     const cell = [dem.about.cell_x_m, dem.about.cell_y_m].map(metres => metres.toFixed(6));
     dem.folder = path.join(cache, 'dems', `${hashOf([grid])}-${cell.join('x')}`);
     fs.mkdirSync(dem.folder, {recursive: true});
@@ -104,7 +126,7 @@ export class Dem {
         else made.meshes[line.asked] = line;
       }
       const failed = done.status !== 0 && done.status !== 3 && !done.stopped;
-      if (failed) why = `${tool} failed: ${done.stderr.trim().split('\n').at(-1)}`;
+      if (failed) why = `${tool} failed: ${lastWords(done)}`;
       if (done.stopped) why = `${tool} was stopped after ${limit} s`;
       for (const size of missing) {
         if (made.meshes[size]) delete made.gone[size];
