@@ -1,10 +1,11 @@
 // cgal_meshes DEM.grid CELL_X CELL_Y lt|gh PREFIX TRIANGLES...
 //
-// Collapses the edges of the full grid with CGAL's Lindstrom-Turk (lt) or Garland-Heckbert (gh) policy
-// and writes PREFIX-TRIANGLES.mesh whenever no more than TRIANGLES are left: one run for all sizes, each
-// the mesh that a run of its own would give. Prints a JSON object a mesh. Vertices leave the posts in
-// plan, too; cells in metres. CGAL's mesh simplification is under the GPL, and so is this program once
-// it is built: it is run as a process of its own and linked into nothing.
+// Collapses the edges of the full grid with CGAL's policies of Lindstrom and Turk (lt)
+// [LindstromTurk98] or of Garland and Heckbert (gh) [GarlandHeckbert97], and writes
+// PREFIX-TRIANGLES.mesh whenever no more than TRIANGLES are left: one run for all sizes, each the
+// mesh that a run of its own would give. Prints a JSON object a mesh. Vertices leave the posts in
+// plan, too; cells in metres. CGAL's mesh simplification is under the GPL, and so is this program
+// once it is built: it is run as a process of its own and linked into nothing.
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Simple_cartesian.h>
@@ -34,7 +35,8 @@ struct Cell {
   double x, y;
 };
 
-/// The full grid in metres. Where two fans of triangles share only a post, CGAL gets a vertex for each.
+/// The full grid in metres. Where two fans of triangles share only a post, CGAL gets a vertex for
+/// each.
 Surface SurfaceOf(const Grid& grid, Cell cell) {
   const Mesh full = FullMesh(grid);
   std::vector<Kernel::Point_3> points;

@@ -3,10 +3,12 @@ import fs from 'node:fs';
 import path from 'node:path';
 import {parseArgs} from 'node:util';
 
+import {Dem} from './dem.mjs';
 import {front} from './front.mjs';
 import {ourLevels, takesTriangles} from './ours.mjs';
+import {say} from './programs.mjs';
 import {tables} from './tables.mjs';
-import {Dem, say, tools} from './tools.mjs';
+import {tools} from './tools.mjs';
 
 const {values: options, positionals: files} = parseArgs({
   allowPositionals: true,
@@ -34,8 +36,9 @@ if (!fs.existsSync(options.farhorizon))
           '--farhorizon');
 
 /**
- * Where the judge sees more than report.json owns up to: its silhouette bound is never exceeded, except
- * on the outline, which it measures apart. A tenth of a millimetre is the rounding of float32 files.
+ * Where the judge sees more than report.json owns up to: its silhouette bound is never exceeded,
+ * except on the outline, which it measures apart. A tenth of a millimetre is the rounding of
+ * float32 files.
  */
 function doubts(levels) {
   return levels.flatMap(({said, silhouette_max_m: seen}, level) => {
@@ -64,8 +67,10 @@ async function contestOf(file, bySize) {
     judged.forEach((result, i) => Object.assign(ours.levels[i], result));
     if (!bySize) sizes = sizesOf(ours.levels.map(level => level.triangles));
     notes.push(...doubts(ours.levels));
-    ours.levels.forEach((level, i) => entries.push(
-      {tool: 'farhorizon', name: 'farhorizon', ...level, asked: bySize ? sizes[i] : level.triangles}));
+    ours.levels.forEach((level, i) => {
+      const asked = bySize ? sizes[i] : level.triangles;
+      entries.push({tool: 'farhorizon', name: 'farhorizon', ...level, asked});
+    });
   } catch (error) {
     notes.push(error.message);
   }

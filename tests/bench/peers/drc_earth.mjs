@@ -1,8 +1,9 @@
 // node drc_earth.mjs TILESET.json LEVEL.drc OUT.earth
 //
-// Decodes a level that farhorizon wrote, with draco3d, and writes where its vertices are on the Earth
-// (over_grid.cpp has the format): as the bytes say, with all that rounding has done to them. Positions
-// are whole numbers of a lattice in the tile's frame, whose axes are the tileset's transform.
+// Decodes a level that farhorizon wrote, with draco3d, and writes where its vertices are on the
+// Earth (over_grid.cpp has the format): as the bytes say, with all that rounding has done to them.
+// Positions are whole numbers of a lattice in the tile's frame, whose axes are the tileset's
+// transform.
 import fs from 'node:fs';
 import {createRequire} from 'node:module';
 import path from 'node:path';

@@ -1,6 +1,6 @@
-// The front as a picture: vertical against silhouette rms, both by logarithm; a line a tool, a point a
-// size. Nearer the lower left is better. One panel a DEM. The card has a background of its own, so
-// that it reads alike on a light and on a dark page.
+// The front as a picture: vertical against silhouette rms, both by logarithm; a line a tool, a
+// point a size. Nearer the lower left is better. One panel a DEM. The card has a background of its
+// own, so that it reads alike on a light and on a dark page.
 import {against, count, gainText, percent, shareOf} from './tables.mjs';
 import {tools} from './tools.mjs';
 
@@ -18,15 +18,18 @@ const looks = {
 };
 
 const round = value => Number(value.toFixed(2));
-const text = (x, y, words, {size = 12, fill = ink, anchor = 'start', weight = 400, more = ''} = {}) =>
-  `<text x="${round(x)}" y="${round(y)}" font-size="${size}" fill="${fill}" ` +
-  `text-anchor="${anchor}" font-weight="${weight}" ${more}>` +
-  `${words.replace(/&/g, '&amp;').replace(/</g, '&lt;')}</text>`;
+function text(x, y, words, look = {}) {
+  const {size = 12, fill = ink, anchor = 'start', weight = 400, more = ''} = look;
+  return `<text x="${round(x)}" y="${round(y)}" font-size="${size}" fill="${fill}" ` +
+         `text-anchor="${anchor}" font-weight="${weight}" ${more}>` +
+         `${words.replace(/&/g, '&amp;').replace(/</g, '&lt;')}</text>`;
+}
 
 function mark(kind, x, y, r, colour) {
-  const path = (...corners) =>
-    `<path d="M${corners.map(([dx, dy]) => `${round(x + dx * r)},${round(y + dy * r)}`).join('L')}Z" ` +
-    `fill="${colour}" stroke="${paper}" stroke-width="1"/>`;
+  const path = (...corners) => {
+    const places = corners.map(([dx, dy]) => `${round(x + dx * r)},${round(y + dy * r)}`);
+    return `<path d="M${places.join('L')}Z" fill="${colour}" stroke="${paper}"/>`;
+  };
   switch (kind) {
     case 'circle':
       return `<circle cx="${round(x)}" cy="${round(y)}" r="${r}" fill="${colour}" ` +
@@ -78,12 +81,12 @@ function panel(contest, {x, y, width, height}) {
     parts.push(`<path d="M${box.left},${at}H${box.right}" stroke="${faint}"/>`,
                text(box.left - 8, at + 4, `${tick}`, {size: 11, fill: quiet, anchor: 'end'}));
   }
+  const turned = `translate(${x + 8},${round((box.top + box.bottom) / 2)}) rotate(-90)`;
   parts.push(
     text((box.left + box.right) / 2, box.bottom + 34, 'ground: vertical rms at the posts, metres',
          {size: 11.5, fill: quiet, anchor: 'middle'}),
     text(0, 0, 'skyline: silhouette rms, metres',
-         {size: 11.5, fill: quiet, anchor: 'middle',
-          more: `transform="translate(${x + 8},${round((box.top + box.bottom) / 2)}) rotate(-90)"`}));
+         {size: 11.5, fill: quiet, anchor: 'middle', more: `transform="${turned}"`}));
 
   // How far below the best of the others, from each of our points up to theirs.
   const ours = drawn.filter(e => e.tool === 'farhorizon').sort((a, b) => b.asked - a.asked);
@@ -158,7 +161,8 @@ export function front(contests) {
   return `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${width} ${round(height)}" ` +
     `width="${width}" height="${round(height)}" ${font} role="img" ` +
     'aria-label="Vertical against silhouette error of the levels of several tools">\n' +
-    `<rect width="${width}" height="${round(height)}" rx="12" fill="${paper}" stroke="${faint}"/>\n` +
+    `<rect width="${width}" height="${round(height)}" rx="12" fill="${paper}" ` +
+    `stroke="${faint}"/>\n` +
     text(margin, 38, 'Skyline and ground at the same number of triangles',
          {size: 19, weight: 650}) + '\n' +
     text(margin, 58, 'A point a size, per cent of the DEM\'s triangles; lower left is better. ' +

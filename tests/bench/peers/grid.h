@@ -1,4 +1,5 @@
-// A DEM and a mesh over it as the programs of this folder hand them on: in columns, rows and metres.
+// A DEM and a mesh over it as the programs of this folder hand them on: in columns, rows and
+// metres.
 #pragma once
 
 #include <array>
@@ -40,12 +41,12 @@ struct Mesh {
 };
 
 /// The terrain of all posts of `grid`: each cell is split along the diagonal from (column, row) to
-/// (column + 1, row + 1); a cell with one missing post keeps the triangle of its other three, a cell
-/// with more has none. Vertices are numbered as posts, the missing ones too.
+/// (column + 1, row + 1); a cell with one missing post keeps the triangle of its other three, a
+/// cell with more has none. Vertices are numbered as posts, the missing ones too.
 [[nodiscard]] Mesh FullMesh(const Grid& grid);
 
-/// The files above. A file that cannot be read or written, or whose parts contradict each other, ends
-/// the program with a message and exit status 1: nothing in this folder can go on without it.
+/// The files above. A file that cannot be read or written, or whose parts contradict each other,
+/// ends the program with a message and exit status 1: nothing in this folder can go on without it.
 [[nodiscard]] Grid ReadGrid(const std::string& path);
 void WriteGrid(const Grid& grid, const std::string& path);
 [[nodiscard]] Mesh ReadMesh(const std::string& path);

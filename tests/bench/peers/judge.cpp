@@ -1,7 +1,8 @@
 // judge DEM.grid CELL_X CELL_Y MESH.mesh...
 //
-// Prints a JSON object a line for each mesh: its errors against the DEM. It judges whatever triangles
-// it is given, knows nothing of how they were made and shares no code with farhorizon. Files: grid.h.
+// Prints a JSON object a line for each mesh: its errors against the DEM. It judges whatever
+// triangles it is given, knows nothing of how they were made and shares no code with farhorizon.
+// Files: grid.h.
 #include <cstdlib>
 #include <iomanip>
 #include <iostream>

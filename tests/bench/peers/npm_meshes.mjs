@@ -1,9 +1,9 @@
 // node npm_meshes.mjs DEM.grid CELL_X CELL_Y TOOL PREFIX TRIANGLES...
 //
-// TOOL: delatin, martini, meshoptimizer or meshoptimizer-free.
-// Writes PREFIX-TRIANGLES.mesh for each size and prints a JSON object for each; cells in metres. The
-// packages are those of PEERS_PACKAGES, a folder in which npm has installed package.json. Exit status
-// 3: the tool cannot mesh such a DEM; stdout says why.
+// TOOL: delatin, martini, meshoptimizer or meshoptimizer-free. Writes PREFIX-TRIANGLES.mesh for
+// each size and prints a JSON object for each; cells in metres. The packages are those of
+// PEERS_PACKAGES, a folder in which npm has installed package.json. Exit status 3: the tool cannot
+// mesh such a DEM; stdout says why.
 import {createRequire} from 'node:module';
 import path from 'node:path';
 import {pathToFileURL} from 'node:url';
@@ -40,24 +40,28 @@ async function delatin() {
     while (tin.triangles.length / 3 < size && tin.getMaxError() > 0) tin.refine();
     const took = seconds(), paused = performance.now();
     const vertices = [];
-    for (let i = 0; i < tin.coords.length; i += 2)
-      vertices.push(tin.coords[i], tin.coords[i + 1], tin.heightAt(tin.coords[i], tin.coords[i + 1]));
+    for (let i = 0; i < tin.coords.length; i += 2) {
+      const [x, y] = [tin.coords[i], tin.coords[i + 1]];
+      vertices.push(x, y, tin.heightAt(x, y));
+    }
     save(size, took, vertices, tin.triangles);
     begin += performance.now() - paused; // writing is not meshing
   }
 }
 
 /**
- * In metres. Its users lock the border of tiles, so that neighbours meet; where the border alone has
- * more than the triangles asked for, there is no such mesh.
+ * In metres. Its users lock the border of tiles, so that neighbours meet; where the border alone
+ * has more than the triangles asked for, there is no such mesh.
  */
 async function meshoptimizer(flags) {
   const {MeshoptSimplifier} = await load('meshoptimizer');
   await MeshoptSimplifier.ready;
   const all = fullTriangles(grid);
   const positions = new Float32Array(heights.length * 3);
-  heights.forEach((z, post) =>
-    positions.set([(post % columns) * cellX, Math.floor(post / columns) * cellY, z || 0], 3 * post));
+  heights.forEach((z, post) => {
+    const x = (post % columns) * cellX, y = Math.floor(post / columns) * cellY;
+    positions.set([x, y, z || 0], 3 * post); // a missing post is in no triangle
+  });
   for (const size of asked) {
     begin = performance.now();
     const [kept] = MeshoptSimplifier.simplify(all, positions, 3, size * 3, 1, flags);
@@ -75,7 +79,7 @@ async function meshoptimizer(flags) {
   }
 }
 
-/** It takes an error, not a number of triangles: the least error with at most so many is searched. */
+/** It takes an error, not a number of triangles: searches for the least error with so many. */
 async function martini() {
   const Martini = (await load('@mapbox/martini')).default;
   if (columns !== rows || ((columns - 1) & (columns - 2)) !== 0)

@@ -3,7 +3,7 @@ import fs from 'node:fs';
 import path from 'node:path';
 import {fileURLToPath} from 'node:url';
 
-import {lastWords, must, readJson, runProgram, say} from './tools.mjs';
+import {lastWords, must, readJson, runProgram, say} from './programs.mjs';
 
 const here = path.dirname(fileURLToPath(import.meta.url));
 
@@ -16,8 +16,9 @@ export async function takesTriangles(farhorizon) {
 /**
  * Builds the DEM's levels, of `sizes` triangles or by default, and returns {levels: [{file, bytes,
  * said}], finest first; seconds, peak, stages}: `said` is what report.json says of the level; the
- * seconds of one core and the peak of memory, MiB, are those of the whole build. The contest is about shapes: heights are taken as they are and the
- * datum for WGS 84, so that the way from the Earth back to the grid is the map's projection alone.
+ * seconds of one core and the peak of memory, MiB, are those of the whole build. The contest is
+ * about shapes: heights are taken as they are and the datum for WGS 84, so that the way from the
+ * Earth back to the grid is the map's projection alone.
  */
 export async function ourLevels(farhorizon, dem, sizes) {
   const out = path.join(dem.folder, 'farhorizon');

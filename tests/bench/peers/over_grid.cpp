@@ -1,7 +1,8 @@
 // over_grid DEM MESH.earth OUT.mesh
 //
 // Puts a mesh that lies on the Earth over the grid of its DEM (grid.h). MESH.earth: int32 vertices,
-// int32 triangles; float64 x, y, z a vertex, earth-fixed metres (EPSG:4978); int32 a, b, c a triangle.
+// int32 triangles; float64 x, y, z a vertex, earth-fixed metres (EPSG:4978); int32 a, b, c a
+// triangle.
 #include <array>
 #include <fstream>
 #include <iostream>

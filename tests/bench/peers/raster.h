@@ -28,12 +28,13 @@ class Raster {
   /// measured between points of the ellipsoid: it holds for every reference system.
   [[nodiscard]] std::array<double, 2> CellMetres() const;
 
-  /// The raster's map, its datum taken for WGS 84, as WKT; empty where WGS 84 is its datum. The contest
-  /// is about shapes: what is placed by this comes back to the grid by the map's projection alone.
+  /// The raster's map, its datum taken for WGS 84, as WKT; empty where WGS 84 is its datum. The
+  /// contest is about shapes: what is placed by this comes back to the grid by the map's projection
+  /// alone.
   [[nodiscard]] std::string SystemToState() const;
 
-  /// Points of the Earth (EPSG:4978, metres), where SystemToState puts them, over the grid: column, row
-  /// and metres above the ellipsoid.
+  /// Points of the Earth (EPSG:4978, metres), where SystemToState puts them, over the grid: column,
+  /// row and metres above the ellipsoid.
   [[nodiscard]] std::vector<Point> OverGrid(const std::vector<Point>& earth) const;
 
  private:

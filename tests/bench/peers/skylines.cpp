@@ -1,6 +1,7 @@
 // A surface of triangles is highest over a line at an edge, or at an end of the line's way over it,
-// which is an edge too: so H is the greatest height at which the line crosses any edge, by definition
-// and with nothing left out. Cost: for each direction, every edge once and every crossing once.
+// which is an edge too: so H is the greatest height at which the line crosses any edge, by
+// definition and with nothing left out. Cost: for each direction, every edge once and every
+// crossing once.
 #include "skylines.h"
 
 #include <algorithm>

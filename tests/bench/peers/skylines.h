@@ -20,8 +20,8 @@ struct SilhouetteErrors {
 
 /// The DEM's skylines over parallel plan lines in each of a number of directions.
 ///
-/// Direction k is pi times the fractional part of (0.1234567 + k golden ratio), which no tool samples
-/// by rule; lines are 1 / lines_per_cell cells apart, from the corner of the grid on.
+/// Direction k is pi times the fractional part of (0.1234567 + k golden ratio), which no tool
+/// samples by rule; lines are 1 / lines_per_cell cells apart, from the corner of the grid on.
 class Skylines {
  public:
   Skylines(const Grid& grid, int directions, int lines_per_cell);

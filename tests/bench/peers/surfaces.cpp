@@ -1,7 +1,7 @@
-// Every triangle is walked row by row over the points of a lattice: the posts, or the middles of one
-// half of the cells. A point on the edge of two triangles is counted once, by the first of them.
-// Points up to kRim cells outside the mesh take the plane of the nearest triangle, once all others are
-// settled: a codec that rounds a vertex of the outline leaves posts that far outside.
+// Every triangle is walked row by row over the points of a lattice: the posts, or the middles of
+// one half of the cells. A point on the edge of two triangles is counted once, by the first of
+// them. Points up to kRim cells outside the mesh take the plane of the nearest triangle, once all
+// others are settled: a codec that rounds a vertex of the outline leaves posts that far outside.
 #include "surfaces.h"
 
 #include <algorithm>
@@ -87,8 +87,8 @@ class Facet {
   double slope_x_ = 0, slope_y_ = 0;
 };
 
-/// Gives each asked point of a lattice to one facet: visit(index of the point, facet). Asked points are
-/// those with a 1 in `asked`, whose ones go as they are given. Returns how many are left.
+/// Gives each asked point of a lattice to one facet: visit(index of the point, facet). Asked points
+/// are those with a 1 in `asked`, whose ones go as they are given. Returns how many are left.
 template <typename Visit>
 std::int64_t GiveOut(const Mesh& mesh, const Grid& grid, Point at, std::vector<char>& asked,
                      const Visit& visit) {
@@ -145,9 +145,9 @@ VerticalErrors VerticalErrorsOf(const Mesh& mesh, const Grid& grid) {
 }
 
 double FacetAngleRms(const Mesh& mesh, const Grid& grid, Cell cell) {
-  // Each facet of the DEM belongs to the cell of its least column and row; of the two in a cell, the
-  // one with the longer way along the row first. A cell with one post missing keeps one facet, whose
-  // middle may be any of four: those few at holes are left out.
+  // Each facet of the DEM belongs to the cell of its least column and row; of the two in a cell,
+  // the one with the longer way along the row first. A cell with one post missing keeps one facet,
+  // whose middle may be any of four: those few at holes are left out.
   const Mesh full = FullMesh(grid);
   Tilt tilt;
   for (const bool upper : {true, false}) {

@@ -21,8 +21,9 @@ struct VerticalErrors {
 };
 [[nodiscard]] VerticalErrors VerticalErrorsOf(const Mesh& mesh, const Grid& grid);
 
-/// How the mesh looks when lit: the angle between the normals of a facet of the DEM and of the facet
-/// of the mesh over its middle, rms over all facets of the DEM (they are alike in plan), degrees.
+/// How the mesh looks when lit: the angle between the normals of a facet of the DEM and of the
+/// facet of the mesh over its middle, rms over all facets of the DEM (they are alike in plan),
+/// degrees.
 [[nodiscard]] double FacetAngleRms(const Mesh& mesh, const Grid& grid, Cell cell);
 
 /// The share of triangles, in [0, 1], with an angle under `degrees` in space: the eye sees them as

@@ -71,8 +71,9 @@ function errors(contest) {
     ...names.map(({id}) => {
       const entry = contest.entries.find(e => e.tool === id && e.asked === size);
       if (!entry) return '–';
-      const other = Math.abs(entry.triangles / size - 1) > 0.02 ? ` (${count(entry.triangles)})` : '';
-      return `${number(entry.silhouette_rms_m)} / ${number(entry.vertical_rms_m)}${other}`;
+      const errors = `${number(entry.silhouette_rms_m)} / ${number(entry.vertical_rms_m)}`;
+      const far = Math.abs(entry.triangles / size - 1) > 0.02;
+      return far ? `${errors} (${count(entry.triangles)})` : errors;
     }),
   ]);
   return table([['triangles', ...names.map(tool => tool.name)], ...rows]);
@@ -85,6 +86,7 @@ function looks(contest) {
     const others = contest.entries.filter(entry => entry.best && entry.asked === size);
     const least = key => others.length ? number(Math.min(...others.map(e => e[key]))) : '–';
     const highest = e => Math.max(e.silhouette_max_m, e.silhouette_rim_max_m);
+    const bytes = kind => (ours.bytes[kind] / ours.triangles).toFixed(2);
     const ratios = ours && against(contest, ours);
     return [
       count(size),
@@ -95,12 +97,13 @@ function looks(contest) {
       ours ? `${number(highest(ours))} · ` +
              (others.length ? number(Math.min(...others.map(highest))) : '–') : '–',
       ours ? `${number(ours.vertical_max_m)} · ${least('vertical_max_m')}` : '–',
-      ours ? ['drc', 'glb'].map(kind => (ours.bytes[kind] / ours.triangles).toFixed(2)).join(' · ') : '–',
+      ours ? `${bytes('drc')} · ${bytes('glb')}` : '–',
     ];
   });
   return table([['triangles', 'gain / vertical', 'facets off, degrees: ours · best (ratio)',
                  'needles, %: ours · least', 'greatest silhouette error, m: ours · least',
-                 'greatest vertical error, m: ours · least', 'bytes a triangle: .drc · .glb'], ...rows]);
+                 'greatest vertical error, m: ours · least', 'bytes a triangle: .drc · .glb'],
+                ...rows]);
 }
 
 function times(contest) {
