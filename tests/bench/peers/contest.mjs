@@ -31,9 +31,6 @@ if (!shares.every(share => share > 0 && share < 100))
   misused(`--shares takes per cent between 0 and 100, such as 20,10,5: '${options.shares}'`);
 const limit = Number(options.limit);
 if (!(limit > 0)) misused(`--limit takes seconds: '${options.limit}'`);
-if (!fs.existsSync(options.farhorizon))
-  misused(`no ${options.farhorizon}; build it (cmake --workflow --preset release) or name one by ` +
-          '--farhorizon');
 
 /**
  * Where the judge sees more than report.json owns up to: its silhouette bound is never exceeded,

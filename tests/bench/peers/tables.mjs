@@ -20,11 +20,12 @@ const table = rows => {
 /**
  * How an entry compares with the best of the others at the same size, each error by itself: `gain`,
  * their silhouette rms over ours; `vertical` and `facets`, ours over theirs. An error below a
- * millionth of a cell, or a thousandth of a degree, counts as that much: below is rounding.
+ * millionth of a cell, or a thousandth of a degree, counts as that much: below is rounding. Nothing
+ * where ours has more triangles than were asked for: that would be no contest.
  */
 export function against(contest, ours) {
   const others = contest.entries.filter(entry => entry.best && entry.asked === ours.asked);
-  if (!others.length) return undefined;
+  if (!others.length || ours.triangles > ours.asked) return undefined;
   const nothing = 1e-6 * Math.min(contest.about.cell_x_m, contest.about.cell_y_m);
   const ratio = (key, floor) => Math.max(ours[key], floor) /
       Math.max(Math.min(...others.map(entry => entry[key])), floor);
