@@ -49,34 +49,51 @@ async function delatin() {
   }
 }
 
-/**
- * In metres. Its users lock the border of tiles, so that neighbours meet; where the border alone
- * has more than the triangles asked for, there is no such mesh.
- */
-async function meshoptimizer(flags) {
-  const {MeshoptSimplifier} = await load('meshoptimizer');
-  await MeshoptSimplifier.ready;
-  const all = fullTriangles(grid);
+/** All triangles, and all posts in metres, as meshoptimizer takes them. */
+function fullMesh() {
   const positions = new Float32Array(heights.length * 3);
   heights.forEach((z, post) => {
     const x = (post % columns) * cellX, y = Math.floor(post / columns) * cellY;
     positions.set([x, y, z || 0], 3 * post); // a missing post is in no triangle
   });
+  return {all: fullTriangles(grid), positions};
+}
+
+/** simplify(simplifier, full mesh, size) returns {kept, placeOf}: triangles; where a post now is. */
+async function meshoptimizer(simplify) {
+  const {MeshoptSimplifier} = await load('meshoptimizer');
+  await MeshoptSimplifier.ready;
   for (const size of asked) {
+    const full = fullMesh();
     begin = performance.now();
-    const [kept] = MeshoptSimplifier.simplify(all, positions, 3, size * 3, 1, flags);
+    const {kept, placeOf} = simplify(MeshoptSimplifier, full, size);
     const took = seconds();
-    if (kept.length / 3 > 1.02 * size) continue;
+    if (kept.length / 3 > 1.02 * size) continue; // no collapse is left that it would do
     const numbers = new Map(), vertices = [];
     const triangles = Array.from(kept, post => {
       if (!numbers.has(post)) {
         numbers.set(post, numbers.size);
-        vertices.push(post % columns, Math.floor(post / columns), heights[post]);
+        vertices.push(...placeOf(post));
       }
       return numbers.get(post);
     });
     save(size, took, vertices, triangles);
   }
+}
+
+/** Its users lock the border of tiles, so that neighbours meet. Vertices are posts. */
+function withLockedBorder(simplifier, {all, positions}, size) {
+  const [kept] = simplifier.simplify(all, positions, 3, 3 * size, 1, ['LockBorder']);
+  return {kept, placeOf: post => [post % columns, Math.floor(post / columns), heights[post]]};
+}
+
+/** The best that it can: vertices move to where the error is least, the border with them. */
+function withFreeVertices(simplifier, {all, positions}, size) {
+  const none = new Float32Array(0);
+  const [count] = simplifier.simplifyWithUpdate(all, positions, 3, none, 0, [], null, 3 * size, 1);
+  const placeOf = post =>
+    [positions[3 * post] / cellX, positions[3 * post + 1] / cellY, positions[3 * post + 2]];
+  return {kept: all.subarray(0, count), placeOf};
 }
 
 /** It takes an error, not a number of triangles: searches for the least error with so many. */
@@ -115,7 +132,7 @@ async function martini() {
 const tools = {
   delatin,
   martini,
-  'meshoptimizer': () => meshoptimizer(['LockBorder']),
-  'meshoptimizer-free': () => meshoptimizer([]),
+  'meshoptimizer': () => meshoptimizer(withLockedBorder),
+  'meshoptimizer-free': () => meshoptimizer(withFreeVertices),
 };
 await tools[tool]();

@@ -8,7 +8,7 @@ export const tools = [
   {id: 'delatin', name: 'delatin', best: true},
   {id: 'martini', name: 'martini', best: false},
   {id: 'meshoptimizer', name: 'meshoptimizer, border locked', best: true},
-  {id: 'meshoptimizer-free', name: 'meshoptimizer', best: true},
+  {id: 'meshoptimizer-free', name: 'meshoptimizer, free', best: true},
   {id: 'lt', name: 'CGAL Lindstrom-Turk', best: true},
   {id: 'gh', name: 'CGAL Garland-Heckbert', best: true},
 ];
