@@ -64,6 +64,8 @@ async function contestOf(file, bySize) {
     judged.forEach((result, i) => Object.assign(ours.levels[i], result));
     if (!bySize) sizes = sizesOf(ours.levels.map(level => level.triangles));
     notes.push(...doubts(ours.levels));
+    if (sizes.length !== ours.levels.length && bySize)
+      throw new Error(`farhorizon made ${ours.levels.length} levels for ${sizes.length} sizes`);
     ours.levels.forEach((level, i) => {
       const asked = bySize ? sizes[i] : level.triangles;
       entries.push({tool: 'farhorizon', name: 'farhorizon', ...level, asked});
@@ -90,6 +92,7 @@ let failed = false;
 for (const file of files) {
   try {
     contests.push(await contestOf(file, bySize));
+    failed ||= !contests.at(-1).entries.some(entry => entry.tool === 'farhorizon');
   } catch (error) {
     say(error.message);
     failed = true;
