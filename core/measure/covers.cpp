@@ -48,7 +48,7 @@ Status CheckPosts(const Terrain& terrain, const GridMesh& mesh,
 // Triangles that all turn counter-clockwise cover it once if their areas add up to the domain's and
 // their outline is on the domain's (CheckCovers checks that).
 Result<GridMesh> MeshOverPosts(const Terrain& terrain, const GridMesh& mesh,
-                                                 const std::vector<VertexId>& posts) {
+                               const std::vector<VertexId>& posts) {
   GridMesh over_posts;
   over_posts.points.resize(static_cast<std::size_t>(terrain.post_count()));
   over_posts.triangles.reserve(mesh.triangles.size());
@@ -100,7 +100,8 @@ Status CheckCovers(const Terrain& terrain, const GridMesh& mesh,
   Result<GridMesh> over_posts = MeshOverPosts(terrain, mesh, posts);
   if (!over_posts) return std::move(over_posts.error());
   const MeshSides sides = SidesOf(*over_posts);
-  if (sides.crowded > 0) return BadMesh("two triangles of the mesh lie over one another", "overlap");
+  if (sides.crowded > 0)
+    return BadMesh("two triangles of the mesh lie over one another", "overlap");
   for (const MeshSide& side : sides.sides) {
     if (!side.IsOutline()) continue;
     const Edge edge{side.a, side.b};

@@ -34,7 +34,8 @@ double SquaredAngle(const Gradient& p, const Gradient& q) {
     return squared_sine *
            (1 + squared_sine *
                     (1.0 / 3 +
-                     squared_sine * (8.0 / 45 + squared_sine * (4.0 / 35 + squared_sine * 128.0 / 1575))));
+                     squared_sine *
+                         (8.0 / 45 + squared_sine * (4.0 / 35 + squared_sine * 128.0 / 1575))));
   }
   const double angle = std::atan2(std::sqrt(cross), dot);
   return angle * angle;
@@ -116,8 +117,8 @@ bool IsNeedle(const Corners& corners) {
   for (std::size_t k = 0; k < 3; ++k) {
     const StraightPoint u = Minus(corners[(k + 1) % 3], corners[k]);
     const StraightPoint v = Minus(corners[(k + 2) % 3], corners[k]);
-    const double cross = std::hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
-                                    u[0] * v[1] - u[1] * v[0]);
+    const double cross =
+        std::hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]);
     const double dot = u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
     if (cross < std::tan(kNeedleDegrees / kDegrees) * dot) return true;
   }

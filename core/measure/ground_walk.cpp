@@ -128,8 +128,7 @@ class Walker {
       } else if (at_a == kInfinity || at_b == kInfinity) {
         AppendUncovered(static_cast<std::int32_t>(i), rise);
       } else {
-        result_.dem_raised.push_back(
-            {PointAt(e.a), PointAt(e.b), false, index_.inner()[i] == 0});
+        result_.dem_raised.push_back({PointAt(e.a), PointAt(e.b), false, index_.inner()[i] == 0});
       }
     }
     return std::move(result_);
@@ -137,8 +136,7 @@ class Walker {
 
  private:
   [[nodiscard]] GridPoint PointAt(VertexId v) const {
-    return {static_cast<double>(dem_.Column(v)), static_cast<double>(dem_.Row(v)),
-            dem_.HeightM(v)};
+    return {static_cast<double>(dem_.Column(v)), static_cast<double>(dem_.Row(v)), dem_.HeightM(v)};
   }
 
   // The ground below a piece that lies in one triangle; nullopt where there is none, or the cell
@@ -158,10 +156,10 @@ class Walker {
       return std::nullopt;
     }
     const bool upper = x - column > y - row;
-    const double by_column = upper ? static_cast<double>(z[1]) - z[0]
-                                   : static_cast<double>(z[3]) - z[2];
-    const double by_row = upper ? static_cast<double>(z[3]) - z[1]
-                                : static_cast<double>(z[2]) - z[0];
+    const double by_column =
+        upper ? static_cast<double>(z[1]) - z[0] : static_cast<double>(z[3]) - z[2];
+    const double by_row =
+        upper ? static_cast<double>(z[3]) - z[1] : static_cast<double>(z[2]) - z[0];
     const auto height = [&](const GridPoint& g) {
       return dem_.height_offset_m +
              (z[0] + by_column * (g.column - column) + by_row * (g.row - row)) * dem_.quantum_m;
@@ -173,8 +171,8 @@ class Walker {
     const std::optional<Ground> ground = GroundBelow(p, q);
     if (ground) {
       const double most = std::max(p.height_m - ground->from, q.height_m - ground->to);
-      result_.most_m = std::max(
-          {result_.most_m, most, ground->from - p.height_m, ground->to - q.height_m});
+      result_.most_m =
+          std::max({result_.most_m, most, ground->from - p.height_m, ground->to - q.height_m});
       if (most <= allowed_m_ || !ridge) return Flush();
       if (InHull(ground->cell, std::max(p.height_m, q.height_m) - allowed_m_)) return Flush();
     } else if (!ridge) {
@@ -206,8 +204,8 @@ class Walker {
 
   // Whether the cell is inside one merged hull of ground at or above `height_m`.
   [[nodiscard]] bool InHull(VertexId nw, double height_m) const {
-    const auto quanta = static_cast<std::int32_t>(
-        std::ceil((height_m - dem_.height_offset_m) / dem_.quantum_m));
+    const auto quanta =
+        static_cast<std::int32_t>(std::ceil((height_m - dem_.height_offset_m) / dem_.quantum_m));
     const VertexId sw = nw + dem_.columns;
     return horizon_.hulls.Occludes(nw, sw + 1, quanta) &&
            horizon_.hulls.Occludes(nw, nw + 1, quanta) && horizon_.hulls.Occludes(nw, sw, quanta);
@@ -247,9 +245,9 @@ class Walker {
     const bool has_b = rise[static_cast<std::size_t>(e.b)] != kNoRise;
     double from = 0;  // the part between is covered
     double to = 1;
-    const auto [first, last] = std::equal_range(
-        ends_.begin(), ends_.end(), MeshEnd{i, 0},
-        [](const MeshEnd& p, const MeshEnd& q) { return p.edge < q.edge; });
+    const auto [first, last] =
+        std::equal_range(ends_.begin(), ends_.end(), MeshEnd{i, 0},
+                         [](const MeshEnd& p, const MeshEnd& q) { return p.edge < q.edge; });
     if (first == last || (has_a && has_b)) {
       to = 0;
     } else {
@@ -316,8 +314,8 @@ std::int32_t HorizonIndex::Find(VertexId a, VertexId b) const {
 }
 
 GroundWalk WalkGround(const Terrain& terrain, const Horizon& horizon, const HorizonIndex& index,
-                      const GridMesh& mesh, const MeshSides& sides,
-                      const std::vector<float>& rise, double allowed_m) {
+                      const GridMesh& mesh, const MeshSides& sides, const std::vector<float>& rise,
+                      double allowed_m) {
   Walker walker(terrain, horizon, index, allowed_m);
   for (const MeshSide& side : sides.sides) {
     walker.WalkSide(mesh.points[static_cast<std::size_t>(side.a)],

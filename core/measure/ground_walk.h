@@ -64,7 +64,7 @@ struct GroundWalk {
 /// rise: as PostErrors has it.
 /// Cost: the cells that the mesh's sides cross.
 GroundWalk WalkGround(const Terrain& terrain, const Horizon& horizon, const HorizonIndex& index,
-                      const GridMesh& mesh, const MeshSides& sides,
-                      const std::vector<float>& rise, double allowed_m);
+                      const GridMesh& mesh, const MeshSides& sides, const std::vector<float>& rise,
+                      double allowed_m);
 
 }  // namespace farhorizon

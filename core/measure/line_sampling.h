@@ -23,8 +23,8 @@ struct SampledSkyline {
 };
 
 /// Errors: kCancelled. Cost: the lines that each segment crosses, in each direction.
-Result<SampledSkyline> SampleSkyline(const SkylineNet& net, std::int32_t columns,
-                                     std::int32_t rows, const RunControl& control);
+Result<SampledSkyline> SampleSkyline(const SkylineNet& net, std::int32_t columns, std::int32_t rows,
+                                     const RunControl& control);
 
 /// The difference of two skylines over the lines that meet both surfaces, metres.
 ///

@@ -124,15 +124,14 @@ Result<MeshError> MeshMeasurer::Measure(const PlacedMesh& mesh, const RunControl
 
   RaisedBounds bounds{sampled.max_m, std::max(sampled.max_m, sampled.outline_max_m)};
   const double allowed_m = WithRoom(bounds.inner_m, dem_->surface.relief_m);
-  const GroundWalk walk = WalkGround(*dem_->terrain, *dem_->horizon, dem_->index, grid, sides,
-                                     posts->rise, allowed_m);
-  Result<RaisedBounds> above = BoundRaised(dem_->surface, dem_->floor, 0, walk.mesh_raised, bounds,
-                                           control);
+  const GroundWalk walk =
+      WalkGround(*dem_->terrain, *dem_->horizon, dem_->index, grid, sides, posts->rise, allowed_m);
+  Result<RaisedBounds> above =
+      BoundRaised(dem_->surface, dem_->floor, 0, walk.mesh_raised, bounds, control);
   if (!above) return std::move(above.error());
   control.Report(Stage::kMeasure, kAbove);
-  Result<RaisedBounds> below = BoundRaised(surface, dem_->floor, walk.inner_sunk_m,
-                                           walk.dem_raised,
-                                           *above, control);
+  Result<RaisedBounds> below =
+      BoundRaised(surface, dem_->floor, walk.inner_sunk_m, walk.dem_raised, *above, control);
   if (!below) return std::move(below.error());
   error.silhouette.max_m = std::min(std::max(above->inner_m, below->inner_m), walk.most_m);
   error.rim_m = std::max({above->outline_m, below->outline_m, error.silhouette.max_m});

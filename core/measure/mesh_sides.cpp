@@ -11,15 +11,15 @@ namespace {
 
 // A triangle's side, as the triangle runs along it.
 struct HalfEdge {
-  std::int32_t b = 0;          // the greater point
-  std::int32_t right = 0;      // 0: the triangle runs from a to b, 1: from b to a
+  std::int32_t b = 0;      // the greater point
+  std::int32_t right = 0;  // 0: the triangle runs from a to b, 1: from b to a
   std::int32_t triangle = 0;
-  std::int32_t corner = 0;     // opposite to the side
+  std::int32_t corner = 0;  // opposite to the side
 };
 
 // Adds the half-edges of one lower point `a`, sorted, to the sides.
-void Append(std::int32_t a, const std::vector<HalfEdge>& sorted, std::size_t begin,
-            std::size_t end, MeshSides& result) {
+void Append(std::int32_t a, const std::vector<HalfEdge>& sorted, std::size_t begin, std::size_t end,
+            MeshSides& result) {
   for (std::size_t i = begin; i < end; ++i) {
     const HalfEdge& h = sorted[i];
     const bool same = i > begin && sorted[i - 1].b == h.b;

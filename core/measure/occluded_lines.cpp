@@ -49,9 +49,8 @@ NetHull NetHull::Of(const SkylineNet& net) {
   NetHull hull;
   hull.place.assign(net.points.size(), kNoneThere);
   const auto add = [&](std::int32_t i, std::size_t base) {
-    while (hull.ring.size() > base + 1 &&
-           Cross(net.Point(hull.ring[hull.ring.size() - 2]), net.Point(hull.ring.back()),
-                 net.Point(i)) <= 0) {
+    while (hull.ring.size() > base + 1 && Cross(net.Point(hull.ring[hull.ring.size() - 2]),
+                                                net.Point(hull.ring.back()), net.Point(i)) <= 0) {
       hull.ring.pop_back();
     }
     hull.ring.push_back(i);

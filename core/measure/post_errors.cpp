@@ -85,8 +85,7 @@ class PostMeasurer {
       ++covered;
     }
     if (covered == 0) {
-      return Error{ErrorCode::kUnsupportedData, "the mesh covers no post of the DEM",
-                   "bad-mesh"};
+      return Error{ErrorCode::kUnsupportedData, "the mesh covers no post of the DEM", "bad-mesh"};
     }
     result_.vertical.rms_m = std::sqrt(squares / static_cast<double>(covered));
     result_.covered_share = static_cast<double>(covered) / static_cast<double>(posts);
@@ -108,8 +107,7 @@ class PostMeasurer {
   }
   [[nodiscard]] Vector3 PlaceOf(VertexId v) const {
     if (!places_.positions.empty()) return places_.positions[static_cast<std::size_t>(v)];
-    return {static_cast<double>(dem_.Column(v)), static_cast<double>(dem_.Row(v)),
-            dem_.HeightM(v)};
+    return {static_cast<double>(dem_.Column(v)), static_cast<double>(dem_.Row(v)), dem_.HeightM(v)};
   }
   // The vertical at p, of length 1.
   [[nodiscard]] Vector3 UpAt(const Vector3& p) const {
@@ -228,7 +226,7 @@ class PostMeasurer {
       if (side.IsOutline()) FindMissed(side, missed);
     }
     std::sort(missed.begin(), missed.end(), [](const Missed& p, const Missed& q) {
-      return p.post != q.post          ? p.post < q.post
+      return p.post != q.post           ? p.post < q.post
              : p.distance != q.distance ? p.distance < q.distance
                                         : p.error > q.error;
     });
@@ -254,8 +252,8 @@ class PostMeasurer {
     const auto first = static_cast<std::int32_t>(std::ceil(std::max(from - kMostMissed, 0.0)));
     const double last = std::min<double>(to + kMostMissed, (by_row ? dem_.rows : dem_.columns) - 1);
     for (std::int32_t i = first; i <= last; ++i) {
-      const double along = by_row ? (dy != 0 ? (i - p.row) / dy : 0)
-                                  : (dx != 0 ? (i - p.column) / dx : 0);
+      const double along =
+          by_row ? (dy != 0 ? (i - p.row) / dy : 0) : (dx != 0 ? (i - p.column) / dx : 0);
       const double t = std::clamp(along, 0.0, 1.0);
       const double middle = by_row ? p.column + t * dx : p.row + t * dy;
       // A post within half a cell of the side is within that times the square root of 2 along the

@@ -34,7 +34,11 @@ void ForEachRow(const GridMesh& mesh, const std::array<std::int32_t, 3>& triangl
     const auto [i, j] = std::minmax(triangle[k], triangle[(k + 1) % 3]);
     const GridPoint& p = mesh.points[static_cast<std::size_t>(i)];
     const GridPoint& q = mesh.points[static_cast<std::size_t>(j)];
-    sides[k] = {p.column, p.row, q.column - p.column, q.row - p.row, std::min(p.row, q.row),
+    sides[k] = {p.column,
+                p.row,
+                q.column - p.column,
+                q.row - p.row,
+                std::min(p.row, q.row),
                 std::max(p.row, q.row)};
     top = k == 0 ? sides[k].top : std::min(top, sides[k].top);
     bottom = k == 0 ? sides[k].bottom : std::max(bottom, sides[k].bottom);
@@ -59,7 +63,8 @@ void ForEachRow(const GridMesh& mesh, const std::array<std::int32_t, 3>& triangl
       right = crossed ? std::max(right, x) : x;
       crossed = true;
     }
-    const RowPart part = {at_or_above(left - offset, columns), at_or_above(right - offset, columns)};
+    const RowPart part = {at_or_above(left - offset, columns),
+                          at_or_above(right - offset, columns)};
     if (part.first < part.end) visit(r, part);
   }
 }

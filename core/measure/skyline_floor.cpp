@@ -61,8 +61,8 @@ class FloorFinder {
     }
     std::iota(parent_.begin(), parent_.end(), 0);
     std::iota(next_free_.begin(), next_free_.end(), 0);
-    float* heights = &floor_.heights[static_cast<std::size_t>(k) *
-                                     static_cast<std::size_t>(strips.count)];
+    float* heights =
+        &floor_.heights[static_cast<std::size_t>(k) * static_cast<std::size_t>(strips.count)];
     for (const std::int32_t i : order_) {
       const SkylineNet::Segment& s = net_.segments[static_cast<std::size_t>(i)];
       const std::int32_t a = FindRoot(parent_, s.a);
@@ -132,8 +132,7 @@ std::int32_t LineStrips::StripOf(double offset) const {
 }
 
 double SkylineFloor::Least(int k, std::int32_t first, std::int32_t last) const {
-  const float* row =
-      &heights[static_cast<std::size_t>(k) * static_cast<std::size_t>(strips.count)];
+  const float* row = &heights[static_cast<std::size_t>(k) * static_cast<std::size_t>(strips.count)];
   return *std::min_element(row + first, row + last + 1);
 }
 

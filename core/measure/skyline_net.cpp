@@ -17,8 +17,8 @@ SkylineNet SkylineNetOf(const Terrain& terrain, const Horizon& horizon) {
   SkylineNet net;
   net.points.reserve(posts.size());
   for (const VertexId v : posts) {
-    net.points.push_back({static_cast<double>(dem.Column(v)), static_cast<double>(dem.Row(v)),
-                          dem.HeightM(v)});
+    net.points.push_back(
+        {static_cast<double>(dem.Column(v)), static_cast<double>(dem.Row(v)), dem.HeightM(v)});
   }
   const auto index = [&posts](VertexId v) {
     return static_cast<std::int32_t>(std::lower_bound(posts.begin(), posts.end(), v) -

@@ -20,9 +20,9 @@ Status CheckPoints(const PlacedMesh& mesh) {
   }
   for (std::size_t i = 0; i < grid.points.size(); ++i) {
     const GridPoint& p = grid.points[i];
-    const bool placed = mesh.straight.empty() ||
-                        std::all_of(mesh.straight[i].begin(), mesh.straight[i].end(),
-                                    [](double x) { return std::isfinite(x); });
+    const bool placed =
+        mesh.straight.empty() || std::all_of(mesh.straight[i].begin(), mesh.straight[i].end(),
+                                             [](double x) { return std::isfinite(x); });
     if (std::isfinite(p.column) && std::isfinite(p.row) && std::isfinite(p.height_m) && placed) {
       continue;
     }

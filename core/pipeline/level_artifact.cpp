@@ -9,7 +9,6 @@
 #include "core/io/draco_mesh.h"
 #include "core/io/glb.h"
 #include "core/measure/covers.h"
-#include "core/pipeline/geometric_error.h"
 
 namespace farhorizon {
 
@@ -67,13 +66,10 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> KeptInDecoded(const Horizon
 
 }  // namespace
 
-// The share of Stage::kMeasure that MeasureMeshError takes; the rest is MeasureGeometricError's.
-constexpr double kMeshErrorShare = 0.95;
-
 Result<LevelReport> MeasureLevel(const LevelContext& context, const LocalMesh& decoded, int level,
                                  double step_m) {
   const VertexId post_count = context.terrain.post_count();
-  GridMesh grid;
+  PlacedMesh mesh;
   std::vector<VertexId> posts;
   for (const std::uint32_t post : decoded.posts) {
     if (post >= static_cast<std::uint32_t>(post_count) ||
@@ -86,26 +82,26 @@ Result<LevelReport> MeasureLevel(const LevelContext& context, const LocalMesh& d
   }
   Result<std::vector<GridPoint>> points = context.georeference.ToGrid(decoded.positions);
   if (!points) return std::move(points.error());
-  grid.points = *std::move(points);
+  mesh.grid.points = *std::move(points);
+  mesh.straight.reserve(decoded.positions.size());
+  for (const Enu& p : decoded.positions) mesh.straight.push_back({p.east, p.north, p.up});
   const bool keeps = context.georeference.KeepsOrientation();
   for (const auto& t : decoded.triangles) {
-    grid.triangles.push_back({static_cast<std::int32_t>(t[0]),
-                              static_cast<std::int32_t>(t[keeps ? 1 : 2]),
-                              static_cast<std::int32_t>(t[keeps ? 2 : 1])});
+    mesh.grid.triangles.push_back({static_cast<std::int32_t>(t[0]),
+                                   static_cast<std::int32_t>(t[keeps ? 1 : 2]),
+                                   static_cast<std::int32_t>(t[keeps ? 2 : 1])});
   }
-  Result<MeshError> error = MeasureMeshError(context.terrain, context.horizon, grid, posts, step_m,
-                                             context.control.Between(0, kMeshErrorShare));
+  Status covers = CheckCovers(context.terrain, mesh.grid, posts);
+  if (!covers) return std::move(covers.error());
+  Result<MeshError> error = context.measurer.Measure(mesh, context.control);
   if (!error) return std::move(error.error());
-  Result<double> geometric = MeasureGeometricError(context.terrain, context.georeference, decoded);
-  if (!geometric) return std::move(geometric.error());
-  context.control.Report(Stage::kMeasure, 1);
   LevelReport report;
   report.level = level;
   report.triangles = static_cast<std::int64_t>(decoded.triangles.size());
   report.vertices = static_cast<std::int64_t>(decoded.positions.size());
   report.vertical = {RoundUp(error->vertical.max_m), RoundUp(error->vertical.rms_m)};
   report.silhouette = {RoundUp(error->silhouette.max_m), RoundUp(error->silhouette.rms_m)};
-  report.geometric_error_m = RoundUp(*geometric);
+  report.geometric_error_m = report.vertical.max_m;
   report.quantization_step_m = step_m;
   return report;
 }
