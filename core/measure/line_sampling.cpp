@@ -45,35 +45,59 @@ Pencil PencilOf(int direction, std::int32_t columns, std::int32_t rows) {
   return {sine, cosine, least + 0.25 / kLinesPerCell, count};
 }
 
+// The lines that a segment crosses, and its height over them.
+struct Crossed {
+  std::int64_t first = 0;
+  std::int64_t last = -1;
+  double height = 0;  // over line `first`
+  double slope = 0;   // from line to line
+
+  Crossed(const GridPoint& p, double place_p, const GridPoint& q, double place_q,
+          double last_line) {
+    const bool turned = place_p > place_q;
+    const double from = turned ? place_q : place_p;
+    const double to = turned ? place_p : place_q;
+    if (!(to >= 0) || !(from <= last_line)) return;
+    // The first line at or after `from`, the last at or before `to`. Conversion cuts off.
+    const auto cut = static_cast<std::int64_t>(std::max(from, 0.0));
+    first = static_cast<double>(cut) < from ? cut + 1 : cut;
+    last = static_cast<std::int64_t>(std::min(to, last_line));
+    if (last < first) return;
+    const double at_from = turned ? q.height_m : p.height_m;
+    const double at_to = turned ? p.height_m : q.height_m;
+    slope = to > from ? (at_to - at_from) / (to - from) : 0;
+    height = at_from + slope * (static_cast<double>(first) - from);
+  }
+};
+
 // Puts into heights[begin ...], one a line of the pencil, the greatest height of the net's segments
-// over it. places: of each point, where it is among the lines.
+// over it. places: of each point, where it is among the lines. The outline's segments come last, so
+// that the others have no more to do than to keep the greatest height.
 void GreatestHeights(const SkylineNet& net, const std::vector<double>& places, const Pencil& pencil,
                      std::size_t begin, SampledSkyline& skyline) {
   const double last_line = static_cast<double>(pencil.count) - 1;
-  for (const SkylineNet::Segment& segment : net.segments) {
-    const auto a = static_cast<std::size_t>(segment.a);
-    const auto b = static_cast<std::size_t>(segment.b);
-    double from = places[a];
-    double to = places[b];
-    double at_from = net.points[a].height_m;
-    double at_to = net.points[b].height_m;
-    if (from > to) {
-      std::swap(from, to);
-      std::swap(at_from, at_to);
+  double* heights = skyline.heights.data() + begin;
+  std::uint8_t* outline = skyline.outline.data() + begin;
+  const auto crossed = [&](const SkylineNet::Segment& s) {
+    return Crossed(net.Point(s.a), places[static_cast<std::size_t>(s.a)], net.Point(s.b),
+                   places[static_cast<std::size_t>(s.b)], last_line);
+  };
+  for (const SkylineNet::Segment& s : net.segments) {
+    if (s.outline) continue;
+    const Crossed c = crossed(s);
+    for (std::int64_t i = c.first; i <= c.last; ++i) {
+      const double height = c.height + c.slope * static_cast<double>(i - c.first);
+      heights[i] = heights[i] < height ? height : heights[i];
     }
-    if (!(to >= 0) || !(from <= last_line)) continue;
-    // The first line at or after `from`, the last at or before `to`. Conversion cuts off.
-    const auto cut = static_cast<std::int64_t>(std::max(from, 0.0));
-    const std::int64_t first = static_cast<double>(cut) < from ? cut + 1 : cut;
-    const auto last = static_cast<std::int64_t>(std::min(to, last_line));
-    if (last < first) continue;
-    const double slope = to > from ? (at_to - at_from) / (to - from) : 0;
-    for (std::int64_t i = first; i <= last; ++i) {
-      const double height = at_from + slope * (static_cast<double>(i) - from);
-      const std::size_t at = begin + static_cast<std::size_t>(i);
-      if (height <= skyline.heights[at]) continue;
-      skyline.heights[at] = height;
-      skyline.outline[at] = segment.outline ? 1 : 0;
+  }
+  for (const SkylineNet::Segment& s : net.segments) {
+    if (!s.outline) continue;
+    const Crossed c = crossed(s);
+    for (std::int64_t i = c.first; i <= c.last; ++i) {
+      const double height = c.height + c.slope * static_cast<double>(i - c.first);
+      if (heights[i] >= height) continue;
+      heights[i] = height;
+      outline[i] = 1;
     }
   }
 }

@@ -70,9 +70,10 @@ struct MeshError {
   /// off the outline of its surface. rms_m: over a sample of lines, uniform in the measure of lines
   /// (line_sampling.h).
   ErrorMeasure silhouette;
-  /// The same bound over the lines, too, on which the higher skyline is attained on an outline,
-  /// except where that and the line turn by less than kGrazingAngle: there any displacement of a
-  /// vertex changes a skyline without bound. Never below silhouette.max_m.
+  /// The same bound over the lines, too, on which the higher skyline is attained on an outline, or
+  /// where the other surface does not reach. Lines that graze an outline (kGrazingAngle) are left
+  /// out of both: there any displacement of a vertex moves a skyline by any amount. Never below
+  /// silhouette.max_m.
   double rim_m = 0;
   /// Greatest errors on the sampled lines: what is certainly attained. Lines with either skyline on
   /// an outline count in sampled_rim_m alone.
@@ -89,11 +90,12 @@ struct MeshError {
   MeshDefects defects;
 };
 
-/// Lines that meet an outline under a smaller angle, radians of the grid, are left out of rim_m.
-/// A level's outline is off the DEM's by up to a hundredth of a cell; at this angle that shifts
-/// where a line enters by 40 cells. Of lines drawn uniformly fewer than one in 10^7 cross a side at
-/// less: with 4 lines a cell in 1,000 directions that is less than one line of 1000 x 1000 posts.
-inline constexpr double kGrazingAngle = 1.0 / 4096;
+/// Lines within this angle of the grid's rows, columns or diagonals, or of a side of the outline that
+/// they cross, are left out of the bounds where their skyline is attained within about a cell of an
+/// outline; radians of the grid. A level's outline is off the DEM's by up to a hundredth of a cell:
+/// at this angle that shifts by ten cells where a line enters. Of lines drawn uniformly one in 10^6
+/// crosses a side at less.
+inline constexpr double kGrazingAngle = 1.0 / 1024;
 
 /// Measures meshes against one DEM: what belongs to the DEM alone is computed once.
 class MeshMeasurer {

@@ -30,9 +30,8 @@ double WithRoom(double attained_m, double relief_m);
 struct OccludingSurface {
   SkylineNet net;
   NetHull hull;
-  std::vector<std::int32_t> falling;  ///< segments by falling height of the higher end
-  double lowest_m = 0;                ///< of the ends of segments
-  double relief_m = 0;                ///< from there to the highest
+  double lowest_m = 0;  ///< of the ends of segments
+  double relief_m = 0;  ///< from there to the highest
 
   static OccludingSurface Of(SkylineNet net);
 };

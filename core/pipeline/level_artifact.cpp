@@ -9,7 +9,6 @@
 #include "core/io/draco_mesh.h"
 #include "core/io/glb.h"
 #include "core/measure/covers.h"
-#include "core/pipeline/geometric_error.h"
 
 namespace farhorizon {
 
@@ -67,38 +66,10 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> KeptInDecoded(const Horizon
 
 }  // namespace
 
-Result<QuantizationLattice> LatticeFor(const Terrain& terrain, const Georeference& georeference,
-                                       double wanted_step_m) {
-  // All posts count, not those at the border alone: a projected grid bulges, and heights are
-  // inside. `reach` is the two corners of the box around the posts so far.
-  std::vector<Enu> reach;
-  std::vector<VertexId> row;
-  for (VertexId v = 0; v < terrain.post_count(); ++v) {
-    if (terrain.dem().HasData(v)) row.push_back(v);
-    if (terrain.dem().Column(v) + 1 < terrain.dem().columns || row.empty()) continue;
-    Result<std::vector<Enu>> points = georeference.ToEnu(row);
-    if (!points) return std::move(points.error());
-    reach.insert(reach.end(), points->begin(), points->end());
-    Enu least = reach.front();
-    Enu most = reach.front();
-    for (const Enu& p : reach) {
-      least = {std::min(least.east, p.east), std::min(least.north, p.north),
-               std::min(least.up, p.up)};
-      most = {std::max(most.east, p.east), std::max(most.north, p.north), std::max(most.up, p.up)};
-    }
-    reach = {least, most};
-    row.clear();
-  }
-  return ChooseLattice(reach, wanted_step_m);
-}
-
-// The share of Stage::kMeasure that MeasureMeshError takes; the rest is MeasureGeometricError's.
-constexpr double kMeshErrorShare = 0.95;
-
 Result<LevelReport> MeasureLevel(const LevelContext& context, const LocalMesh& decoded, int level,
-                                 double step_m, double /*asked_m*/) {
+                                 double step_m) {
   const VertexId post_count = context.terrain.post_count();
-  GridMesh grid;
+  PlacedMesh mesh;
   std::vector<VertexId> posts;
   for (const std::uint32_t post : decoded.posts) {
     if (post >= static_cast<std::uint32_t>(post_count) ||
@@ -111,38 +82,36 @@ Result<LevelReport> MeasureLevel(const LevelContext& context, const LocalMesh& d
   }
   Result<std::vector<GridPoint>> points = context.georeference.ToGrid(decoded.positions);
   if (!points) return std::move(points.error());
-  grid.points = *std::move(points);
+  mesh.grid.points = *std::move(points);
+  mesh.straight.reserve(decoded.positions.size());
+  for (const Enu& p : decoded.positions) mesh.straight.push_back({p.east, p.north, p.up});
   const bool keeps = context.georeference.KeepsOrientation();
   for (const auto& t : decoded.triangles) {
-    grid.triangles.push_back({static_cast<std::int32_t>(t[0]),
-                              static_cast<std::int32_t>(t[keeps ? 1 : 2]),
-                              static_cast<std::int32_t>(t[keeps ? 2 : 1])});
+    mesh.grid.triangles.push_back({static_cast<std::int32_t>(t[0]),
+                                   static_cast<std::int32_t>(t[keeps ? 1 : 2]),
+                                   static_cast<std::int32_t>(t[keeps ? 2 : 1])});
   }
-  Status covers = CheckCovers(context.terrain, grid, posts);
+  Status covers = CheckCovers(context.terrain, mesh.grid, posts);
   if (!covers) return std::move(covers.error());
-  MeshMeasurer measurer(context.terrain, context.horizon, {});
-  Result<MeshError> error =
-      measurer.Measure({grid, {}}, context.control.Between(0, kMeshErrorShare));
+  Result<MeshError> error = context.measurer.Measure(mesh, context.control);
   if (!error) return std::move(error.error());
-  Result<double> geometric = MeasureGeometricError(context.terrain, context.georeference, decoded);
-  if (!geometric) return std::move(geometric.error());
-  context.control.Report(Stage::kMeasure, 1);
   LevelReport report;
   report.level = level;
   report.triangles = static_cast<std::int64_t>(decoded.triangles.size());
   report.vertices = static_cast<std::int64_t>(decoded.positions.size());
   report.vertical = {RoundUp(error->vertical.max_m), RoundUp(error->vertical.rms_m)};
   report.silhouette = {RoundUp(error->silhouette.max_m), RoundUp(error->silhouette.rms_m)};
-  report.geometric_error_m = RoundUp(*geometric);
+  report.geometric_error_m = report.vertical.max_m;
   report.quantization_step_m = step_m;
   return report;
 }
 
 Result<LevelArtifact> EncodeLevel(const LevelContext& context, const Lod& lod, int level,
-                                  const QuantizationLattice& lattice, double asked_m) {
+                                  double step_m) {
   context.control.Report(Stage::kEncode, 0);
   Result<LocalMesh> local = ToLocal(context, lod.mesh);
   if (!local) return std::move(local.error());
+  const QuantizationLattice lattice = ChooseLattice(local->positions, step_m);
   LevelArtifact artifact;
   Result<std::vector<std::uint8_t>> drc = EncodeDraco(*local, lattice);
   if (!drc) return std::move(drc.error());
@@ -152,11 +121,12 @@ Result<LevelArtifact> EncodeLevel(const LevelContext& context, const Lod& lod, i
   artifact.glb =
       WriteGlb(artifact.drc, *decoded, KeptInDecoded(context.horizon, lod, decoded->mesh));
   context.control.Report(Stage::kEncode, 1);
-  Result<LevelReport> report = MeasureLevel(context, decoded->mesh, level, lattice.step_m, asked_m);
+  Result<LevelReport> report = MeasureLevel(context, decoded->mesh, level, lattice.step_m);
   if (!report) {
     return std::move(report.error()).WithContext("level " + std::to_string(level));
   }
   artifact.report = *std::move(report);
+  artifact.report.exact = lod.exact;
   artifact.report.horizon_edges = static_cast<std::int64_t>(lod.kept.size());
   artifact.report.glb_bytes = static_cast<std::int64_t>(artifact.glb.size());
   artifact.report.drc_bytes = static_cast<std::int64_t>(artifact.drc.size());
