@@ -15,7 +15,7 @@
 #include "core/pipeline/compare/comparison_text.h"
 #include "core/pipeline/compare/covered_part.h"
 #include "core/pipeline/compare/draw_comparison.h"
-#include "core/pipeline/compare/post_places.h"
+#include "core/pipeline/compare/mesh_places.h"
 #include "core/pipeline/compare/prepared_mesh.h"
 #include "core/pipeline/terrain_input.h"
 
@@ -45,7 +45,11 @@ class Comparer {
  public:
   Comparer(const TerrainInput& input, std::string name, const CompareOptions& options,
            const BuildOptions& build)
-      : input_(input), input_name_(std::move(name)), options_(options), build_(build) {}
+      : input_(input),
+        input_name_(std::move(name)),
+        options_(options),
+        build_(build),
+        places_(input) {}
 
   Result<MeshComparison> Compare(const FileMesh& file, MeshComparison about, Comparison& whole,
                                  const RunControl& control) {
@@ -71,7 +75,7 @@ class Comparer {
       (part ? part_horizon : horizon_) = *std::move(horizon);
     }
     const Horizon& horizon = part ? *part_horizon : *horizon_;
-    Result<PostPlaces> places = PlacesFor(prepared->placing.frame, input_, part ? &*part : nullptr);
+    Result<PostPlaces> places = places_.For(prepared->placing.frame, part ? &*part : nullptr);
     if (!places) return std::move(places.error());
     std::optional<MeshMeasurer> of_part;
     std::optional<MeshMeasurer>& measurer =
@@ -104,6 +108,7 @@ class Comparer {
   std::string input_name_;
   const CompareOptions& options_;
   const BuildOptions& build_;
+  MeshPlaces places_;
   std::optional<Horizon> horizon_;
   std::array<std::optional<MeshMeasurer>, 2> measurers_;  // of the whole DEM; straight on the globe
 };
