@@ -98,6 +98,10 @@ std::vector<FrameFit> Best(const std::vector<FrameFit>& fits, const Dem& dem) {
   const double most = std::ranges::max(best, {}, &FrameFit::coverage).coverage;
   std::erase_if(best, [&](const FrameFit& fit) { return fit.coverage < kAsMuchCovered * most; });
   std::ranges::stable_sort(best, {}, Rank);
+  // A place that fits is no accident; a box that is laid on the DEM's always fits.
+  if (best.front().extent == Extent::kStated) {
+    std::erase_if(best, [](const FrameFit& fit) { return fit.extent == Extent::kWhole; });
+  }
   std::vector<FrameFit> apart;
   for (const FrameFit& fit : best) {
     const bool known = std::ranges::any_of(

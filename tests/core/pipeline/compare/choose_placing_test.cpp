@@ -144,6 +144,19 @@ TEST(ChoosePlacing, AsksWhereHeightsCannotTell) {
   EXPECT_EQ(stated->placing.up, UpAxis::kZ);
 }
 
+TEST(ChoosePlacing, BelievesAPlaceOnLevelGround) {
+  const PlacedDem flat([](int, int) { return 100; });
+  const PlainMesh map = flat.In([](double c, double r, double h) -> FilePoint {
+    return {PlacedDem::kWest + c * PlacedDem::kStep, PlacedDem::kNorth - r * PlacedDem::kStep, h};
+  });
+  for (const auto& [mesh, frame] :
+       {std::pair{map, MeshFrame::kCrs}, {flat.InEcef(), MeshFrame::kEcef}}) {
+    const auto chosen = ChoosePlacing(AsFile(mesh), {}, flat.input());
+    ASSERT_TRUE(chosen) << chosen.error().message;
+    EXPECT_EQ(chosen->placing.frame, frame);
+  }
+}
+
 TEST(ChoosePlacing, PlacesAPartAndACoarseMesh) {
   const PlacedDem dem;
   // Two triangles over a quarter of the DEM, at its own heights.

@@ -48,7 +48,6 @@ class CompareTest : public testing::Test {
     EXPECT_LE(mesh.error.silhouette.rms_m, within_m);
     EXPECT_LE(mesh.error.silhouette.max_m, 4 * within_m);
     EXPECT_LE(std::abs(mesh.mean_error_m), within_m);
-    EXPECT_LE(mesh.error.facet_angle_rms_deg, 0.1);
     EXPECT_FALSE(mesh.IsUnsound());
     EXPECT_NEAR(mesh.correlation, 1, 1e-6);
   }
