@@ -60,7 +60,7 @@ class ChainBuilder {
 
   [[nodiscard]] Lod Level() const {
     const Surface& surface = collapser_.surface();
-    Lod lod{{{}, {}, surface.Triangles()}, {}, false};
+    Lod lod{{{}, {}, surface.Triangles()}, {}, false, 0, 0};
     for (VertexId v = 0; v < terrain_.post_count(); ++v) {
       if (!surface.IsVertex(v)) continue;
       lod.mesh.posts.push_back(v);
@@ -118,6 +118,8 @@ Result<std::vector<Lod>> BuildLodChain(const Terrain& terrain, const Horizon& ho
     Status status = builder.BuildLevel(budget, control, report);
     if (!status) return std::move(status.error());
     levels.push_back(builder.Level());
+    levels.back().vertical_rms_m = budget.vertical_error_m / 3;
+    levels.back().silhouette_rms_m = budget.silhouette_error_m / 6;
   }
   control.Report(Stage::kSimplify, 1.0);
   return levels;

@@ -40,11 +40,13 @@ struct LodPlan {
 /// One level of detail and the horizon edges that it keeps.
 ///
 /// kept: indices into horizon.edges, rising: edges of this mesh. exact: before rounding, the
-/// skyline is the DEM's.
+/// skyline is the DEM's. vertical_rms_m, silhouette_rms_m: about how far the level is off.
 struct Lod {
   PostMesh mesh;
   std::vector<std::int32_t> kept;
   bool exact = false;
+  double vertical_rms_m = 0;
+  double silhouette_rms_m = 0;
 };
 
 /// A chain of meshes, level 0 the finest, one for each budget.
