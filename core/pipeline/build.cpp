@@ -18,6 +18,7 @@
 #include "core/pipeline/level_plan.h"
 #include "core/pipeline/mesh_region.h"
 #include "core/pipeline/report.h"
+#include "core/pipeline/report_page/report_page.h"
 #include "core/pipeline/terrain_input.h"
 #include "core/pipeline/version.h"
 
@@ -97,7 +98,7 @@ Status WriteFeatures(const std::vector<HorizonFeature>& features, const BuildOpt
 
 Result<WrittenLevels> WriteLevels(const LevelContext& context, const std::vector<LevelPlan>& plans,
                                   const std::vector<Lod>& chain, const BuildOptions& options,
-                                  ArtifactWriter& writer) {
+                                  ArtifactWriter& writer, ReportPage& page) {
   WrittenLevels written = {{}, MeshRegion(context.georeference)};
   std::vector<LevelReport>& reports = written.reports;
   for (std::size_t i = 0; i < chain.size(); ++i) {
@@ -127,6 +128,7 @@ Result<WrittenLevels> WriteLevels(const LevelContext& context, const std::vector
     }
     reports.push_back(level->report);
     if (Status added = written.region.Add(level->mesh); !added) return std::move(added.error());
+    if (Status drawn = page.AddLevel(level->mesh); !drawn) return std::move(drawn.error());
   }
   return written;
 }
@@ -160,7 +162,10 @@ Status BuildArtifacts(const fs::path& dem, const fs::path& directory, const Buil
   if (!opened) return opened;
   const LevelContext context{(*input)->terrain(), *horizon, (*input)->georeference(), *normals,
                              control};
-  Result<WrittenLevels> levels = WriteLevels(context, *plans, *chain, options, writer);
+  Result<ReportPage> page =
+      ReportPage::Start((*input)->terrain(), (*input)->georeference(), *horizon);
+  if (!page) return std::move(page.error());
+  Result<WrittenLevels> levels = WriteLevels(context, *plans, *chain, options, writer, *page);
   if (!levels) return std::move(levels.error());
   if (Asks(options, "3dtiles")) {
     Status tileset = WriteTilesetFor(**input, *levels, writer);
@@ -180,6 +185,10 @@ Status BuildArtifacts(const fs::path& dem, const fs::path& directory, const Buil
                       levels->reports};
   Status reported = writer.Add("report.json", WriteReport(report));
   if (!reported) return reported;
+  Result<std::string> html = page->Write({report, *features, writer.entries(), control.Timings()});
+  if (!html) return std::move(html.error());
+  Status shown = writer.Add("report.html", *html);
+  if (!shown) return shown;
   Status finished = writer.Finish();
   control.Report(Stage::kWrite, 1);
   return finished;
