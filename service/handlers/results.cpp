@@ -52,9 +52,9 @@ HttpResponse ListResults(const HandlerContext& context, const HttpRequest& reque
   return JsonResponse(document);
 }
 
-// For a page, the one artifact that a browser shows and runs: its own script and style, no loads, no
-// origin. Whatever a stranger's DEM brought into the page would not reach this service in the
-// reader's name. The page names its script's hash itself; here are pages of all versions.
+// For a page, the one artifact that a browser shows and runs: its own script and style, no loads,
+// no origin. Whatever a stranger's DEM brought into the page would not reach this service in the
+// reader's name. A page names its script's hash itself; here are pages of all versions.
 constexpr const char* kPagePolicy =
     "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'; "
     "base-uri 'none'; form-action 'none'; frame-ancestors 'none'; sandbox allow-scripts";

@@ -44,8 +44,7 @@ int SectorOfAzimuth(double azimuth_deg) {
 }
 
 const char* SectorName(int sector) {
-  constexpr std::array<const char*, kSectors> kNames = {
-      "north or south", "north-east or south-west", "east or west", "south-east or north-west"};
+  constexpr std::array<const char*, kSectors> kNames = {"N or S", "NE or SW", "E or W", "SE or NW"};
   return kNames[static_cast<std::size_t>(sector)];
 }
 

@@ -21,7 +21,7 @@ std::string HexOf(const Colour& colour);
 /// The half turn in four sectors of 45 degrees about north, north-east, east and south-east.
 inline constexpr int kSectors = 4;
 int SectorOfAzimuth(double azimuth_deg);
-/// "north or south".
+/// "N or S".
 const char* SectorName(int sector);
 
 /// The direction of sight that an edge's colour shows: the middle of its widest interval, the first

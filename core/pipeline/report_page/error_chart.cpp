@@ -16,7 +16,7 @@ namespace farhorizon {
 namespace {
 
 constexpr double kLeft = 54;
-constexpr double kRight = 428;
+constexpr double kRight = 420;
 constexpr double kTop = 14;
 constexpr double kBottom = 262;
 

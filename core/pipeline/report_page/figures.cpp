@@ -1,6 +1,8 @@
 #include "core/pipeline/report_page/figures.h"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 
 #include "core/io/geojson_text.h"
@@ -13,6 +15,13 @@ namespace {
 int DecimalsOf(double value) {
   if (!(std::abs(value) > 0)) return 0;
   return std::clamp(2 - static_cast<int>(std::floor(std::log10(std::abs(value)))), 0, 12);
+}
+
+std::string Fixed(double value, int decimals) {
+  std::array<char, 64> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value,
+                                 std::chars_format::fixed, decimals);
+  return {text.data(), end.ptr};
 }
 
 // The digits before the point of a number's text in groups of three.
@@ -31,18 +40,23 @@ std::string GroupDigits(std::string text) {
 std::string Grouped(std::int64_t value) { return GroupDigits(std::to_string(value)); }
 
 std::string ThreeDigits(double value) {
-  if (std::abs(value) >= 1000) return Grouped(std::llround(value));
-  return Rounded(value, DecimalsOf(value));
+  if (std::abs(value) >= 999.5) return Grouped(std::llround(value));
+  return Fixed(value, DecimalsOf(value));
 }
 
 std::string ThreeDigitsUp(double value) {
-  if (value >= 1000) return Grouped(static_cast<std::int64_t>(std::ceil(value)));
+  if (value > 999) return Grouped(static_cast<std::int64_t>(std::ceil(value)));
   const int decimals = DecimalsOf(value);
   const double scale = std::pow(10.0, decimals);
   double up = std::ceil(value * scale) / scale;
   // The quotient is rounded, to below `value` where that has few digits more.
   if (up < value) up = (std::ceil(value * scale) + 1) / scale;
-  return Rounded(up, decimals);
+  return Fixed(up, decimals);
+}
+
+std::string Shortest(double value) {
+  if (std::abs(value) >= 999.5) return Grouped(std::llround(value));
+  return Rounded(value, DecimalsOf(value));
 }
 
 std::string ByteCount(std::int64_t bytes) {

@@ -10,13 +10,17 @@ namespace farhorizon {
 /// "1,234,567".
 std::string Grouped(std::int64_t value);
 
-/// Three significant digits, without exponent: "0.0123", "12.3", "1,230"; "0" for 0.
+/// Three significant digits or all before the point, without exponent: "0.0123", "12.0", "1,234";
+/// "0" for 0.
 std::string ThreeDigits(double value);
 /// The same, never below `value`: for what is an upper bound. Requires: value >= 0.
 std::string ThreeDigitsUp(double value);
 
 /// "312 B", "12.3 kB", "4.56 MB".
 std::string ByteCount(std::int64_t bytes);
+
+/// The same without zeros at the end: "12", "0.5".
+std::string Shortest(double value);
 
 /// "12.3 %"; "0 %" where the whole is 0.
 std::string PercentOf(double part, double whole);

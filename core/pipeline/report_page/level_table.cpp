@@ -12,11 +12,16 @@ namespace {
 // A cell with its number.
 Html Cell(const std::string& text) { return Element("td", Html::Text(text), "number"); }
 
-// What a phone scrolls sideways, also by keyboard.
-Html Scrolling(const Html& table, const char* label) {
-  return Html::Markup("<div class=\"scrolling\" role=\"region\" tabindex=\"0\" aria-label=\"" +
-                      std::string(label) + "\">") +
-         table + "</div>"_html;
+// A table under its caption. It is wider than a phone, so it scrolls sideways, also by keyboard;
+// the caption does not.
+Html Scrolling(const char* id, const Html& caption, const Html& table) {
+  const std::string name = "\"" + std::string(id) + "\"";
+  return Html::Markup("<p class=\"note\" id=" + name + ">") + caption +
+         Html::Markup(
+             "</p><div class=\"scrolling\" role=\"region\" tabindex=\"0\" "
+             "aria-labelledby=" +
+             name + "><table aria-labelledby=" + name + ">") +
+         table + "</table></div>"_html;
 }
 
 Html RowOf(const LevelReport& level, std::int64_t terrain_triangles, std::int64_t horizon_edges) {
@@ -37,7 +42,6 @@ Html RowOf(const LevelReport& level, std::int64_t terrain_triangles, std::int64_
 
 Html LevelTable(const Report& report, std::int64_t terrain_triangles) {
   Html table =
-      "<table><caption>The levels, measured on the decoded meshes; errors in metres</caption>"
       "<thead><tr><th scope=\"col\" rowspan=\"2\">Level</th>"
       "<th scope=\"colgroup\" colspan=\"2\">Triangles</th>"
       "<th scope=\"col\" rowspan=\"2\" class=\"number\">Vertices</th>"
@@ -54,13 +58,12 @@ Html LevelTable(const Report& report, std::int64_t terrain_triangles) {
   for (const LevelReport& level : report.levels) {
     table += RowOf(level, terrain_triangles, report.horizon_edges);
   }
-  return Scrolling(table + "</tbody></table>"_html, "The levels");
+  return Scrolling("levels", "The levels, measured on the decoded meshes; errors in metres"_html,
+                   table + "</tbody>"_html);
 }
 
 Html SkylineTable(const std::vector<SkylineSet>& sets) {
-  Html table =
-      "<table><caption>How far the levels' skylines are off on the lines that are drawn, metres: "
-      "root mean square and greatest</caption><thead><tr><th scope=\"col\">Level</th>"_html;
+  Html table = "<thead><tr><th scope=\"col\">Level</th>"_html;
   for (const SkylineSet& set : sets) {
     const auto azimuth = static_cast<int>(std::lround(set.lines.azimuth_deg));
     table += Element(
@@ -75,7 +78,10 @@ Html SkylineTable(const std::vector<SkylineSet>& sets) {
     }
     table += "</tr>"_html;
   }
-  return Scrolling(table + "</tbody></table>"_html, "Differences of skylines");
+  return Scrolling("differences",
+                   "How far the levels' skylines are off on the lines that are drawn, in metres: "
+                   "root mean square / greatest"_html,
+                   table + "</tbody>"_html);
 }
 
 }  // namespace farhorizon

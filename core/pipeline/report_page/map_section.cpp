@@ -126,7 +126,7 @@ std::string SwatchOf(std::size_t layer) {
 Html Legend(const MapContents& map, const std::array<EdgeLayer, kSectors + 1>& layers) {
   double measure = 0;
   for (const EdgeLayer& layer : layers) measure += layer.line_measure_m;
-  Html html = "<div class=\"legend\">"_html + Html::Markup(Wheel(map)) +
+  Html html = Html::Markup(Wheel(map)) +
               "<table class=\"sectors\"><caption>Horizon edges by the direction of sight that sees "
               "them, the middle of their widest range of azimuths</caption><thead><tr>"
               "<th scope=\"col\">Direction</th><th scope=\"col\" class=\"number\">Edges</th>"
@@ -144,12 +144,15 @@ Html Legend(const MapContents& map, const std::array<EdgeLayer, kSectors + 1>& l
         Grouped(layers[i].edges) + "</td><td class=\"number\">" +
         PercentOf(layers[i].line_measure_m, measure) + "</td></tr>");
   }
-  return html + "</tbody></table></div>"_html;
+  return html + "</tbody></table>"_html;
 }
 
 Html Notes(const MapContents& map) {
-  std::string notes = "Lit from the upper left; heights drawn " + ThreeDigits(map.exaggeration) +
-                      " times as large.";
+  std::string notes = "Lit from the upper left";
+  if (map.exaggeration != 1) {
+    notes += "; heights drawn " + Shortest(map.exaggeration) + " times as large";
+  }
+  notes += ".";
   if (map.report.dem.nodata_posts > 0) notes += " White: no data.";
   if (map.frame.IsStretched()) notes += " The strip is drawn wider than it is.";
   return "<p class=\"note\">"_html + Html::Text(notes) + "</p>"_html;
@@ -166,13 +169,15 @@ Result<Html> MapSection(const MapContents& map) {
       "<label class=\"compare\"><span>Compare with the DEM</span> <input type=\"range\" "
       "min=\"0\" max=\"100\" value=\"0\" data-compares=\"map\"></label>"
       "<label class=\"toggle\"><input type=\"checkbox\" data-enlarges=\"map\">Enlarge</label>"
-      "</div><div class=\"window\"><div class=\"map\" id=\"map\">"_html;
+      "</div><div class=\"atlas\"><div class=\"window\"><div class=\"map\" "
+      "id=\"map\">"_html;
   for (std::size_t i = 0; i < map.reliefs.size(); ++i) {
     Result<Html> figure = Figure(map, i, i == 0 ? *edges : Html());
     if (!figure) return figure;
     html += *figure;
   }
-  return html + "</div></div>"_html + Notes(map) + Legend(map, layers);
+  return html + "</div></div><div class=\"legend\">"_html + Legend(map, layers) + Notes(map) +
+         "</div></div>"_html;
 }
 
 }  // namespace farhorizon

@@ -25,13 +25,12 @@ namespace {
 
 constexpr int kColumns = 388;
 constexpr int kLinesAColumn = kLinesAcross / kColumns;
-constexpr double kWidth = 440;
-constexpr double kHeight = 236;
+constexpr double kHeight = 268;
 constexpr double kLeft = 46;
 constexpr double kTop = 12;
 constexpr double kBottom = 122;
-constexpr double kZero = 178;
-constexpr double kHalf = 30;
+constexpr double kZero = 186;
+constexpr double kHalf = 38;
 constexpr double kAxis = kZero + kHalf + 2;
 
 // The part of the lines that a column of the chart shows: of each, the one where the level is off
@@ -118,7 +117,7 @@ class Chart {
   }
 
   [[nodiscard]] std::string Opening(int azimuth_deg) const {
-    return "<svg class=\"chart\" viewBox=\"0 0 440 236\" role=\"img\" aria-label=\"Skylines, "
+    return "<svg class=\"chart\" viewBox=\"0 0 440 268\" role=\"img\" aria-label=\"Skylines, "
            "looking " +
            PointOfCompass(azimuth_deg) + "; the table below has the differences\">" + Axes();
   }
@@ -188,7 +187,7 @@ class Chart {
       text += "<path class=\"tick\" d=\"M" + SvgNumber(x) + " " + SvgNumber(kAxis) + "v4\"/>" +
               Text(x, kAxis + 16, "middle", Rounded(in_km ? at / 1000 : at, 3));
     }
-    text += Text(kLeft + kColumns, kHeight - 1, "end",
+    text += Text(kLeft + kColumns, kHeight - 4, "end",
                  std::string(in_km ? "km" : "m") + " to the left and right");
     text += Text(2, kTop - 2, "start", "m") + "<path class=\"zero\" d=\"M46 " + SvgNumber(kZero) +
             "h388\"/>" + Factors();
@@ -199,7 +198,7 @@ class Chart {
     const auto factor = [this](const std::string& level, double times) {
       const double half_m = kHalf / scale_.pixels_a_metre / times;
       return "<text class=\"factor\" data-level=\"" + level + "\" x=\"46\" y=\"" +
-             SvgNumber(kZero - kHalf - 6) + "\">difference, enlarged " + ThreeDigits(times) +
+             SvgNumber(kZero - kHalf - 6) + "\">difference, enlarged " + Shortest(times) +
              " times: \u00b1" + ThreeDigits(half_m) + " m</text>";
     };
     std::string text = factor("all", scale_.common_factor);
@@ -275,7 +274,7 @@ Html MirroredSkylineChart(const SkylineSet& set, const SkylineScale& scale) {
 
 Html SkylineBanner(const SkylineSet& set) {
   return Html::Markup(
-      "<svg class=\"banner\" viewBox=\"0 120 388 1100\" preserveAspectRatio=\"none\" "
+      "<svg class=\"banner\" viewBox=\"0 120 387 1100\" preserveAspectRatio=\"none\" "
       "aria-hidden=\"true\"><use href=\"#sky-" +
       std::to_string(std::lround(set.lines.azimuth_deg)) + "-ground\"/></svg>");
 }
