@@ -14,18 +14,18 @@ namespace farhorizon {
 
 namespace {
 
-std::vector<VertexId> PostsOf(const PostMesh& mesh) {
-  std::vector<VertexId> posts;
-  posts.reserve(mesh.triangles.size() * 3);
-  for (const Triangle& t : mesh.triangles) posts.insert(posts.end(), t.begin(), t.end());
-  std::sort(posts.begin(), posts.end());
-  posts.erase(std::unique(posts.begin(), posts.end()), posts.end());
-  return posts;
-}
-
 Result<LocalMesh> ToLocal(const LevelContext& context, const PostMesh& mesh) {
-  const std::vector<VertexId> posts = PostsOf(mesh);
-  Result<std::vector<Enu>> positions = context.georeference.ToEnu(posts);
+  const std::vector<VertexId>& posts = mesh.posts;
+  std::vector<GridPoint> points;
+  points.reserve(posts.size());
+  for (std::size_t i = 0; i < posts.size(); ++i) {
+    const Dem& dem = context.terrain.dem();
+    points.push_back({static_cast<double>(dem.Column(posts[i])),
+                      static_cast<double>(dem.Row(posts[i])), mesh.heights_m[i]});
+  }
+  Result<std::vector<Geodetic>> geodetic = context.georeference.ToGeodetic(points);
+  if (!geodetic) return std::move(geodetic.error());
+  Result<std::vector<Enu>> positions = context.georeference.ToEnu(*geodetic);
   if (!positions) return std::move(positions.error());
   LocalMesh local;
   local.positions = *std::move(positions);

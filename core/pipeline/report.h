@@ -8,7 +8,7 @@
 #include "core/base/assumption.h"
 #include "core/base/result.h"
 #include "core/horizon/horizon.h"
-#include "core/simplify/mesh_error.h"
+#include "core/measure/mesh_error.h"
 
 namespace farhorizon {
 

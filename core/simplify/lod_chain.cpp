@@ -7,10 +7,10 @@
 #include <algorithm>
 
 #include "core/geometry/plan.h"
-#include "core/simplify/border.h"
+#include "core/horizon/guard/skyline_guard.h"
 #include "core/simplify/collapse.h"
 #include "core/simplify/ridge_network.h"
-#include "core/simplify/skyline_guard.h"
+#include "core/terrain/border.h"
 
 namespace farhorizon {
 
@@ -60,7 +60,12 @@ class ChainBuilder {
 
   [[nodiscard]] Lod Level() const {
     const Surface& surface = collapser_.surface();
-    Lod lod{{surface.Triangles()}, {}};
+    Lod lod{{{}, {}, surface.Triangles()}, {}};
+    for (VertexId v = 0; v < terrain_.post_count(); ++v) {
+      if (!surface.IsVertex(v)) continue;
+      lod.mesh.posts.push_back(v);
+      lod.mesh.heights_m.push_back(terrain_.dem().HeightM(v));
+    }
     for (std::size_t e = 0; e < horizon_.edges.size(); ++e) {
       // While both posts of an edge are vertices it is an edge: see Surface.
       const Edge& edge = horizon_.edges[e].edge;

@@ -23,7 +23,13 @@ struct Edge {
 inline Edge MakeEdge(VertexId p, VertexId q) { return p < q ? Edge{p, q} : Edge{q, p}; }
 
 /// A triangulated surface over posts of a DEM: what a level of detail is before it is encoded.
+///
+/// Its vertices are posts in plan; their heights are the mesh's own.
+/// posts: the vertices, rising. heights_m: for each of them, metres, in the DEM's height system.
+/// triangles: by posts.
 struct PostMesh {
+  std::vector<VertexId> posts;
+  std::vector<double> heights_m;
   std::vector<Triangle> triangles;
 };
 

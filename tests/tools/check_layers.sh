@@ -9,7 +9,7 @@ cd "${1:-"$(dirname "${BASH_SOURCE[0]}")/../.."}"
 # Our own headers: what each room (a folder, but for files named below) may include beside itself.
 below_horizon="core/base core/exact core/geometry core/terrain"
 below_pipeline="$below_horizon core/horizon core/horizon/search core/horizon/lines core/horizon/visibility
-  core/horizon/lines_of_sight core/horizon/trace core/simplify core/geo core/io core/io/dem"
+  core/horizon/lines_of_sight core/horizon/trace core/simplify core/measure core/geo core/io core/io/dem"
 declare -A may=(
   [core/base]=""
   [core/exact]="core/base"
@@ -26,7 +26,11 @@ declare -A may=(
   [core/horizon/lines_of_sight]="$below_horizon core/horizon core/horizon/lines core/horizon/visibility"
   [core/horizon/trace]="$below_horizon core/horizon core/horizon/sweep core/horizon/kinetic"
   [core/horizon/search]="$below_horizon core/horizon core/horizon/visibility core/horizon/sweep core/horizon/kinetic"
-  [core/simplify]="$below_horizon core/horizon core/horizon/visibility"
+  # Is a segment occluded by the DEM? What makes levels and what measures them ask alike.
+  [core/horizon/guard]="$below_horizon core/horizon core/horizon/visibility"
+  [core/simplify]="$below_horizon core/horizon core/horizon/guard core/horizon/visibility"
+  # Both errors of any mesh: knows nothing of how a mesh was made.
+  [core/measure]="$below_horizon core/horizon core/horizon/guard core/horizon/visibility"
   [core/geo]="core/base"
   [core/io]="core/base core/geometry core/terrain core/horizon core/horizon/lines_of_sight core/horizon/trace core/geo"
   # What a file is by its first bytes, and grids of text: neither knows GDAL.

@@ -7,7 +7,7 @@
 #include "core/geometry/plan.h"
 #include "core/horizon/find_horizon.h"
 #include "core/io/dem/read_dem.h"
-#include "core/simplify/border.h"
+#include "core/terrain/border.h"
 #include "tests/support/drawn_dem.h"
 #include "tests/support/line_heights.h"
 #include "tests/support/mesh_checks.h"

@@ -1,4 +1,4 @@
-#include "core/simplify/border.h"
+#include "core/terrain/border.h"
 
 #include <algorithm>
 #include <cstdlib>

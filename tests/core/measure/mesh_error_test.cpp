@@ -1,4 +1,4 @@
-#include "core/simplify/mesh_error.h"
+#include "core/measure/mesh_error.h"
 
 #include <gtest/gtest.h>
 

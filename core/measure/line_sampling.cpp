@@ -2,7 +2,7 @@
 // successive lines of a pencil, and its height over them changes by the same step from one to the
 // next. So the greatest heights of a set over a pencil take one pass over its segments.
 // Cost: for each direction and set, the lines that each segment crosses.
-#include "core/simplify/line_sampling.h"
+#include "core/measure/line_sampling.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 // have moved inwards, are compared with the nearest point of the outline.
 // Cost: the posts in the bounding boxes of the triangles; the outline's edges for each post
 // outside.
-#include "core/simplify/vertical_error.h"
+#include "core/measure/vertical_error.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/simplify/mesh_error.h"
+#include "core/measure/mesh_error.h"
 
 namespace farhorizon {
 

@@ -3,14 +3,14 @@
 // and bisection, until the edge is occluded. An edge that is occluded stays so when it is lowered
 // further, so edges before it need not be looked at again.
 // Cost: one visibility query for each edge, and some ten more for each edge that raises the bound.
-#include "core/simplify/silhouette_bound.h"
+#include "core/measure/silhouette_bound.h"
 
 #include <algorithm>
 #include <functional>
 #include <numeric>
 
+#include "core/horizon/guard/skyline_guard.h"
 #include "core/horizon/visibility/occluder_set.h"
-#include "core/simplify/skyline_guard.h"
 
 namespace farhorizon {
 

@@ -3,18 +3,18 @@
 // its silhouette error are measured on the mesh as it is. The silhouette bound is proven for the
 // mesh over the posts, and what the vertices' displacement can add is added.
 // Cost: that of VerticalError, RmsOverLines and SilhouetteBound; the rest is O(n log n).
-#include "core/simplify/mesh_error.h"
+#include "core/measure/mesh_error.h"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 
 #include "core/geometry/plan.h"
-#include "core/simplify/border.h"
-#include "core/simplify/line_sampling.h"
-#include "core/simplify/mesh_edges.h"
-#include "core/simplify/silhouette_bound.h"
-#include "core/simplify/vertical_error.h"
+#include "core/measure/line_sampling.h"
+#include "core/measure/mesh_edges.h"
+#include "core/measure/silhouette_bound.h"
+#include "core/measure/vertical_error.h"
+#include "core/terrain/border.h"
 
 namespace farhorizon {
 

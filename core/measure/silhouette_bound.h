@@ -5,7 +5,7 @@
 #include "core/base/result.h"
 #include "core/base/run_control.h"
 #include "core/horizon/horizon.h"
-#include "core/simplify/mesh_edges.h"
+#include "core/measure/mesh_edges.h"
 #include "core/terrain/terrain.h"
 
 namespace farhorizon {

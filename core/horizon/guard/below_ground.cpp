@@ -4,7 +4,7 @@
 // it is occluded if the whole cell is inside one merged hull at a height that the piece does not
 // exceed.
 // Cost: constant for each cell crossed.
-#include "core/simplify/below_ground.h"
+#include "core/horizon/guard/below_ground.h"
 
 #include <algorithm>
 #include <array>

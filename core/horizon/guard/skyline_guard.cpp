@@ -1,11 +1,11 @@
-#include "core/simplify/skyline_guard.h"
+#include "core/horizon/guard/skyline_guard.h"
 
 #include <algorithm>
 #include <utility>
 #include <vector>
 
-#include "core/simplify/below_ground.h"
-#include "core/simplify/superlevel_occluders.h"
+#include "core/horizon/guard/below_ground.h"
+#include "core/horizon/guard/superlevel_occluders.h"
 #include "core/terrain/height_range.h"
 
 namespace farhorizon {

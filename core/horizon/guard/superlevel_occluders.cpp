@@ -1,7 +1,7 @@
 // Posts are added in descending order of height, and the connected components of the ground that
 // has been added are kept by union and find, each with its extreme posts in eight directions. At
 // each of kHeights heights every component gives up to four segments between opposite extremes.
-#include "core/simplify/superlevel_occluders.h"
+#include "core/horizon/guard/superlevel_occluders.h"
 
 #include <algorithm>
 #include <array>

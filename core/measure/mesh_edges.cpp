@@ -1,4 +1,4 @@
-#include "core/simplify/mesh_edges.h"
+#include "core/measure/mesh_edges.h"
 
 #include <algorithm>
 #include <tuple>
