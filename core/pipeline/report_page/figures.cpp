@@ -17,6 +17,13 @@ int DecimalsOf(double value) {
   return std::clamp(2 - static_cast<int>(std::floor(std::log10(std::abs(value)))), 0, 12);
 }
 
+// The same where `rounded`, the value in units of the last decimal, may have got a fourth digit.
+int DecimalsOf(double value, double (*rounded)(double)) {
+  const int decimals = DecimalsOf(value);
+  return decimals > 0 && rounded(std::abs(value) * std::pow(10.0, decimals)) >= 1000 ? decimals - 1
+                                                                                     : decimals;
+}
+
 std::string Fixed(double value, int decimals) {
   std::array<char, 64> text{};
   const auto end = std::to_chars(text.data(), text.data() + text.size(), value,
@@ -41,12 +48,12 @@ std::string Grouped(std::int64_t value) { return GroupDigits(std::to_string(valu
 
 std::string ThreeDigits(double value) {
   if (std::abs(value) >= 999.5) return Grouped(std::llround(value));
-  return Fixed(value, DecimalsOf(value));
+  return Fixed(value, DecimalsOf(value, std::round));
 }
 
 std::string ThreeDigitsUp(double value) {
   if (value > 999) return Grouped(static_cast<std::int64_t>(std::ceil(value)));
-  const int decimals = DecimalsOf(value);
+  const int decimals = DecimalsOf(value, std::ceil);
   const double scale = std::pow(10.0, decimals);
   double up = std::ceil(value * scale) / scale;
   // The quotient is rounded, to below `value` where that has few digits more.

@@ -105,9 +105,10 @@ double HeightInCell(const Terrain& terrain, double column, double row) {
       weights[k] = x2 * y1 - x1 * y2;
     }
     if (*std::min_element(weights.begin(), weights.end()) < 0) continue;
-    double height = 0;
-    for (std::size_t k = 0; k < 3; ++k) height += weights[k] * dem.HeightM(t[k]);
-    return height;
+    // From one corner: level ground is exactly level.
+    const double first = dem.HeightM(t[0]);
+    return first + weights[1] * (dem.HeightM(t[1]) - first) +
+           weights[2] * (dem.HeightM(t[2]) - first);
   }
   return kNone;
 }

@@ -83,7 +83,10 @@ double ReliefExaggeration(const HeightRaster& raster, const PictureFrame& frame)
     }
   }
   if (count == 0 || !(squares > 0)) return 1;
-  const double wanted = kWantedSlope / std::sqrt(squares / static_cast<double>(count));
+  // Beyond, floats and lattices would be seen instead of ground.
+  constexpr double kMost = 1000;
+  const double wanted =
+      std::min(kWantedSlope / std::sqrt(squares / static_cast<double>(count)), kMost);
   const double power = std::pow(10.0, std::floor(std::log10(wanted)));
   const double digit = wanted / power;
   return power * (digit < 1.5 ? 1 : digit < 3.5 ? 2 : digit < 7.5 ? 5 : 10);
