@@ -40,19 +40,21 @@ Html HorizonClaim(const Report& report) {
 
 Html LevelClaim(const Report& report) {
   const LevelReport& finest = report.levels.front();
-  const std::string rounding = " Its vertices are rounded to a lattice of " +
+  const std::string rounding = " Its vertices are then rounded to a lattice of " +
                                ThreeDigits(finest.quantization_step_m) +
                                " m, which the measured errors include.";
-  if (finest.horizon_edges < report.horizon_edges) {
-    return Item("Level 0 keeps a part of the horizon."_html,
-                Html::Text(Grouped(finest.horizon_edges) + " of " +
-                           Counted(report.horizon_edges, "horizon edge", "horizon edges") +
-                           ", as its silhouette error allowed." + rounding));
+  const std::string kept = Grouped(finest.horizon_edges) + " of " +
+                           Counted(report.horizon_edges, "horizon edge", "horizon edges");
+  if (finest.exact) {
+    return Item("Level 0 is exact."_html,
+                Html::Text("It keeps " + kept +
+                           " and rises above the skyline nowhere, so that "
+                           "its skyline is the DEM's from every distant side." +
+                           rounding));
   }
-  return Item("Level 0 keeps every horizon edge."_html,
-              Html::Text("Before rounding it does not rise above the skyline anywhere, so its "
-                         "skyline is the DEM's from every distant side." +
-                         rounding));
+  return Item("No level is exact."_html,
+              Html::Text("Level 0 was allowed to be off, or to have too few triangles: it keeps " +
+                         kept + "." + rounding));
 }
 
 }  // namespace

@@ -28,7 +28,8 @@ Html RowOf(const LevelReport& level, std::int64_t terrain_triangles, std::int64_
   const auto share = [](std::int64_t part, std::int64_t whole) {
     return PercentOf(static_cast<double>(part), static_cast<double>(whole));
   };
-  return "<tr><th scope=\"row\">"_html + Html::Text(std::to_string(level.level)) + "</th>"_html +
+  return "<tr><th scope=\"row\">"_html +
+         Html::Text(std::to_string(level.level) + (level.exact ? ", exact" : "")) + "</th>"_html +
          Cell(Grouped(level.triangles)) + Cell(share(level.triangles, terrain_triangles)) +
          Cell(Grouped(level.vertices)) + Cell(Grouped(level.horizon_edges)) +
          Cell(share(level.horizon_edges, horizon_edges)) + Cell(ThreeDigits(level.vertical.rms_m)) +

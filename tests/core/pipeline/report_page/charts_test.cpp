@@ -120,6 +120,7 @@ Report SomeReport() {
   report.statistics.terrain_edges = 1000;
   report.levels = {SomeLevel(0, 100, 1)};
   report.levels.front().horizon_edges = 10;
+  report.levels.front().exact = true;
   report.assumptions = {{"height-unit", "taken for <b>feet</b> & \"inches\""}};
   return report;
 }
@@ -139,12 +140,14 @@ TEST(Tables, EscapeWhatComesFromTheFile) {
 TEST(ClaimList, SaysWhatDoesNotHold) {
   Report report = SomeReport();
   EXPECT_TRUE(Has(ClaimList(report, true), "Every horizon edge is found"));
-  EXPECT_TRUE(Has(ClaimList(report, true), "Level 0 keeps every horizon edge"));
+  EXPECT_TRUE(Has(ClaimList(report, true), "Level 0 is exact"));
   EXPECT_FALSE(Has(ClaimList(report, false), "witness"));
   report.statistics.undecided = 1;
   report.levels.front().horizon_edges = 4;
+  report.levels.front().exact = false;
   EXPECT_TRUE(Has(ClaimList(report, true), "1 edge was decided"));
   EXPECT_TRUE(Has(ClaimList(report, true), "4 of 10 horizon edges"));
+  EXPECT_TRUE(Has(ClaimList(report, true), "No level is exact"));
 }
 
 TEST(BytesTable, SaysBytesForEachTriangleAndEdge) {
