@@ -18,6 +18,7 @@
 #include "core/pipeline/level_plan.h"
 #include "core/pipeline/mesh_region.h"
 #include "core/pipeline/report.h"
+#include "core/pipeline/report_page/report_page.h"
 #include "core/pipeline/terrain_input.h"
 #include "core/pipeline/version.h"
 
@@ -105,7 +106,7 @@ LevelAsked AskedOf(const LevelPlan& plan, const std::vector<Lod>& chain, std::si
 
 Result<WrittenLevels> WriteLevels(const LevelContext& context, const LevelPlan& plan,
                                   const std::vector<Lod>& chain, const BuildOptions& options,
-                                  ArtifactWriter& writer) {
+                                  ArtifactWriter& writer, ReportPage& page) {
   WrittenLevels written = {{}, MeshRegion(context.georeference)};
   std::vector<LevelReport>& reports = written.reports;
   for (std::size_t i = 0; i < chain.size(); ++i) {
@@ -132,6 +133,7 @@ Result<WrittenLevels> WriteLevels(const LevelContext& context, const LevelPlan& 
     }
     reports.push_back(level->report);
     if (Status added = written.region.Add(level->mesh); !added) return std::move(added.error());
+    if (Status drawn = page.AddLevel(level->mesh); !drawn) return std::move(drawn.error());
   }
   return written;
 }
@@ -164,7 +166,10 @@ Status BuildArtifacts(const fs::path& dem, const fs::path& directory, const Buil
   if (!opened) return opened;
   const LevelContext context{(*input)->terrain(), *horizon, (*input)->georeference(), *normals,
                              control};
-  Result<WrittenLevels> levels = WriteLevels(context, *plan, *chain, options, writer);
+  Result<ReportPage> page =
+      ReportPage::Start((*input)->terrain(), (*input)->georeference(), *horizon);
+  if (!page) return std::move(page.error());
+  Result<WrittenLevels> levels = WriteLevels(context, *plan, *chain, options, writer, *page);
   if (!levels) return std::move(levels.error());
   if (Asks(options, "3dtiles")) {
     Status tileset = WriteTilesetFor(**input, *levels, writer);
@@ -184,6 +189,10 @@ Status BuildArtifacts(const fs::path& dem, const fs::path& directory, const Buil
                       levels->reports};
   Status reported = writer.Add("report.json", WriteReport(report));
   if (!reported) return reported;
+  Result<std::string> html = page->Write({report, *features, writer.entries(), control.Timings()});
+  if (!html) return std::move(html.error());
+  Status shown = writer.Add("report.html", *html);
+  if (!shown) return shown;
   Status finished = writer.Finish();
   control.Report(Stage::kWrite, 1);
   return finished;
