@@ -61,7 +61,9 @@ Html TimesTable(const StageSeconds& seconds) {
   }
   double sum = 0;
   for (const auto& [stage, spent] : seconds) sum += spent;
-  BarTable table{Html::Text(ThreeDigits(sum) + " seconds until this page was made, by stage"),
+  BarTable table{Html::Text(ThreeDigits(sum) +
+                            " seconds until this page was made, by stage. With times, the page has "
+                            "other bytes from run to run"),
                  {"Stage"_html, "Seconds"_html, "Share"_html},
                  {}};
   for (const Stage stage : kStages) {

@@ -109,7 +109,7 @@ GreyPicture ShadedRelief(const HeightRaster& raster, const PictureFrame& frame,
     }
     if ((y + 1) % frame.samples != 0) continue;
     for (double& sum : sums) {
-      picture.values.push_back(static_cast<std::uint8_t>(std::lround(sum / samples)));
+      picture.values.push_back(static_cast<std::uint8_t>(sum / samples + 0.5));
       sum = 0;
     }
   }

@@ -59,7 +59,7 @@ TestRaster Hills(int columns, int rows) {
 TEST_F(Page, ShowsTheDemAndEveryLevel) {
   const std::string page = Sound(Hills(60, 50));
   const std::string report = SlurpFile(folder_ / "out" / "report.json");
-  const std::size_t levels = Count(report, "\"triangles\"");
+  const std::size_t levels = Count(report, "\"geometric_error_m\"");
   ASSERT_GE(levels, 1U);
   EXPECT_EQ(Count(page, "<figure data-shows="), levels + 1);
   EXPECT_EQ(Count(page, "data:image/jpeg;base64,"), levels + 1);
