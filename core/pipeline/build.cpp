@@ -17,6 +17,7 @@
 #include "core/pipeline/level_artifact.h"
 #include "core/pipeline/level_plan.h"
 #include "core/pipeline/mesh_region.h"
+#include "core/pipeline/post_places.h"
 #include "core/pipeline/report.h"
 #include "core/pipeline/terrain_input.h"
 #include "core/pipeline/version.h"
@@ -162,8 +163,11 @@ Status BuildArtifacts(const fs::path& dem, const fs::path& directory, const Buil
   ArtifactWriter writer(directory);
   Status opened = writer.Open();
   if (!opened) return opened;
-  const LevelContext context{(*input)->terrain(), *horizon, (*input)->georeference(), *normals,
-                             control};
+  Result<PostPlaces> places = FindPostPlaces((*input)->terrain(), (*input)->georeference());
+  if (!places) return std::move(places.error());
+  MeshMeasurer measurer((*input)->terrain(), *horizon, *std::move(places));
+  const LevelContext context{
+      (*input)->terrain(), *horizon, (*input)->georeference(), *normals, measurer, control};
   Result<WrittenLevels> levels = WriteLevels(context, *plan, *chain, options, writer);
   if (!levels) return std::move(levels.error());
   if (Asks(options, "3dtiles")) {
