@@ -17,6 +17,7 @@
 #include "core/pipeline/level_artifact.h"
 #include "core/pipeline/level_plan.h"
 #include "core/pipeline/mesh_region.h"
+#include "core/pipeline/post_places.h"
 #include "core/pipeline/report.h"
 #include "core/pipeline/report_page/report_page.h"
 #include "core/pipeline/terrain_input.h"
@@ -164,8 +165,11 @@ Status BuildArtifacts(const fs::path& dem, const fs::path& directory, const Buil
   ArtifactWriter writer(directory);
   Status opened = writer.Open();
   if (!opened) return opened;
-  const LevelContext context{(*input)->terrain(), *horizon, (*input)->georeference(), *normals,
-                             control};
+  Result<PostPlaces> places = FindPostPlaces((*input)->terrain(), (*input)->georeference());
+  if (!places) return std::move(places.error());
+  MeshMeasurer measurer((*input)->terrain(), *horizon, *std::move(places));
+  const LevelContext context{
+      (*input)->terrain(), *horizon, (*input)->georeference(), *normals, measurer, control};
   Result<ReportPage> page =
       ReportPage::Start((*input)->terrain(), (*input)->georeference(), *horizon);
   if (!page) return std::move(page.error());

@@ -4,12 +4,12 @@
 #include "core/pipeline/level_artifact.h"
 
 #include <algorithm>
-#include <tuple>
+#include <array>
 #include <utility>
 
 #include "core/io/draco_mesh.h"
 #include "core/io/glb.h"
-#include "core/pipeline/geometric_error.h"
+#include "core/measure/covers.h"
 #include "core/pipeline/level_lattice.h"
 
 namespace farhorizon {
@@ -67,21 +67,23 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> KeptInDecoded(const Horizon
 }
 
 // Gives the vertices of `decoded`, whose stream has no posts, those of the vertices of `mesh` at
-// the same place. No two posts share a place in plan: steps are a 16th of a cell at most.
+// the same place. Where no triangle is flat, no two posts share a place.
 void NamePosts(const LocalMesh& mesh, LocalMesh& decoded) {
-  std::vector<std::tuple<double, double, std::uint32_t>> places;
-  places.reserve(mesh.positions.size());
+  using Place = std::array<double, 3>;
+  const auto place = [](const Enu& p) -> Place { return {p.east, p.north, p.up}; };
+  std::vector<std::pair<Place, std::uint32_t>> posts;
+  posts.reserve(mesh.positions.size());
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-    places.emplace_back(mesh.positions[i].east, mesh.positions[i].north, mesh.posts[i]);
+    posts.emplace_back(place(mesh.positions[i]), mesh.posts[i]);
   }
-  std::sort(places.begin(), places.end());
+  std::sort(posts.begin(), posts.end());
   decoded.posts.reserve(decoded.positions.size());
   for (const Enu& p : decoded.positions) {
-    const auto at = std::lower_bound(places.begin(), places.end(),
-                                     std::tuple(p.east, p.north, std::uint32_t{0}));
-    Check(at != places.end() && std::get<0>(*at) == p.east && std::get<1>(*at) == p.north,
+    const auto at =
+        std::lower_bound(posts.begin(), posts.end(), std::pair(place(p), std::uint32_t{0}));
+    Check(at != posts.end() && at->first == place(p),
           "Draco gives lattice positions back as they are");
-    decoded.posts.push_back(std::get<2>(*at));
+    decoded.posts.push_back(at->second);
   }
 }
 
@@ -114,13 +116,10 @@ Result<Encoded> Encode(const LocalMesh& mesh, const QuantizationLattice& lattice
 
 }  // namespace
 
-// The share of Stage::kMeasure that MeasureMeshError takes; the rest is MeasureGeometricError's.
-constexpr double kMeshErrorShare = 0.95;
-
 Result<LevelReport> MeasureLevel(const LevelContext& context, const LocalMesh& decoded, int level,
                                  double step_m) {
   const VertexId post_count = context.terrain.post_count();
-  GridMesh grid;
+  PlacedMesh mesh;
   std::vector<VertexId> posts;
   for (const std::uint32_t post : decoded.posts) {
     if (post >= static_cast<std::uint32_t>(post_count) ||
@@ -133,26 +132,29 @@ Result<LevelReport> MeasureLevel(const LevelContext& context, const LocalMesh& d
   }
   Result<std::vector<GridPoint>> points = context.georeference.ToGrid(decoded.positions);
   if (!points) return std::move(points.error());
-  grid.points = *std::move(points);
+  mesh.grid.points = *std::move(points);
+  mesh.straight.reserve(decoded.positions.size());
+  for (const Enu& p : decoded.positions) mesh.straight.push_back({p.east, p.north, p.up});
   const bool keeps = context.georeference.KeepsOrientation();
   for (const auto& t : decoded.triangles) {
-    grid.triangles.push_back({static_cast<std::int32_t>(t[0]),
-                              static_cast<std::int32_t>(t[keeps ? 1 : 2]),
-                              static_cast<std::int32_t>(t[keeps ? 2 : 1])});
+    mesh.grid.triangles.push_back({static_cast<std::int32_t>(t[0]),
+                                   static_cast<std::int32_t>(t[keeps ? 1 : 2]),
+                                   static_cast<std::int32_t>(t[keeps ? 2 : 1])});
   }
-  Result<MeshError> error = MeasureMeshError(context.terrain, context.horizon, grid, posts, step_m,
-                                             context.control.Between(0, kMeshErrorShare));
+  Status covers = CheckCovers(context.terrain, mesh.grid, posts);
+  if (!covers) return std::move(covers.error());
+  Result<MeshError> error = context.measurer.Measure(mesh, context.control);
   if (!error) return std::move(error.error());
-  Result<double> geometric = MeasureGeometricError(context.terrain, context.georeference, decoded);
-  if (!geometric) return std::move(geometric.error());
-  context.control.Report(Stage::kMeasure, 1);
   LevelReport report;
   report.level = level;
   report.triangles = static_cast<std::int64_t>(decoded.triangles.size());
   report.vertices = static_cast<std::int64_t>(decoded.positions.size());
   report.vertical = {RoundUp(error->vertical.max_m), RoundUp(error->vertical.rms_m)};
   report.silhouette = {RoundUp(error->silhouette.max_m), RoundUp(error->silhouette.rms_m)};
-  report.geometric_error_m = RoundUp(*geometric);
+  report.rim_m = RoundUp(error->rim_m);
+  report.facet_angle_deg = RoundUp(error->facet_angle_rms_deg);
+  report.needle_share = RoundUp(error->needle_share);
+  report.geometric_error_m = report.vertical.max_m;
   report.quantization_step_m = step_m;
   return report;
 }

@@ -7,6 +7,7 @@
 #include "core/base/run_control.h"
 #include "core/horizon/horizon.h"
 #include "core/io/local_mesh.h"
+#include "core/measure/mesh_error.h"
 #include "core/pipeline/georeference.h"
 #include "core/pipeline/post_normals.h"
 #include "core/pipeline/report.h"
@@ -21,11 +22,12 @@ struct LevelContext {
   const Horizon& horizon;
   const Georeference& georeference;
   const PostNormals& normals;
+  MeshMeasurer& measurer;
   const RunControl& control;
 
   /// The same under another control, which must outlive it.
   [[nodiscard]] LevelContext With(const RunControl& other) const {
-    return {terrain, horizon, georeference, normals, other};
+    return {terrain, horizon, georeference, normals, measurer, other};
   }
 };
 

@@ -26,12 +26,14 @@ struct LevelPlan {
 /// positions can do to heights. What rounding can do is kept back from the simplifier,
 /// up to half of the error.
 /// Errors: kInvalidArgument, kind "max-error-too-small", where rounding positions in
-///   kMaxLatticeBits would use up the error asked for, with the least that is possible; those of Georeference::ToEnu.
+///   kMaxLatticeBits would use up the error asked for, with the least that is possible; those of
+///   Georeference::ToEnu.
 /// Cost: O(posts); a row of posts at a time in memory.
 Result<LevelPlan> PlanLevels(const TerrainInput& input, const BuildOptions& options);
 
 /// Which of the levels by size a level is like: its sides are rounded as that one's. By size it is
-/// its own number; by triangles the same for tiles of `dem`'s columns and rows that are asked alike.
+/// its own number; by triangles it is the same for tiles of `dem`'s columns and rows that are asked
+/// alike.
 int CoarsenessOf(const LevelPlan& plan, const Dem& dem, std::size_t level);
 
 }  // namespace farhorizon

@@ -15,6 +15,7 @@
 #include "core/io/manifest.h"
 #include "core/io/tileset_reader.h"
 #include "core/pipeline/level_artifact.h"
+#include "core/pipeline/post_places.h"
 #include "core/pipeline/report.h"
 #include "core/pipeline/terrain_input.h"
 #include "core/pipeline/verify/claims.h"
@@ -184,8 +185,11 @@ Result<std::vector<ClaimCheck>> VerifyArtifacts(const fs::path& dem, const fs::p
   control.Report(Stage::kVerify, kVerifiedWithSights);
   Result<PostNormals> normals = FindPostNormals((*input)->terrain(), (*input)->georeference());
   if (!normals) return std::move(normals.error());
-  const LevelContext context{(*input)->terrain(), *horizon, (*input)->georeference(), *normals,
-                             control};
+  Result<PostPlaces> places = FindPostPlaces((*input)->terrain(), (*input)->georeference());
+  if (!places) return std::move(places.error());
+  MeshMeasurer measurer((*input)->terrain(), *horizon, *std::move(places));
+  const LevelContext context{
+      (*input)->terrain(), *horizon, (*input)->georeference(), *normals, measurer, control};
   VerifyLevels(context, directory, *report, published, claims);
   if (Has(report->levels, &LevelReport::glb_bytes)) {
     VerifyTileset(**input, directory, *report, claims);

@@ -218,6 +218,10 @@ std::vector<Edge> VerifyLevel(const LevelContext& context, const std::filesystem
   claims.AtMost(name + " vertical error, rms", claimed.vertical.rms_m, found->vertical.rms_m);
   claims.AtMost(name + " silhouette error, max", claimed.silhouette.max_m, found->silhouette.max_m);
   claims.AtMost(name + " silhouette error, rms", claimed.silhouette.rms_m, found->silhouette.rms_m);
+  claims.AtMost(name + " silhouette error, rim", claimed.rim_m, found->rim_m);
+  claims.AtMost(name + " angle of facets, rms", claimed.facet_angle_deg, found->facet_angle_deg,
+                "degrees");
+  claims.AtMost(name + " needles", claimed.needle_share, found->needle_share, "of the triangles");
   claims.AtMost(name + " geometric error", claimed.geometric_error_m, found->geometric_error_m);
   return EdgesByPost(mesh);
 }

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/horizon/horizon.h"
+#include "core/measure/mesh_sides.h"
+#include "core/terrain/mesh.h"
+#include "core/terrain/terrain.h"
+
+namespace farhorizon {
+
+/// Which edges of a terrain are horizon edges, to be asked for very often.
+class HorizonIndex {
+ public:
+  /// Requires: horizon outlives it.
+  HorizonIndex(const Terrain& terrain, const Horizon& horizon);
+
+  /// The place in horizon.edges of the edge between two neighbouring posts, a < b; kNoneThere where
+  /// it is no horizon edge.
+  [[nodiscard]] std::int32_t Find(VertexId a, VertexId b) const;
+
+  /// Of each horizon edge, whether neither end is on the terrain's outline.
+  [[nodiscard]] const std::vector<std::uint8_t>& inner() const { return inner_; }
+  /// Of each post, whether it is there.
+  [[nodiscard]] const std::vector<bool>& outline_posts() const { return outline_posts_; }
+
+ private:
+  const Horizon* horizon_;
+  std::int32_t columns_;
+  std::vector<std::uint8_t> bits_;  // per post a, of the edges to the posts after it
+  std::vector<std::uint8_t> inner_;
+  std::vector<bool> outline_posts_;
+};
+
+/// A piece of a segment of one surface that may be above the skyline of the other.
+///
+/// outline: its surface ends there, or the other one does not reach there.
+/// near_outline: that is so within about a cell.
+struct RaisedPiece {
+  GridPoint a;
+  GridPoint b;
+  bool outline = false;
+  bool near_outline = false;
+};
+
+/// Where the edges of two surfaces are above the other one's ground.
+///
+/// mesh_raised: the pieces of the mesh's ridges and outline that are more than `allowed_m` above the
+///   DEM's ground, or have none, and are in no merged hull of it: only there can the mesh's skyline
+///   be above the DEM's by more. Pieces are at most a few cells long.
+/// dem_raised: the horizon edges that are anywhere more than `allowed_m` above the mesh, or have
+///   none of it below.
+/// inner_sunk_m: the most that a horizon edge with no end on the outline is above the mesh; infinity
+///   where one has none of it below.
+/// most_m: the greatest difference of heights met, metres, infinity where a piece has no ground below.
+struct GroundWalk {
+  std::vector<RaisedPiece> mesh_raised;
+  std::vector<RaisedPiece> dem_raised;
+  double inner_sunk_m = 0;
+  double most_m = 0;
+};
+
+/// rise: as PostErrors has it.
+/// Cost: the cells that the mesh's sides cross.
+GroundWalk WalkGround(const Terrain& terrain, const Horizon& horizon, const HorizonIndex& index,
+                      const GridMesh& mesh, const MeshSides& sides, const std::vector<float>& rise,
+                      double allowed_m);
+
+}  // namespace farhorizon

@@ -1,0 +1,105 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/measure/line_box.h"
+#include "core/measure/skyline_net.h"
+
+namespace farhorizon {
+
+/// A segment of a net that may occlude lines of a box, with the numbers of its ends.
+struct Occluder {
+  GridPoint a;
+  GridPoint b;
+  std::int32_t a_id = 0;
+  std::int32_t b_id = 0;
+};
+
+/// The convex hull of a net's points in plan, turning one way, without points on its sides; and
+/// where each point is on it, kNoneThere inside. reach: how far some point is from the first one.
+struct NetHull {
+  std::vector<std::int32_t> ring;
+  std::vector<std::int32_t> place;
+  double reach = 0;
+
+  static NetHull Of(const SkylineNet& net);
+};
+
+/// What is known of a box of lines.
+///
+/// proven: the box's segment, lowered by the allowance, is on each line of the box that meets the
+///   net's surface no higher than that surface.
+/// excess_m: where it is not proven, by how much the segment is above the surface on some line of
+///   the box, at least; more than what was tolerated, or the search has come to an end.
+struct BoxVerdict {
+  bool proven = false;
+  double excess_m = 0;
+};
+
+/// How a box is asked.
+///
+/// allowed_m: the allowance. tolerated_m: less than that; a line with more is reported, so that
+///   between both there is room for a proof by boxes.
+/// floor_m: segments that are nowhere above this height are missing among the occluders.
+struct BoxQuestion {
+  LineBox box;
+  double allowed_m = 0;
+  double tolerated_m = 0;
+  double floor_m = 0;
+};
+
+/// Proves that boxes of lines are occluded, by cutting them up.
+///
+/// A segment that all lines of a box cross is lowest, against the box's own segment, at a corner:
+/// in a fixed direction both heights are linear along the box's segment, and about a fixed point
+/// the line's crossing moves one way along the occluder. Two segments with a common end which all
+/// lines cross, some the one and some the other, are lowest at a corner or at that end. A box that
+/// neither proves is halved, along its segment or in its directions, whichever moves lines more
+/// at the best occluder of its middle line.
+class OccludedLines {
+ public:
+  OccludedLines(const SkylineNet& net, const NetHull& hull) : net_(&net), hull_(&hull) {}
+
+  /// candidates: every segment of the net that is anywhere above question.floor_m and meets a line
+  ///   of the box. The vector is left as it was, but grows in between.
+  BoxVerdict Ask(const BoxQuestion& question, std::vector<Occluder>& candidates);
+
+  /// Boxes looked at so far.
+  [[nodiscard]] std::int64_t boxes() const { return boxes_; }
+
+ private:
+  enum class Side : std::uint8_t { kLeft, kRight, kBoth };  // of all lines of a box, or of some
+
+  // A segment against a box.
+  struct Facing {
+    std::array<double, LineBox::kCorners> of_a;
+    std::array<double, LineBox::kCorners> of_b;
+    Side a;
+    Side b;
+  };
+  // An end that is between the box's lines, of a segment whose other end is not.
+  struct LooseEnd {
+    std::int32_t id;
+    Side other;
+    std::size_t candidate;
+  };
+
+  BoxVerdict AskBox(const BoxQuestion& question, std::vector<Occluder>& candidates,
+                    std::size_t begin, std::size_t end, int depth);
+  [[nodiscard]] bool ProvenAtJoint(const BoxQuestion& question,
+                                   const std::vector<Occluder>& candidates, const LooseEnd& left,
+                                   const LooseEnd& right) const;
+  [[nodiscard]] bool ProvenAtHull(const BoxQuestion& question,
+                                  const std::vector<Occluder>& candidates,
+                                  const LooseEnd& end) const;
+  [[nodiscard]] bool MissesNet(const LineBox& box) const;
+  [[nodiscard]] bool MissesNet(const GridPoint& through, DirectionRange::Normal normal) const;
+
+  const SkylineNet* net_;
+  const NetHull* hull_;
+  std::int64_t boxes_ = 0;
+  std::vector<LooseEnd> ends_;
+};
+
+}  // namespace farhorizon

@@ -1,0 +1,193 @@
+// Ranges of directions one by one. In each, most pieces are below the floor of the skyline on all lines of the strips that they reach. For the
+// others the occluders that are high enough are sorted into wider strips, and those in a piece's
+// strips are asked by boxes (OccludedLines).
+// Cost: for each range one look at each piece; where pieces are left, one at each point and segment
+// of the surface; then the boxes, which are limited.
+#include "core/measure/skyline_bound.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "core/measure/mesh_error.h"
+#include "core/measure/segment_blocks.h"
+
+namespace farhorizon {
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// Room for a proof between what was attained and what is proven: with less, boxes get smaller.
+constexpr double kRoom = 1.0 / 40;
+// The same in heights of the surface, for an error of 0.
+constexpr double kLeastRoom = 1e-7;
+// How far below a piece occluders are gathered, in allowances: the bound may be raised to that
+// before they have to be gathered again.
+constexpr double kGathered = 1.5;
+// Boxes for each piece and segment, and at least, before the search ends with what it has.
+constexpr std::int64_t kMostBoxes = 200;
+constexpr std::int64_t kLeastBoxes = 1'000'000;
+
+// Strips that lines through something are in.
+struct StripSpan {
+  std::int32_t first = 0;
+  std::int32_t last = 0;
+};
+
+class RaisedSearch {
+ public:
+  RaisedSearch(const OccludingSurface& surface, const SkylineFloor& floor, double floor_less_m,
+               const std::vector<RaisedPiece>& pieces, const RaisedBounds& bounds)
+      : surface_(surface),
+        floor_(floor),
+        floor_less_m_(floor_less_m),
+        pieces_(pieces),
+        bounds_(bounds),
+        lines_(surface.net, surface.hull),
+        blocks_(surface.net) {
+    least_room_ = kLeastRoom * (1 + surface.relief_m);
+    most_boxes_ = kLeastBoxes + kMostBoxes * static_cast<std::int64_t>(surface.net.segments.size() +
+                                                                       pieces.size());
+  }
+
+  Result<RaisedBounds> Run(const RunControl& control) {
+    for (int k = 0; k < floor_.strips.directions; ++k) {
+      if (control.StopRequested()) {
+        return Error{ErrorCode::kCancelled, "stopped while bounding the silhouette"};
+      }
+      SearchRange(k);
+    }
+    return RaisedBounds{Allowed(false), Allowed(true)};
+  }
+
+ private:
+  [[nodiscard]] double& Tolerated(bool outline) {
+    return outline ? bounds_.outline_m : bounds_.inner_m;
+  }
+  // What is proven: more than what is tolerated.
+  [[nodiscard]] double Allowed(bool outline) const {
+    return WithRoom(outline ? bounds_.outline_m : bounds_.inner_m, surface_.relief_m);
+  }
+
+  static double Highest(const RaisedPiece& p) { return std::max(p.a.height_m, p.b.height_m); }
+
+  [[nodiscard]] StripSpan SpanOf(const RaisedPiece& p, const DirectionRange& range) const {
+    const LineStrips& strips = floor_.strips;
+    const auto [least, most] =
+        std::minmax({strips.OffsetOf(p.a, range.first), strips.OffsetOf(p.a, range.last),
+                     strips.OffsetOf(p.b, range.first), strips.OffsetOf(p.b, range.last)});
+    return {strips.StripOf(least - strips.slack), strips.StripOf(most + strips.slack)};
+  }
+
+  void SearchRange(int k) {
+    const DirectionRange range = floor_.strips.Range(k);
+    const double angle = std::numbers::pi / floor_.strips.directions;
+    for (const RaisedPiece& piece : pieces_) {
+      const StripSpan strips = SpanOf(piece, range);
+      const double known = floor_.Least(k, strips.first, strips.last) - floor_less_m_;
+      if (known >= Highest(piece) - Allowed(piece.outline)) continue;
+      if (lines_.boxes() <= most_boxes_) {
+        AskPiece(piece, k * angle, (k + 1) * angle);
+      } else {  // the bound becomes what is certain without a search
+        double& tolerated = Tolerated(piece.outline);
+        tolerated = std::max(tolerated, Highest(piece) - std::max(known, surface_.lowest_m));
+      }
+    }
+  }
+
+  // Gathers what may occlude a piece in a range of directions, also where it is lower than needed
+  // now: the bound may be raised by that before it has to be done again.
+  void CollectCandidates(const RaisedPiece& piece, const DirectionRange& range) {
+    floor_m_ = std::min(piece.a.height_m, piece.b.height_m) - kGathered * Allowed(piece.outline);
+    blocks_.Find({piece.a, piece.b, range}, floor_m_, found_);
+    candidates_.clear();
+    for (const std::int32_t i : found_) {
+      const SkylineNet::Segment& s = surface_.net.segments[static_cast<std::size_t>(i)];
+      candidates_.push_back({surface_.net.Point(s.a), surface_.net.Point(s.b), s.a, s.b});
+    }
+  }
+
+  void AskPiece(const RaisedPiece& piece, double first, double last) {
+    if (!piece.near_outline) return AskDirections(piece, first, last);
+    // Without the directions that graze an outline: those of the grid's, and the piece's own.
+    const double own =
+        piece.outline ? std::atan2(piece.b.row - piece.a.row, piece.b.column - piece.a.column) : 0;
+    std::array<double, 6> grazed = {0,
+                                    std::numbers::pi / 4,
+                                    std::numbers::pi / 2,
+                                    3 * std::numbers::pi / 4,
+                                    std::numbers::pi,
+                                    own < 0 ? own + std::numbers::pi : own};
+    std::sort(grazed.begin(), grazed.end());
+    for (const double g : grazed) {
+      if (g - kGrazingAngle > first) {
+        AskDirections(piece, first, std::min(last, g - kGrazingAngle));
+      }
+      first = std::max(first, g + kGrazingAngle);
+      if (first >= last) return;
+    }
+    AskDirections(piece, first, last);
+  }
+
+  void AskDirections(const RaisedPiece& piece, double first, double last) {
+    const DirectionRange range = DirectionRange::Of(first, last);
+    CollectCandidates(piece, range);
+    for (;;) {
+      BoxQuestion question;
+      question.box = {piece.a, piece.b, range};
+      question.tolerated_m = Tolerated(piece.outline);
+      question.allowed_m = Allowed(piece.outline);
+      question.floor_m = floor_m_;
+      const BoxVerdict verdict = lines_.Ask(question, candidates_);
+      if (verdict.proven) return;
+      Tolerated(piece.outline) = std::max(verdict.excess_m, Tolerated(piece.outline) + least_room_);
+      const double lower_end = std::min(piece.a.height_m, piece.b.height_m);
+      if (lower_end - Allowed(piece.outline) < floor_m_) CollectCandidates(piece, range);
+    }
+  }
+
+  const OccludingSurface& surface_;
+  const SkylineFloor& floor_;
+  double floor_less_m_;
+  const std::vector<RaisedPiece>& pieces_;
+  RaisedBounds bounds_;
+  double least_room_ = 0;
+  std::int64_t most_boxes_ = 0;
+  OccludedLines lines_;
+  SegmentBlocks blocks_;
+  double floor_m_ = 0;  // what is nowhere above it is not among the candidates
+  std::vector<std::int32_t> found_;
+  std::vector<Occluder> candidates_;
+};
+
+}  // namespace
+
+double WithRoom(double attained_m, double relief_m) {
+  return attained_m * (1 + kRoom) + kLeastRoom * (1 + relief_m);
+}
+
+OccludingSurface OccludingSurface::Of(SkylineNet net) {
+  OccludingSurface surface;
+  surface.hull = NetHull::Of(net);
+  double most = -kInfinity;
+  surface.lowest_m = kInfinity;
+  for (const SkylineNet::Segment& s : net.segments) {
+    for (const std::int32_t i : {s.a, s.b}) {
+      surface.lowest_m = std::min(surface.lowest_m, net.Point(i).height_m);
+      most = std::max(most, net.Point(i).height_m);
+    }
+  }
+  surface.relief_m = most - surface.lowest_m;
+  surface.net = std::move(net);
+  return surface;
+}
+
+Result<RaisedBounds> BoundRaised(const OccludingSurface& surface, const SkylineFloor& floor,
+                                 double floor_less_m, const std::vector<RaisedPiece>& pieces,
+                                 const RaisedBounds& bounds, const RunControl& control) {
+  return RaisedSearch(surface, floor, floor_less_m, pieces, bounds).Run(control);
+}
+
+}  // namespace farhorizon

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/horizon/horizon.h"
+#include "core/measure/mesh_sides.h"
+#include "core/terrain/mesh.h"
+#include "core/terrain/terrain.h"
+
+namespace farhorizon {
+
+/// Segments of a surface of which, over every plan line, some one is as high as the surface.
+///
+/// segments: by points. outline: the surface ends there.
+struct SkylineNet {
+  struct Segment {
+    std::int32_t a = 0;
+    std::int32_t b = 0;
+    bool outline = false;
+  };
+  std::vector<GridPoint> points;
+  std::vector<Segment> segments;
+
+  [[nodiscard]] const GridPoint& Point(std::int32_t i) const {
+    return points[static_cast<std::size_t>(i)];
+  }
+};
+
+/// The horizon edges, in their order (core/horizon/README.md, theorem 2).
+SkylineNet SkylineNetOf(const Terrain& terrain, const Horizon& horizon);
+
+/// Those that are whole without an end on the outline of the terrain: over every line the surface
+/// is at least as high as they are, also where its outline has moved a little.
+SkylineNet InnerNetOf(const SkylineNet& net, const std::vector<std::uint8_t>& inner);
+
+/// The ridges and the outline of a mesh (lemma 0 there). points: those of the mesh.
+SkylineNet SkylineNetOf(const GridMesh& mesh, const MeshSides& sides);
+
+}  // namespace farhorizon
