@@ -38,11 +38,10 @@ struct StripSpan {
 
 class RaisedSearch {
  public:
-  RaisedSearch(const OccludingSurface& surface, const SkylineFloor& floor, double floor_less_m,
+  RaisedSearch(const OccludingSurface& surface, const SkylineFloor& floor,
                const std::vector<RaisedPiece>& pieces, const RaisedBounds& bounds)
       : surface_(surface),
         floor_(floor),
-        floor_less_m_(floor_less_m),
         pieces_(pieces),
         bounds_(bounds),
         lines_(surface.net, surface.hull),
@@ -86,7 +85,7 @@ class RaisedSearch {
     const double angle = std::numbers::pi / floor_.strips.directions;
     for (const RaisedPiece& piece : pieces_) {
       const StripSpan strips = SpanOf(piece, range);
-      const double known = floor_.Least(k, strips.first, strips.last) - floor_less_m_;
+      const double known = floor_.Least(k, strips.first, strips.last);
       if (known >= Highest(piece) - Allowed(piece.outline)) continue;
       if (lines_.boxes() <= most_boxes_) {
         AskPiece(piece, k * angle, (k + 1) * angle);
@@ -150,7 +149,6 @@ class RaisedSearch {
 
   const OccludingSurface& surface_;
   const SkylineFloor& floor_;
-  double floor_less_m_;
   const std::vector<RaisedPiece>& pieces_;
   RaisedBounds bounds_;
   double least_room_ = 0;
@@ -185,9 +183,9 @@ OccludingSurface OccludingSurface::Of(SkylineNet net) {
 }
 
 Result<RaisedBounds> BoundRaised(const OccludingSurface& surface, const SkylineFloor& floor,
-                                 double floor_less_m, const std::vector<RaisedPiece>& pieces,
-                                 const RaisedBounds& bounds, const RunControl& control) {
-  return RaisedSearch(surface, floor, floor_less_m, pieces, bounds).Run(control);
+                                 const std::vector<RaisedPiece>& pieces, const RaisedBounds& bounds,
+                                 const RunControl& control) {
+  return RaisedSearch(surface, floor, pieces, bounds).Run(control);
 }
 
 }  // namespace farhorizon
