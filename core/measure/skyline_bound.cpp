@@ -101,11 +101,6 @@ class RaisedSearch {
   void CollectCandidates(const RaisedPiece& piece, const DirectionRange& range) {
     floor_m_ = std::min(piece.a.height_m, piece.b.height_m) - kGathered * Allowed(piece.outline);
     blocks_.Find({piece.a, piece.b, range}, floor_m_, found_);
-    candidates_.clear();
-    for (const std::int32_t i : found_) {
-      const SkylineNet::Segment& s = surface_.net.segments[static_cast<std::size_t>(i)];
-      candidates_.push_back({surface_.net.Point(s.a), surface_.net.Point(s.b), s.a, s.b});
-    }
   }
 
   void AskPiece(const RaisedPiece& piece, double first, double last) {
@@ -139,7 +134,7 @@ class RaisedSearch {
       question.tolerated_m = Tolerated(piece.outline);
       question.allowed_m = Allowed(piece.outline);
       question.floor_m = floor_m_;
-      const BoxVerdict verdict = lines_.Ask(question, candidates_);
+      const BoxVerdict verdict = lines_.Ask(question, found_);
       if (verdict.proven) return;
       Tolerated(piece.outline) = std::max(verdict.excess_m, Tolerated(piece.outline) + least_room_);
       const double lower_end = std::min(piece.a.height_m, piece.b.height_m);
@@ -157,7 +152,6 @@ class RaisedSearch {
   SegmentBlocks blocks_;
   double floor_m_ = 0;  // what is nowhere above it is not among the candidates
   std::vector<std::int32_t> found_;
-  std::vector<Occluder> candidates_;
 };
 
 }  // namespace
