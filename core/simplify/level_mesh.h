@@ -4,7 +4,7 @@
 
 #include "core/simplify/lod_chain.h"
 #include "core/simplify/sides/side_posts.h"
-#include "core/simplify/workpiece.h"
+#include "core/simplify/work/workpiece.h"
 
 namespace farhorizon {
 

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <vector>
 
 #include "core/simplify/lines/pencils.h"
 #include "core/simplify/mesh/half_edge_mesh.h"
-#include "core/simplify/mesh/squares.h"
 
 namespace farhorizon {
 
@@ -18,65 +18,95 @@ inline bool RimIsStraight(const HalfEdgeMesh& mesh, std::int32_t v) {
               mesh.at(mesh.origin(HalfEdgeMesh::Previous(spokes.back())))) == 0;
 }
 
-/// The mesh's height in the tile's frame at post (x, y), doubles: each triangle is looked at.
-/// Infinity where none covers the post.
-inline double FrameHeightByDefinition(const HalfEdgeMesh& mesh, std::int32_t x, std::int32_t y) {
-  Place p;
-  p.x = static_cast<std::int16_t>(x);
-  p.y = static_cast<std::int16_t>(y);
+/// The triangle of the mesh that covers the plan point, by its first half-edge; kNone: none does.
+/// Each triangle is looked at.
+inline std::int32_t TriangleAt(const HalfEdgeMesh& mesh, double x, double y) {
+  const auto turn = [&](const Place& p, const Place& q) {
+    return (p.x - x) * (q.y - y) - (q.x - x) * (p.y - y);
+  };
   for (std::int32_t h = 0; h < mesh.half_edges(); h += 3) {
     if (!mesh.Stands(h / 3)) continue;
     const Place& a = mesh.at(mesh.origin(h));
     const Place& b = mesh.at(mesh.origin(h + 1));
     const Place& c = mesh.at(mesh.origin(h + 2));
-    const auto of_a = static_cast<double>(Turn(p, b, c));
-    const auto of_b = static_cast<double>(Turn(a, p, c));
-    const auto of_c = static_cast<double>(Turn(a, b, p));
-    if (of_a < 0 || of_b < 0 || of_c < 0) continue;
-    return (of_a * static_cast<double>(a.frame) + of_b * static_cast<double>(b.frame) +
-            of_c * static_cast<double>(c.frame)) /
-           (of_a + of_b + of_c);
+    if (turn(a, b) >= 0 && turn(b, c) >= 0 && turn(c, a) >= 0) return h;
   }
-  return std::numeric_limits<double>::infinity();
+  return HalfEdgeMesh::kNone;
 }
 
-/// visit(what the mesh is off at a post) for each post of the terrain's domain.
+/// Height in the tile's frame and its change by column and by row, doubles.
+struct PlaneAt {
+  double height = 0;
+  double by_column = 0;
+  double by_row = 0;
+};
+inline PlaneAt PlaneOf(const HalfEdgeMesh& mesh, std::int32_t h, double x, double y) {
+  const Place& a = mesh.at(mesh.origin(h));
+  const Place& b = mesh.at(mesh.origin(h + 1));
+  const Place& c = mesh.at(mesh.origin(h + 2));
+  const auto area = static_cast<double>(Turn(a, b, c));
+  const double bz = static_cast<double>(b.frame) - static_cast<double>(a.frame);
+  const double cz = static_cast<double>(c.frame) - static_cast<double>(a.frame);
+  PlaneAt plane;
+  plane.by_column = (bz * (c.y - a.y) - cz * (b.y - a.y)) / area;
+  plane.by_row = (cz * (b.x - a.x) - bz * (c.x - a.x)) / area;
+  plane.height =
+      static_cast<double>(a.frame) + plane.by_column * (x - a.x) + plane.by_row * (y - a.y);
+  return plane;
+}
+
+/// visit(what the mesh is off at a post, squared gradient off beside it) for each post of the
+/// terrain's domain. The gradient is compared on the triangle just to the right of the post and a
+/// little below; 0 where there is none.
 template <typename Visit>
 void ForEachErrorByDefinition(const HalfEdgeMesh& mesh, Visit visit) {
+  constexpr double kRight = 1e-3;  // cells: small beside the slopes of edges of small meshes
+  constexpr double kBelow = 1e-6;
   const Ground& ground = mesh.ground();
   for (VertexId v = 0; v < mesh.vertices(); ++v) {
     if (!ground.terrain().IsVertex(v)) continue;
     const std::int32_t x = v % ground.columns();
     const std::int32_t y = v / ground.columns();
-    visit(static_cast<double>(ground.Row(y)[x]) - FrameHeightByDefinition(mesh, x, y));
+    const auto height = static_cast<double>(ground.Row(y)[x]);
+    const std::int32_t under = TriangleAt(mesh, x, y);
+    const double off = under == HalfEdgeMesh::kNone ? std::numeric_limits<double>::infinity()
+                                                    : height - PlaneOf(mesh, under, x, y).height;
+    double slope = 0;
+    const std::int32_t beside = TriangleAt(mesh, x + kRight, y + kBelow);
+    if (beside != HalfEdgeMesh::kNone) {
+      const PlaneAt plane = PlaneOf(mesh, beside, x, y);
+      slope = std::pow(static_cast<double>(ground.Row(y)[x + 1]) - height - plane.by_column, 2) +
+              std::pow(static_cast<double>(ground.Row(y + 1)[x]) - height - plane.by_row, 2);
+    }
+    visit(off, slope);
   }
 }
 
-/// The sum over the posts of the domain of (f' - f)^2.
-inline double SquaresByDefinition(const HalfEdgeMesh& mesh) {
+/// The sum over the posts of the domain of (f' - f)^2 + slope_weight |grad f' - grad f|^2.
+inline double SquaresByDefinition(const HalfEdgeMesh& mesh, double slope_weight) {
   double sum = 0;
-  ForEachErrorByDefinition(mesh, [&](double off) { sum += off * off; });
+  ForEachErrorByDefinition(
+      mesh, [&](double off, double slope) { sum += off * off + slope_weight * slope; });
   return sum;
 }
 inline double GreatestErrorByDefinition(const HalfEdgeMesh& mesh) {
   double greatest = 0;
-  ForEachErrorByDefinition(mesh, [&](double off) { greatest = std::max(greatest, std::abs(off)); });
+  ForEachErrorByDefinition(
+      mesh, [&](double off, double) { greatest = std::max(greatest, std::abs(off)); });
   return greatest;
 }
 
 /// The same sum as the simplifier has it: over triangles and the rim.
-inline double SquaresOf(const HalfEdgeMesh& mesh,
-                        float most_m = std::numeric_limits<float>::infinity()) {
-  const Ground& ground = mesh.ground();
+inline double SquaresOf(const HalfEdgeMesh& mesh) {
   double sum = 0;
   for (std::int32_t h = 0; h < mesh.half_edges(); ++h) {
     if (!mesh.Stands(h / 3)) continue;
     const Place& a = mesh.at(mesh.origin(h));
     const Place& b = mesh.at(mesh.origin(HalfEdgeMesh::Next(h)));
     const Place& c = mesh.at(mesh.origin(HalfEdgeMesh::Previous(h)));
-    if (h % 3 == 0) sum += static_cast<double>(Squares(ground, a, b, c, most_m));
+    if (h % 3 == 0) sum += static_cast<double>(mesh.measure().Of(a, b, c));
     if (mesh.twin(h) == HalfEdgeMesh::kNone) {
-      sum += static_cast<double>(RimSquares(ground, a, b, most_m));
+      sum += static_cast<double>(mesh.measure().OfRim(a, b));
     }
   }
   return sum;

@@ -22,8 +22,8 @@ Pencils::Pencils(std::int32_t columns, std::int32_t rows, std::int32_t direction
     const double least = std::min(0.0, x * width) + std::min(0.0, y * height) + kOffCorner;
     const double most = std::max(0.0, x * width) + std::max(0.0, y * height);
     const std::int32_t count = std::max(0, static_cast<std::int32_t>(most - least + 1));
-    pencils_.push_back({static_cast<float>(x), static_cast<float>(y), static_cast<float>(least),
-                        count, first});
+    pencils_.push_back(
+        {static_cast<float>(x), static_cast<float>(y), static_cast<float>(least), count, first});
     for (std::int32_t i = 0; i < count; ++i) pencil_of_.push_back(static_cast<std::int16_t>(k));
     first += count;
   }

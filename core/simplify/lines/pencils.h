@@ -38,7 +38,8 @@ class Pencils {
   void ForEachLineAcross(const Place& a, const Place& b, Visit visit) const;
 
   /// On which side of the line each of `count` places is, and how far.
-  void Distances(std::int32_t line, const Place* places, std::int32_t count, float* distances) const {
+  void Distances(std::int32_t line, const Place* places, std::int32_t count,
+                 float* distances) const {
     const Pencil& pencil = pencils_[static_cast<std::size_t>(pencil_of_[line])];
     const float shift = pencil.shift + static_cast<float>(line - pencil.first);
     for (std::int32_t i = 0; i < count; ++i) {

@@ -39,8 +39,8 @@ SampledSkyline::SampledSkyline(const HalfEdgeMesh& mesh, const Horizon& horizon,
 void SampledSkyline::CountLines() {
   lines_ = 0;
   for (std::int32_t line = 0; line < pencils_.lines(); ++line) lines_ += Counts(line) ? 1 : 0;
-  posts_per_line_ =
-      static_cast<double>(mesh_->vertices()) / static_cast<double>(std::max<std::int64_t>(lines_, 1));
+  posts_per_line_ = static_cast<double>(mesh_->vertices()) /
+                    static_cast<double>(std::max<std::int64_t>(lines_, 1));
 }
 
 void SampledSkyline::Thin(std::int64_t least) {

@@ -77,13 +77,13 @@ class SampledSkyline {
 
   const HalfEdgeMesh* mesh_;
   Pencils pencils_;
-  Table<float> dem_;                  // per line
-  Table<float> top_;                  // per line
-  std::vector<Crossing> crossings_;   // kKept a line, highest first
-  Table<std::uint8_t> count_;         // per line: of crossings
-  std::vector<bool> known_;           // per vertex: an edge of it has been kept somewhere
+  Table<float> dem_;                 // per line
+  Table<float> top_;                 // per line
+  std::vector<Crossing> crossings_;  // kKept a line, highest first
+  Table<std::uint8_t> count_;        // per line: of crossings
+  std::vector<bool> known_;          // per vertex: an edge of it has been kept somewhere
   LineLists carried_;
-  std::int64_t lines_ = 0;            // that count
+  std::int64_t lines_ = 0;  // that count
   double posts_per_line_ = 0;
 };
 

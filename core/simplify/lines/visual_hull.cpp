@@ -82,8 +82,7 @@ bool VisualHull::MayRise(const Place& a, const Place& b) const {
   return false;
 }
 
-bool VisualHull::MayRiseAround(const Place& centre, const Place* places,
-                               std::int32_t count) const {
+bool VisualHull::MayRiseAround(const Place& centre, const Place* places, std::int32_t count) const {
   float highest = centre.plan;
   std::int32_t reach = 1;
   for (const Place* p = places; p < places + count; ++p) {

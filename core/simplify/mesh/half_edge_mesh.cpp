@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/simplify/mesh/squares.h"
-
 namespace farhorizon {
 
 bool HalfEdgeMesh::Gather(std::int32_t v, Ring& ring) const {
@@ -125,8 +123,11 @@ void HalfEdgeMesh::Flip(std::int32_t h) {
 void HalfEdgeMesh::Measure(std::int32_t triangle) {
   if (!Stands(triangle)) return;
   const std::int32_t h = 3 * triangle;
-  squares_[triangle] =
-      Squares(*ground_, at_[origin_[h]], at_[origin_[h + 1]], at_[origin_[h + 2]]);
+  squares_[triangle] = measure_.Of(at_[origin_[h]], at_[origin_[h + 1]], at_[origin_[h + 2]]);
+}
+
+void HalfEdgeMesh::MeasureAll() {
+  for (std::int32_t t = 0; t < half_edges() / 3; ++t) Measure(t);
 }
 
 void HalfEdgeMesh::Compact() {
@@ -135,9 +136,7 @@ void HalfEdgeMesh::Compact() {
   for (std::int32_t t = 0; t < moved.size(); ++t) {
     if (Stands(t)) moved[t] = count++;
   }
-  const auto place = [&](std::int32_t h) {
-    return h == kNone ? kNone : 3 * moved[h / 3] + h % 3;
-  };
+  const auto place = [&](std::int32_t h) { return h == kNone ? kNone : 3 * moved[h / 3] + h % 3; };
   for (std::int32_t t = 0; t < moved.size(); ++t) {
     if (moved[t] == kNone) continue;
     for (std::int32_t k = 0; k < 3; ++k) {

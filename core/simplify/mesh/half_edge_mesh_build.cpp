@@ -18,8 +18,8 @@ class OpenEdges {
   std::int32_t& From(std::int32_t v, std::int32_t w) {
     const std::int32_t dx = w % columns_ - v % columns_;
     const std::int32_t dy = w / columns_ - v / columns_;
-    return edges_[(v / columns_ % 2 * columns_ + v % columns_) * kDirections +
-                  3 * (dy + 1) + dx + 1];
+    return edges_[(v / columns_ % 2 * columns_ + v % columns_) * kDirections + 3 * (dy + 1) + dx +
+                  1];
   }
   void ForgetRow(std::int32_t row) {
     const std::int32_t first = row % 2 * columns_ * kDirections;
@@ -37,7 +37,7 @@ class OpenEdges {
 
 }  // namespace
 
-HalfEdgeMesh::HalfEdgeMesh(const Ground& ground) : ground_(&ground) {
+HalfEdgeMesh::HalfEdgeMesh(const Ground& ground) : ground_(&ground), measure_(ground) {
   const Terrain& terrain = ground.terrain();
   const Dem& dem = terrain.dem();
   const std::int64_t most = 6 * std::int64_t{dem.columns - 1} * (dem.rows - 1);
@@ -73,7 +73,7 @@ HalfEdgeMesh::HalfEdgeMesh(const Ground& ground) : ground_(&ground) {
     }
   }
   triangles_ = origin_.size() / 3;
-  squares_.resize(triangles_, 0);  // every post is at a corner of its triangles
+  squares_.resize(triangles_, 0);
   MarkKnots();
 }
 

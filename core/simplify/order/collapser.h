@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/base/result.h"
-#include "core/simplify/workpiece.h"
+#include "core/simplify/work/workpiece.h"
 
 namespace farhorizon {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/base/result.h"
-#include "core/simplify/workpiece.h"
+#include "core/simplify/work/workpiece.h"
 
 namespace farhorizon {
 

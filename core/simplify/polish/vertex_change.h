@@ -1,11 +1,10 @@
 #pragma once
 
-#include "core/simplify/mesh/squares.h"
-#include "core/simplify/workpiece.h"
+#include "core/simplify/work/workpiece.h"
 
 namespace farhorizon {
 
-/// A change of one vertex's place, its neighbours staying: what it costs, and whether it is allowed.
+/// A change of one vertex's place, its neighbours staying: what it costs, whether it is allowed.
 class VertexChange {
  public:
   explicit VertexChange(Workpiece& work) : work_(work) {}

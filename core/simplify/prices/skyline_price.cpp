@@ -15,8 +15,7 @@ float OutlineOver(const Ring& ring, const float* distance) {
   for (std::int32_t i = 0; i < ring.sides(); ++i) {
     const std::int32_t k = ring.after(i);
     if (!Crosses(distance[i], distance[k])) continue;
-    height = std::max(height,
-                      HeightBetween(ring.at(i), ring.at(k), distance[i], distance[k]));
+    height = std::max(height, HeightBetween(ring.at(i), ring.at(k), distance[i], distance[k]));
   }
   return height;
 }

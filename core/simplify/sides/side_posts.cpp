@@ -52,8 +52,7 @@ std::vector<SidePosts::Height> SidePosts::At(double share) const {
     const std::vector<std::size_t> staying = Staying(run, share);
     const std::vector<double> fitted = FitRun(run.m, staying);
     for (std::size_t i = 0; i < staying.size(); ++i) {
-      heights.push_back(
-          {run.first + static_cast<std::int32_t>(staying[i]) * run.step, fitted[i]});
+      heights.push_back({run.first + static_cast<std::int32_t>(staying[i]) * run.step, fitted[i]});
     }
   }
   return heights;

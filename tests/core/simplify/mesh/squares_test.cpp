@@ -30,10 +30,9 @@ void Shake(HalfEdgeMesh& mesh, std::mt19937& random) {
     const Place& at = mesh.at(v);
     mesh.SetPlace(v, mesh.ground().WithHeight(at.x, at.y, at.plan + AnyHeight(random)));
   }
-  for (std::int32_t t = 0; t < mesh.half_edges() / 3; ++t) mesh.Measure(t);
 }
 
-TEST(Squares, OfAllTrianglesAndTheRimHaveEveryPostOfTheDomainOnce) {
+TEST(PostSquares, OfAllTrianglesAndTheRimHaveEveryPostOfTheDomainOnce) {
   std::mt19937 random(1);
   for (int round = 0; round < Rounds(3000); ++round) {
     const Dem dem = AnySmallDem(12, random);
@@ -42,16 +41,18 @@ TEST(Squares, OfAllTrianglesAndTheRimHaveEveryPostOfTheDomainOnce) {
     HalfEdgeMesh mesh(ground);
     Rearrange(mesh, 150, random);
     Shake(mesh, random);
-    const double wanted = SquaresByDefinition(mesh);
+    const double weight = round % 4 * 0.25;
+    mesh.measure().SetSlopeWeight(static_cast<float>(weight));
+    const double wanted = SquaresByDefinition(mesh, weight);
     ASSERT_NEAR(SquaresOf(mesh), wanted, kFloat * (1 + wanted)) << DrawAscii(dem);
   }
 }
 
-TEST(Squares, OfALevelSeaAreTheEarthsDrop) {
+TEST(PostSquares, OfALevelSeaAreTheEarthsDrop) {
   const Dem dem = MakeDem(9, 9, [](std::int32_t, std::int32_t) { return 0; });
   const Terrain terrain = *Terrain::Build(dem);
   const Ground ground(terrain, {0.25, 0});
-  // Along a row of the big triangle the ground is 0.25 dx^2 lower than at its middle column.
+  // The triangle is level with the tile's left side, 4 m below the middle column.
   float sum = 0;
   for (std::int32_t y = 0; y < 8; ++y) {
     for (std::int32_t x = 0; x < y; ++x) {
@@ -59,10 +60,11 @@ TEST(Squares, OfALevelSeaAreTheEarthsDrop) {
       sum += static_cast<float>(off * off);
     }
   }
-  EXPECT_NEAR(Squares(ground, ground.At(0, 0), ground.At(8, 8), ground.At(0, 8)), sum, 1e-3);
+  const PostSquares measure(ground);
+  EXPECT_NEAR(measure.Of(ground.At(0, 0), ground.At(8, 8), ground.At(0, 8)), sum, 1e-3);
 }
 
-TEST(Squares, AreInfiniteWhereAPostIsOffByMoreThanTheMost) {
+TEST(PostSquares, AreInfiniteWhereAPostIsOffByMoreThanTheMost) {
   std::mt19937 random(2);
   int infinite = 0;
   int finite = 0;
@@ -76,7 +78,8 @@ TEST(Squares, AreInfiniteWhereAPostIsOffByMoreThanTheMost) {
     const auto most = static_cast<float>(random() % 2000);
     const double greatest = GreatestErrorByDefinition(mesh);
     if (std::abs(greatest - static_cast<double>(most)) < kFloat * (1 + greatest)) continue;
-    const bool found = std::isinf(SquaresOf(mesh, most));
+    mesh.measure().SetMost(most);
+    const bool found = std::isinf(SquaresOf(mesh));
     ASSERT_EQ(found, greatest > static_cast<double>(most)) << DrawAscii(dem);
     infinite += static_cast<int>(found);
     finite += static_cast<int>(!found);
@@ -85,11 +88,12 @@ TEST(Squares, AreInfiniteWhereAPostIsOffByMoreThanTheMost) {
   EXPECT_GT(finite, Rounds(100));
 }
 
-TEST(AddPull, IsWhatAChangeOfOneHeightDoesToTheSquares) {
+TEST(PostSquares, AreChangedByOneHeightAsItsPullSays) {
   std::mt19937 random(3);
   const Dem dem = FractalDem(17, 500, 120, 4);
   const Terrain terrain = *Terrain::Build(dem);
   const Ground ground(terrain, {0.25, 0.5});
+  PostSquares measure(ground);
   const auto any = [&] {
     const auto x = static_cast<std::int32_t>(random() % 17);
     const auto y = static_cast<std::int32_t>(random() % 17);
@@ -103,29 +107,33 @@ TEST(AddPull, IsWhatAChangeOfOneHeightDoesToTheSquares) {
     if (Turn(a, b, c) <= 0) continue;
     ++rounds;
     HeightPull sum = {3, 5};
-    AddPull(ground, a, b, c, sum);
+    measure.SetSlopeWeight(static_cast<float>(rounds % 3));
+    measure.AddPull(a, b, c, sum);
     const double pull = static_cast<double>(sum.pull) - 3;
     const double stiffness = static_cast<double>(sum.stiffness) - 5;
     const auto change = static_cast<double>(AnyHeight(random));
     const Place to = ground.WithHeight(a.x, a.y, a.plan + static_cast<float>(change));
-    const double before = Squares(ground, a, b, c);
-    const double after = Squares(ground, to, b, c);
+    const double before = measure.Of(a, b, c);
+    const double after = measure.Of(to, b, c);
     ASSERT_NEAR(after - before, -2 * change * pull + change * change * stiffness,
                 1e-4 * (1 + before + after));
   }
 }
 
-TEST(RimSquares, HaveOnlyWhatNoTriangleHas) {
+TEST(PostSquares, OfTheRimAreOnlyWhatNoTriangleHas) {
   const Dem dem = MakeDem(5, 5, [](std::int32_t c, std::int32_t r) { return c * c + 10 * r * r; });
   const Terrain terrain = *Terrain::Build(dem);
   const Ground ground(terrain, {});
   // Posts inside edges of the tile's right and lower sides are off by 3, 4, 3 and 30, 40, 30.
-  EXPECT_EQ(RimSquares(ground, ground.At(0, 0), ground.At(4, 0)), 0);
-  EXPECT_EQ(RimSquares(ground, ground.At(4, 0), ground.At(4, 4)), 900 + 1600 + 900);
-  EXPECT_EQ(RimSquares(ground, ground.At(4, 4), ground.At(0, 4)), 9 + 16 + 9);
-  EXPECT_EQ(RimSquares(ground, ground.At(0, 4), ground.At(0, 0)), 0);
-  EXPECT_TRUE(std::isinf(RimSquares(ground, ground.At(4, 4), ground.At(0, 4), 3.5F)));
-  EXPECT_FALSE(std::isinf(RimSquares(ground, ground.At(4, 4), ground.At(0, 4), 4)));
+  PostSquares measure(ground);
+  EXPECT_EQ(measure.OfRim(ground.At(0, 0), ground.At(4, 0)), 0);
+  EXPECT_EQ(measure.OfRim(ground.At(4, 0), ground.At(4, 4)), 900 + 1600 + 900);
+  EXPECT_EQ(measure.OfRim(ground.At(4, 4), ground.At(0, 4)), 9 + 16 + 9);
+  EXPECT_EQ(measure.OfRim(ground.At(0, 4), ground.At(0, 0)), 0);
+  measure.SetMost(3.5F);
+  EXPECT_TRUE(std::isinf(measure.OfRim(ground.At(4, 4), ground.At(0, 4))));
+  measure.SetMost(4);
+  EXPECT_FALSE(std::isinf(measure.OfRim(ground.At(4, 4), ground.At(0, 4))));
 }
 
 }  // namespace

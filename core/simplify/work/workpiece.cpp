@@ -1,4 +1,4 @@
-#include "core/simplify/workpiece.h"
+#include "core/simplify/work/workpiece.h"
 
 namespace farhorizon {
 

@@ -1,4 +1,4 @@
-#include "core/simplify/order/bucket_queue.h"
+#include "core/simplify/work/bucket_queue.h"
 
 #include <algorithm>
 #include <limits>

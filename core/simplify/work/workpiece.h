@@ -4,11 +4,11 @@
 #include <vector>
 
 #include "core/base/run_control.h"
-#include "core/simplify/level_rules.h"
 #include "core/simplify/lines/sampled_skyline.h"
 #include "core/simplify/mesh/half_edge_mesh.h"
-#include "core/simplify/order/bucket_queue.h"
 #include "core/simplify/prices/skyline_price.h"
+#include "core/simplify/work/bucket_queue.h"
+#include "core/simplify/work/level_rules.h"
 
 namespace farhorizon {
 
