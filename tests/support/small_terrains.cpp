@@ -85,4 +85,11 @@ Dem AnySmallDemInQuanta(std::int32_t most_side, std::mt19937& random) {
   return dem;
 }
 
+Dem AnySolidLandscape(std::int32_t min_side, std::int32_t max_side, std::mt19937& random) {
+  for (;;) {
+    Dem dem = AnyLandscape(min_side, max_side, random);
+    if (Terrain::Build(dem)) return dem;
+  }
+}
+
 }  // namespace farhorizon

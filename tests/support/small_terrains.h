@@ -16,4 +16,7 @@ Dem AnySmallDem(std::int32_t most_side, std::mt19937& random);
 /// The same with heights in quanta of other sizes than a metre, off zero.
 Dem AnySmallDemInQuanta(std::int32_t most_side, std::mt19937& random);
 
+/// AnyLandscape (terrains.h) with at least one triangle.
+Dem AnySolidLandscape(std::int32_t min_side, std::int32_t max_side, std::mt19937& random);
+
 }  // namespace farhorizon

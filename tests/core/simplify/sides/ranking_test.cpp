@@ -105,12 +105,6 @@ TEST(RankRun, TheEndsStayAndTheOthersGoOneByOne) {
   }
 }
 
-TEST(RankRun, TheSummitGoesLast) {
-  const std::vector<double> gone = RankRun({0, 0, 1, 9, 1, 0, 0, 2, 0, 0});
-  const auto last = std::max_element(gone.begin() + 1, gone.end() - 1);
-  EXPECT_EQ(last - gone.begin(), 3);
-}
-
 // All heights as unknowns of dense normal equations, by elimination with pivots.
 std::vector<double> FitByDefinition(const std::vector<double>& z,
                                     const std::vector<std::size_t>& staying) {
