@@ -63,7 +63,8 @@ inline std::string FaultOfMesh(const HalfEdgeMesh& mesh) {
     for (const std::int32_t w : around) {
       if (sides.count({v, w}) > 0 && sides.count({w, v}) == 0) ++fans;
     }
-    if (mesh.IsKnotted(v) != (fans > 1)) return "a knot is not marked, or another vertex is" + at(v);
+    if (mesh.IsKnotted(v) != (fans > 1))
+      return "a knot is not marked, or another vertex is" + at(v);
     if (fans > 1) continue;
     if (mesh.OnRim(v) != (fans == 1)) return "a ring begins inside a fan" + at(v);
     if (mesh.degree(v) != static_cast<std::int32_t>(around.size())) {
@@ -74,7 +75,8 @@ inline std::string FaultOfMesh(const HalfEdgeMesh& mesh) {
     if (ring.centre != v || ring.closed != (fans == 0)) return "a ring is another" + at(v);
     std::set<std::int32_t> gathered;
     for (std::int32_t i = 0; i < ring.count; ++i) gathered.insert(ring.id(i));
-    if (gathered != around || ring.count != std::ssize(around)) return "a ring is not whole" + at(v);
+    if (gathered != around || ring.count != std::ssize(around))
+      return "a ring is not whole" + at(v);
     for (std::int32_t i = 0; i < ring.sides(); ++i) {
       const std::int32_t t = ring.triangle_at(i);
       const std::set<std::int32_t> wanted = {v, ring.id(i), ring.id(ring.after(i))};

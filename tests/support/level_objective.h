@@ -14,7 +14,7 @@ namespace farhorizon {
 struct Objective {
   double least = 0;
   double most = 0;
-  bool known = true;         ///< false: some line meets the mesh at a post only
+  bool known = true;          ///< false: some line meets the mesh at a post only
   bool tops_are_true = true;  ///< what the workpiece takes for H' is H' on every line
 };
 inline Objective ObjectiveOf(const Workpiece& work, const HalfEdgeMesh& mesh, double slope_weight,

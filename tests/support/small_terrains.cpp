@@ -22,9 +22,8 @@ Dem WithoutHoles(std::int32_t columns, std::int32_t rows, std::mt19937& random) 
     case 0:
       return MakeDem(columns, rows, [](std::int32_t, std::int32_t) { return 7; });
     case 1:
-      return MakeDem(columns, rows, [&](std::int32_t c, std::int32_t r) {
-        return c < x || r < y ? 0 : relief;
-      });
+      return MakeDem(columns, rows,
+                     [&](std::int32_t c, std::int32_t r) { return c < x || r < y ? 0 : relief; });
     case 2:
       return MakeDem(columns, rows, [&](std::int32_t, std::int32_t) {
         return Below(8, random) == 0 ? relief : 0;

@@ -79,8 +79,8 @@ void ExpectOneSide(const Dem& whole, bool by_row, const LodPlan& plan, Agreement
     agreement.kept += std::ssize(side);
     agreement.posts += by_row ? whole.columns : whole.rows;
     for (const SidePost& post : side) {
-      const std::int32_t v = by_row ? (n - 1) * whole.columns + post.place
-                                    : post.place * whole.columns + n - 1;
+      const std::int32_t v =
+          by_row ? (n - 1) * whole.columns + post.place : post.place * whole.columns + n - 1;
       agreement.fitted += whole.HeightM(v) != post.height_m ? 1 : 0;
     }
   }

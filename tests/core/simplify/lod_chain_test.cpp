@@ -243,12 +243,15 @@ std::vector<HardGround> HardGrounds() {
   };
   std::vector<HardGround> all;
   all.push_back({"flat", MakeDem(150, 150, [](std::int32_t, std::int32_t) { return 3; })});
-  all.push_back({"slope", MakeDem(150, 90, [](std::int32_t c, std::int32_t r) { return 7 * c - r; })});
-  all.push_back({"noise", MakeDem(110, 110, [&](std::int32_t, std::int32_t) { return any(1000); })});
+  all.push_back(
+      {"slope", MakeDem(150, 90, [](std::int32_t c, std::int32_t r) { return 7 * c - r; })});
+  all.push_back(
+      {"noise", MakeDem(110, 110, [&](std::int32_t, std::int32_t) { return any(1000); })});
   all.push_back({"peaks", MakeDem(121, 121, [](std::int32_t c, std::int32_t r) {
                    return c % 2 == 1 && r % 2 == 1 ? 9 : 0;
                  })});
-  all.push_back({"saw", MakeDem(121, 121, [](std::int32_t c, std::int32_t) { return c % 2 * 50; })});
+  all.push_back(
+      {"saw", MakeDem(121, 121, [](std::int32_t c, std::int32_t) { return c % 2 * 50; })});
   all.push_back({"strip", MakeDem(2, 4000, [&](std::int32_t, std::int32_t) { return any(50); })});
   all.push_back({"level strip", MakeDem(4000, 2, [](std::int32_t, std::int32_t) { return 1; })});
   all.push_back({"holes", MakeDem(110, 110, [&](std::int32_t, std::int32_t) {

@@ -44,9 +44,9 @@ void ExpectEveryLineAcross(const Pencils& pencils, const Place& a, const Place& 
       const auto found = visited.find(line);
       ASSERT_EQ(found != visited.end(), pencils.IsAsked(line) && s * t < 0) << "line " << line;
       if (found == visited.end()) continue;
-      const double height = static_cast<double>(a.plan) +
-                            s / (s - t) *
-                                (static_cast<double>(b.plan) - static_cast<double>(a.plan));
+      const double height =
+          static_cast<double>(a.plan) +
+          s / (s - t) * (static_cast<double>(b.plan) - static_cast<double>(a.plan));
       ASSERT_NEAR(found->second, height, 0.5);
       ASSERT_NEAR(HeightBetween(a, b, pencils.Distance(line, a), pencils.Distance(line, b)), height,
                   0.5);

@@ -183,8 +183,8 @@ TEST(HalfEdgeMesh, LeavesAVertexWithTooManyNeighboursAlone) {
   for (std::int32_t v = 158; v > 80; --v) {
     ASSERT_TRUE(mesh.Gather(v, ring));
     const auto* end = ring.neighbour.begin() + ring.count;
-    const auto j = static_cast<std::int32_t>(
-        std::find(ring.neighbour.cbegin(), end, 159) - ring.neighbour.begin());
+    const auto j = static_cast<std::int32_t>(std::find(ring.neighbour.cbegin(), end, 159) -
+                                             ring.neighbour.begin());
     ASSERT_LT(j, ring.count);
     ASSERT_TRUE(MayCollapse(mesh, ring, j));
     mesh.Collapse(ring, 159);

@@ -36,7 +36,8 @@ void Coarsen(Workbench& bench, int part) {
 }
 
 double SumOf(const Workbench& bench) {
-  return ObjectiveOf(bench.work, bench.work.mesh, kSlopeWeight, 30 * bench.work.skyline.PostsPerLine())
+  return ObjectiveOf(bench.work, bench.work.mesh, kSlopeWeight,
+                     30 * bench.work.skyline.PostsPerLine())
       .least;
 }
 
@@ -95,7 +96,9 @@ TEST(FitHeights, LeavesWhatIsHeldAlone) {
       const Place& to = bench.work.mesh.at(v);
       ASSERT_EQ(from.x, to.x);
       ASSERT_EQ(from.y, to.y);
-      if (bench.ground.OnSide(from) || before.IsKnotted(v)) { ASSERT_EQ(from.plan, to.plan); }
+      if (bench.ground.OnSide(from) || before.IsKnotted(v)) {
+        ASSERT_EQ(from.plan, to.plan);
+      }
       fitted += static_cast<int>(from.plan != to.plan);
     }
   }
@@ -116,7 +119,9 @@ TEST(MoveVertices, MovesByThreePostsAtMostAndNothingOnARim) {
       const Place& from = before.at(v);
       const Place& to = bench.work.mesh.at(v);
       const bool stays = from.x == to.x && from.y == to.y;
-      if (before.IsKnotted(v) || before.OnRim(v)) { ASSERT_TRUE(stays); }
+      if (before.IsKnotted(v) || before.OnRim(v)) {
+        ASSERT_TRUE(stays);
+      }
       ASSERT_LE(std::max(std::abs(from.x - to.x), std::abs(from.y - to.y)), 3);
       ASSERT_TRUE(posts.insert(bench.ground.PostAt(to)).second) << "two vertices on one post";
       moved += static_cast<int>(!stays);

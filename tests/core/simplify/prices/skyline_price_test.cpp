@@ -125,7 +125,8 @@ void TryPlace(Bench& on, bool move, Tally& tally) {
   Place place = on.mesh().at(v);
   if (move) {
     if (on.mesh().OnRim(v)) return;
-    place.x = static_cast<std::int16_t>(std::clamp(place.x + on.Any(5) - 2, 0, ground.columns() - 1));
+    place.x =
+        static_cast<std::int16_t>(std::clamp(place.x + on.Any(5) - 2, 0, ground.columns() - 1));
     place.y = static_cast<std::int16_t>(std::clamp(place.y + on.Any(5) - 2, 0, ground.rows() - 1));
     if (!ground.HasData(place.x, place.y)) return;
     place = ground.At(place.x, place.y);

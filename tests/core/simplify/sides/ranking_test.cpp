@@ -30,8 +30,8 @@ std::vector<double> AnyRun(std::size_t most, std::mt19937& random) {
 int StepsToHigher(const std::vector<double>& heights, int i, int step) {
   const auto n = static_cast<int>(heights.size());
   int k = i + step;
-  while (k >= 0 && k < n && heights[static_cast<std::size_t>(k)] <=
-                                heights[static_cast<std::size_t>(i)]) {
+  while (k >= 0 && k < n &&
+         heights[static_cast<std::size_t>(k)] <= heights[static_cast<std::size_t>(i)]) {
     k += step;
   }
   return std::abs(k - i);
@@ -68,9 +68,9 @@ std::vector<double> RankByDefinition(const std::vector<double>& heights) {
       for (std::size_t i = left[k - 1] + 1; i < left[k + 1]; ++i) {
         heaviest = std::max(heaviest, weight(i));
       }
-      const double cost = heaviest * (Off(heights, left[k - 1], left[k + 1]) -
-                                      Off(heights, left[k - 1], left[k]) -
-                                      Off(heights, left[k], left[k + 1]));
+      const double cost =
+          heaviest * (Off(heights, left[k - 1], left[k + 1]) - Off(heights, left[k - 1], left[k]) -
+                      Off(heights, left[k], left[k + 1]));
       if (best == 0 || cost < least) {
         best = k;
         least = cost;
@@ -115,8 +115,8 @@ std::vector<double> FitByDefinition(const std::vector<double>& z,
     for (std::size_t i = 0; i < m; ++i) {
       if (j == staying[i]) share[i] = 1;
       if (i + 1 < m && j > staying[i] && j < staying[i + 1]) {
-        share[i + 1] = static_cast<double>(j - staying[i]) /
-                       static_cast<double>(staying[i + 1] - staying[i]);
+        share[i + 1] =
+            static_cast<double>(j - staying[i]) / static_cast<double>(staying[i + 1] - staying[i]);
         share[i] = 1 - share[i + 1];
       }
     }
