@@ -4,11 +4,13 @@
 #include "core/pipeline/level_artifact.h"
 
 #include <algorithm>
+#include <tuple>
 #include <utility>
 
 #include "core/io/draco_mesh.h"
 #include "core/io/glb.h"
 #include "core/pipeline/geometric_error.h"
+#include "core/pipeline/level_lattice.h"
 
 namespace farhorizon {
 
@@ -64,6 +66,52 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> KeptInDecoded(const Horizon
   return pairs;
 }
 
+// Gives the vertices of `decoded`, whose stream has no posts, those of the vertices of `mesh` at
+// the same place. No two posts share a place in plan: steps are a 16th of a cell at most.
+void NamePosts(const LocalMesh& mesh, LocalMesh& decoded) {
+  std::vector<std::tuple<double, double, std::uint32_t>> places;
+  places.reserve(mesh.positions.size());
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    places.emplace_back(mesh.positions[i].east, mesh.positions[i].north, mesh.posts[i]);
+  }
+  std::sort(places.begin(), places.end());
+  decoded.posts.reserve(decoded.positions.size());
+  for (const Enu& p : decoded.positions) {
+    const auto at = std::lower_bound(places.begin(), places.end(),
+                                     std::tuple(p.east, p.north, std::uint32_t{0}));
+    Check(at != places.end() && std::get<0>(*at) == p.east && std::get<1>(*at) == p.north,
+          "Draco gives lattice positions back as they are");
+    decoded.posts.push_back(std::get<2>(*at));
+  }
+}
+
+// The streams of a level. decoded: what is in the files, with posts.
+struct Encoded {
+  std::vector<std::uint8_t> glb_stream;
+  std::vector<std::uint8_t> drc;
+  DecodedMesh decoded;
+};
+
+// Requires: mesh.positions lie on the lattice.
+Result<Encoded> Encode(const LocalMesh& mesh, const QuantizationLattice& lattice,
+                       const LevelStorage& storage) {
+  Encoded encoded;
+  if (storage.drc) {
+    Result<std::vector<std::uint8_t>> drc = EncodeDraco(mesh, lattice, DracoPosts::kWritten);
+    if (!drc) return std::move(drc.error());
+    encoded.drc = *std::move(drc);
+  }
+  // Levels are measured even where no file of theirs is asked for.
+  Result<std::vector<std::uint8_t>> stream = EncodeDraco(mesh, lattice, DracoPosts::kLeftOut);
+  if (!stream) return std::move(stream.error());
+  encoded.glb_stream = *std::move(stream);
+  Result<DecodedMesh> decoded = DecodeDraco(encoded.glb_stream);
+  if (!decoded) return std::move(decoded.error());
+  encoded.decoded = *std::move(decoded);
+  NamePosts(mesh, encoded.decoded.mesh);
+  return encoded;
+}
+
 }  // namespace
 
 // The share of Stage::kMeasure that MeasureMeshError takes; the rest is MeasureGeometricError's.
@@ -110,30 +158,35 @@ Result<LevelReport> MeasureLevel(const LevelContext& context, const LocalMesh& d
 }
 
 Result<LevelArtifact> EncodeLevel(const LevelContext& context, const Lod& lod, int level,
-                                  double step_m) {
+                                  const LevelStorage& storage) {
   context.control.Report(Stage::kEncode, 0);
   Result<LocalMesh> local = ToLocal(context, lod.mesh);
   if (!local) return std::move(local.error());
-  const QuantizationLattice lattice = ChooseLattice(local->positions, step_m);
+  LatticeSteps steps =
+      StepsOfLevel(storage.finest_side_m, context.georeference, lod, storage.coarseness);
+  Result<QuantizationLattice> lattice =
+      RoundToLattice(context.terrain.dem(), context.georeference.frame(), steps, *local);
+  if (!lattice) return std::move(lattice.error()).WithContext("level " + std::to_string(level));
+  Result<Encoded> encoded = Encode(*local, *lattice, storage);
+  if (!encoded) return std::move(encoded.error());
   LevelArtifact artifact;
-  Result<std::vector<std::uint8_t>> drc = EncodeDraco(*local, lattice);
-  if (!drc) return std::move(drc.error());
-  artifact.drc = *std::move(drc);
-  Result<DecodedMesh> decoded = DecodeDraco(artifact.drc);
-  if (!decoded) return std::move(decoded.error());
-  artifact.glb =
-      WriteGlb(artifact.drc, *decoded, KeptInDecoded(context.horizon, lod, decoded->mesh));
+  if (storage.glb) {
+    artifact.glb = WriteGlb(encoded->glb_stream, encoded->decoded,
+                            KeptInDecoded(context.horizon, lod, encoded->decoded.mesh));
+  }
+  artifact.drc = std::move(encoded->drc);
   context.control.Report(Stage::kEncode, 1);
-  Result<LevelReport> report = MeasureLevel(context, decoded->mesh, level, lattice.step_m);
+  Result<LevelReport> report = MeasureLevel(context, encoded->decoded.mesh, level, lattice->step_m);
   if (!report) {
     return std::move(report.error()).WithContext("level " + std::to_string(level));
   }
   artifact.report = *std::move(report);
   artifact.report.exact = lod.exact;
+  artifact.report.side_step_m = steps.sides_m;
   artifact.report.horizon_edges = static_cast<std::int64_t>(lod.kept.size());
   artifact.report.glb_bytes = static_cast<std::int64_t>(artifact.glb.size());
   artifact.report.drc_bytes = static_cast<std::int64_t>(artifact.drc.size());
-  artifact.mesh = std::move(decoded->mesh);
+  artifact.mesh = std::move(encoded->decoded.mesh);
   return artifact;
 }
 

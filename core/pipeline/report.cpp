@@ -134,6 +134,7 @@ Json ToJson(const LevelReport& level) {
           {"silhouette_error_m", ToJson(level.silhouette)},
           {"geometric_error_m", level.geometric_error_m},
           {"quantization_step_m", level.quantization_step_m},
+          {"side_step_m", level.side_step_m},
           {"glb_bytes", level.glb_bytes},
           {"drc_bytes", level.drc_bytes}};
 }
@@ -150,6 +151,7 @@ LevelReport ReadLevel(const Json& json) {
   level.silhouette = ReadMeasure(json.at("silhouette_error_m"));
   json.at("geometric_error_m").get_to(level.geometric_error_m);
   json.at("quantization_step_m").get_to(level.quantization_step_m);
+  json.at("side_step_m").get_to(level.side_step_m);
   json.at("glb_bytes").get_to(level.glb_bytes);
   json.at("drc_bytes").get_to(level.drc_bytes);
   return level;
