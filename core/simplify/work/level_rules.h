@@ -12,7 +12,8 @@ namespace farhorizon {
 /// What no price buys.
 ///
 /// At an exact level: the ends of horizon edges stay at their posts and heights, horizon edges are
-/// not flipped, no new edge rises above the DEM's skyline. At every level: a horizon edge that the finer level does not have does not come back.
+/// not flipped, no new edge rises above the DEM's skyline. At every level: a horizon edge that the
+/// finer level does not have does not come back.
 class LevelRules {
  public:
   /// Requires: all outlive it.
