@@ -79,7 +79,7 @@ class Walker {
         horizon_(horizon),
         index_(index),
         allowed_m_(allowed_m),
-        sunk_(horizon.edges.size(), -kInfinity) {}
+        sunk_(horizon.edges.size(), 0) {}
 
   void WalkSide(const GridPoint& p, const GridPoint& q, bool ridge, bool outline) {
     const double run = q.column - p.column;
@@ -120,7 +120,7 @@ class Walker {
       const bool cut = dem_.Column(e.b) >= dem_.Column(e.a);
       const double sunk = cut ? std::max({sunk_[i], at_a, at_b}) : kInfinity;
       result_.most_m = std::max(result_.most_m, sunk);
-      if (index_.inner()[i] != 0) result_.inner_sunk_m = std::max(result_.inner_sunk_m, sunk);
+      sunk_[i] = sunk;
       if (sunk <= allowed_m_) continue;
       const Terrain::Faces faces = terrain.FacesOf(e);
       if (!faces.left || !faces.right) {
@@ -131,6 +131,7 @@ class Walker {
         result_.dem_raised.push_back({PointAt(e.a), PointAt(e.b), false, index_.inner()[i] == 0});
       }
     }
+    result_.sunk_m = std::move(sunk_);
     return std::move(result_);
   }
 
@@ -174,7 +175,7 @@ class Walker {
       result_.most_m =
           std::max({result_.most_m, most, ground->from - p.height_m, ground->to - q.height_m});
       if (most <= allowed_m_ || !ridge) return Flush();
-      if (InHull(ground->cell, std::max(p.height_m, q.height_m) - allowed_m_)) return Flush();
+      if (IsInHull(dem_, horizon_.hulls, p, q, -allowed_m_)) return Flush();
     } else if (!ridge) {
       return Flush();
     } else {
@@ -200,15 +201,6 @@ class Walker {
 
   static double Length(const GridPoint& p, const GridPoint& q) {
     return std::max(std::abs(p.column - q.column), std::abs(p.row - q.row));
-  }
-
-  // Whether the cell is inside one merged hull of ground at or above `height_m`.
-  [[nodiscard]] bool InHull(VertexId nw, double height_m) const {
-    const auto quanta =
-        static_cast<std::int32_t>(std::ceil((height_m - dem_.height_offset_m) / dem_.quantum_m));
-    const VertexId sw = nw + dem_.columns;
-    return horizon_.hulls.Occludes(nw, sw + 1, quanta) &&
-           horizon_.hulls.Occludes(nw, nw + 1, quanta) && horizon_.hulls.Occludes(nw, sw, quanta);
   }
 
   void Flush() {
@@ -323,6 +315,28 @@ GroundWalk WalkGround(const Terrain& terrain, const Horizon& horizon, const Hori
                     side.IsOutline());
   }
   return std::move(walker).Take(terrain, rise);
+}
+
+bool IsInHull(const Dem& dem, const HullMergeTree& hulls, const GridPoint& a, const GridPoint& b,
+              double less_m) {
+  const double highest = std::max(a.height_m, b.height_m) + less_m;
+  const double quanta = std::ceil((highest - dem.height_offset_m) / dem.quantum_m);
+  if (!(std::abs(quanta) < 1 << 30)) return false;
+  const auto height = static_cast<std::int32_t>(quanta);
+  // All corners of the cells of both ends are in one hull, so the segment is.
+  std::optional<VertexId> first;
+  for (const GridPoint* p : {&a, &b}) {
+    if (!(p->column >= 0) || !(p->row >= 0)) return false;
+    if (p->column > dem.columns - 1 || p->row > dem.rows - 1) return false;
+    const auto column = std::min(static_cast<std::int32_t>(p->column), dem.columns - 2);
+    const auto row = std::min(static_cast<std::int32_t>(p->row), dem.rows - 2);
+    const VertexId nw = row * dem.columns + column;
+    if (!first) first = nw;
+    for (const VertexId v : {nw + dem.columns + 1, nw, nw + 1, nw + dem.columns}) {
+      if (!hulls.Occludes(*first, v, height)) return false;
+    }
+  }
+  return true;
 }
 
 }  // namespace farhorizon

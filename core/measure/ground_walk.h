@@ -51,20 +51,25 @@ struct RaisedPiece {
 ///   be above the DEM's by more. Pieces are at most a few cells long.
 /// dem_raised: the horizon edges that are anywhere more than `allowed_m` above the mesh, or have
 ///   none of it below.
-/// inner_sunk_m: the most that a horizon edge with no end on the outline is above the mesh; infinity
-///   where one has none of it below.
+/// sunk_m: of each horizon edge, how far it is above the mesh at most, metres; infinity where it has
+///   none of it below.
 /// most_m: the greatest difference of heights met, metres, infinity where a piece has no ground below.
 struct GroundWalk {
   std::vector<RaisedPiece> mesh_raised;
   std::vector<RaisedPiece> dem_raised;
-  double inner_sunk_m = 0;
+  std::vector<double> sunk_m;
   double most_m = 0;
 };
 
-/// rise: as PostErrors has it.
+/// rise: as PostErrors has it. allowed_m: infinity where sunk_m is all that is wanted.
 /// Cost: the cells that the mesh's sides cross.
 GroundWalk WalkGround(const Terrain& terrain, const Horizon& horizon, const HorizonIndex& index,
                       const GridMesh& mesh, const MeshSides& sides, const std::vector<float>& rise,
                       double allowed_m);
+
+/// True only if ground that is `less_m` below the DEM's horizon edges at most is at least as high,
+/// on every line that crosses the segment, as the segment. False: not known.
+bool IsInHull(const Dem& dem, const HullMergeTree& hulls, const GridPoint& a, const GridPoint& b,
+              double less_m);
 
 }  // namespace farhorizon

@@ -5,6 +5,7 @@
 #include "core/measure/mesh_error.h"
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -27,6 +28,8 @@ constexpr double kPosts = 0.2;
 constexpr double kSampled = 0.5;
 constexpr double kAbove = 0.8;
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
 }  // namespace
 
 struct MeshMeasurer::Dem {
@@ -46,9 +49,8 @@ struct MeshMeasurer::Dem {
     if (sampled) return Ok{};
     const farhorizon::Dem& dem = terrain->dem();
     surface = OccludingSurface::Of(SkylineNetOf(*terrain, *horizon));
-    Result<SkylineFloor> found =
-        FindSkylineFloor(InnerNetOf(surface.net, index.inner()),
-                         LineStrips::Of(dem.columns - 1, dem.rows - 1), control);
+    strips = LineStrips::Of(dem.columns - 1, dem.rows - 1);
+    Result<SkylineFloor> found = FloorLowered({}, control);
     if (!found) return std::move(found.error());
     floor = *std::move(found);
     Result<SampledSkyline> skyline = SampleSkyline(surface.net, dem.columns, dem.rows, control);
@@ -57,12 +59,34 @@ struct MeshMeasurer::Dem {
     return Ok{};
   }
 
+  // The floor of the horizon edges, each so much lower, without those that touch the outline: a
+  // mesh may not have quite the DEM's.
+  [[nodiscard]] Result<SkylineFloor> FloorLowered(const std::vector<double>& by_m,
+                                                  const RunControl& control) const {
+    std::vector<double> lowered_m(horizon->edges.size());
+    for (std::size_t i = 0; i < lowered_m.size(); ++i) {
+      const bool inner = index.inner()[i] != 0;
+      lowered_m[i] = !inner ? kInfinity : by_m.empty() ? 0 : std::max(by_m[i], 0.0);
+    }
+    return FindSkylineFloor(surface.net, lowered_m, strips, control);
+  }
+
+  // The most of `sunk_m` over the horizon edges that do not touch the outline.
+  [[nodiscard]] double MostInner(const std::vector<double>& sunk_m) const {
+    double most = 0;
+    for (std::size_t i = 0; i < sunk_m.size(); ++i) {
+      if (index.inner()[i] != 0) most = std::max(most, sunk_m[i]);
+    }
+    return most;
+  }
+
   const Terrain* terrain;
   const Horizon* horizon;
   PostPlaces places;
   HorizonIndex index;
   std::vector<std::uint8_t> is_vertex;
   OccludingSurface surface;
+  LineStrips strips;
   SkylineFloor floor;
   std::optional<SampledSkyline> sampled;
 };
@@ -113,7 +137,10 @@ Result<MeshError> MeshMeasurer::Measure(const PlacedMesh& mesh, const RunControl
   Status prepared = dem_->Prepare(control);
   if (!prepared) return std::move(prepared.error());
   const farhorizon::Dem& dem = dem_->terrain->dem();
-  const OccludingSurface surface = OccludingSurface::Of(SkylineNetOf(grid, sides));
+  const GroundWalk first =
+      WalkGround(*dem_->terrain, *dem_->horizon, dem_->index, grid, sides, posts->rise, kInfinity);
+  const OccludingSurface surface = OccludingSurface::Of(
+      SkylineNetOf(dem, dem_->horizon->hulls, grid, sides, dem_->MostInner(first.sunk_m)));
   Result<SampledSkyline> skyline = SampleSkyline(surface.net, dem.columns, dem.rows, control);
   if (!skyline) return std::move(skyline.error());
   const SampledError sampled = Compare(*dem_->sampled, *skyline);
@@ -127,11 +154,12 @@ Result<MeshError> MeshMeasurer::Measure(const PlacedMesh& mesh, const RunControl
   const GroundWalk walk =
       WalkGround(*dem_->terrain, *dem_->horizon, dem_->index, grid, sides, posts->rise, allowed_m);
   Result<RaisedBounds> above =
-      BoundRaised(dem_->surface, dem_->floor, 0, walk.mesh_raised, bounds, control);
+      BoundRaised(dem_->surface, dem_->floor, walk.mesh_raised, bounds, control);
   if (!above) return std::move(above.error());
   control.Report(Stage::kMeasure, kAbove);
-  Result<RaisedBounds> below =
-      BoundRaised(surface, dem_->floor, walk.inner_sunk_m, walk.dem_raised, *above, control);
+  Result<SkylineFloor> floor = dem_->FloorLowered(walk.sunk_m, control);
+  if (!floor) return std::move(floor.error());
+  Result<RaisedBounds> below = BoundRaised(surface, *floor, walk.dem_raised, *above, control);
   if (!below) return std::move(below.error());
   error.silhouette.max_m = std::min(std::max(above->inner_m, below->inner_m), walk.most_m);
   error.rim_m = std::max({above->outline_m, below->outline_m, error.silhouette.max_m});

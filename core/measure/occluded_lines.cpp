@@ -21,10 +21,10 @@ double Cross(const GridPoint& o, const GridPoint& p, const GridPoint& q) {
 
 // The height of a segment where it crosses a line, by its ends' offsets from the line, which have
 // not the same sign. A segment in the line: its lower end.
-double HeightAtCrossing(const Occluder& o, double of_a, double of_b) {
+double HeightAtCrossing(const GridPoint& a, const GridPoint& b, double of_a, double of_b) {
   const double whole = of_a - of_b;
-  if (whole == 0) return std::min(o.a.height_m, o.b.height_m);
-  return o.a.height_m + (o.b.height_m - o.a.height_m) * (of_a / whole);
+  if (whole == 0) return std::min(a.height_m, b.height_m);
+  return a.height_m + (b.height_m - a.height_m) * (of_a / whole);
 }
 
 GridPoint Middle(const GridPoint& p, const GridPoint& q) {
@@ -88,11 +88,10 @@ bool OccludedLines::MissesNet(const GridPoint& through, DirectionRange::Normal n
   return MissesNet(LineBox{through, through, {normal, normal}});
 }
 
-bool OccludedLines::ProvenAtJoint(const BoxQuestion& question,
-                                  const std::vector<Occluder>& candidates, const LooseEnd& left,
+bool OccludedLines::ProvenAtJoint(const BoxQuestion& question, const LooseEnd& left,
                                   const LooseEnd& right) const {
-  const Occluder& l = candidates[left.candidate];
-  const Occluder& r = candidates[right.candidate];
+  const Occluder& l = candidates_[left.candidate];
+  const Occluder& r = candidates_[right.candidate];
   const LineBox& box = question.box;
   const GridPoint& joint = l.a_id == left.id ? l.a : l.b;
   const double most = std::max(box.from.height_m, box.to.height_m);
@@ -103,18 +102,16 @@ bool OccludedLines::ProvenAtJoint(const BoxQuestion& question,
     const Occluder& crossed = of_joint[c] > 0 ? l : r;
     const GridPoint& other = crossed.a_id == left.id ? crossed.b : crossed.a;
     const double of_other = box.Offsets(other.column, other.row)[c];
-    const double height = HeightAtCrossing({joint, other}, of_joint[c], of_other);
+    const double height = HeightAtCrossing(joint, other, of_joint[c], of_other);
     if (height < box.HeightAt(c) - question.allowed_m) return false;
   }
   return true;
 }
 
-bool OccludedLines::ProvenAtHull(const BoxQuestion& question,
-                                 const std::vector<Occluder>& candidates,
-                                 const LooseEnd& end) const {
+bool OccludedLines::ProvenAtHull(const BoxQuestion& question, const LooseEnd& end) const {
   const std::int32_t place = hull_->place[static_cast<std::size_t>(end.id)];
   if (place == kNoneThere) return false;
-  const Occluder& o = candidates[end.candidate];
+  const Occluder& o = candidates_[end.candidate];
   const LineBox& box = question.box;
   const GridPoint& corner = o.a_id == end.id ? o.a : o.b;
   const GridPoint& other = o.a_id == end.id ? o.b : o.a;
@@ -134,113 +131,127 @@ bool OccludedLines::ProvenAtHull(const BoxQuestion& question,
   const Offsets of_other = box.Offsets(other.column, other.row);
   for (std::size_t c = 0; c < LineBox::kCorners; ++c) {
     if (sign * of_corner[c] < 0) continue;  // misses the surface
-    const double height = HeightAtCrossing({corner, other}, of_corner[c], of_other[c]);
+    const double height = HeightAtCrossing(corner, other, of_corner[c], of_other[c]);
     if (height < box.HeightAt(c) - question.allowed_m) return false;
   }
   return true;
 }
 
-BoxVerdict OccludedLines::Ask(const BoxQuestion& question, std::vector<Occluder>& candidates) {
-  const std::size_t count = candidates.size();
-  const BoxVerdict verdict = AskBox(question, candidates, 0, count, 0);
-  candidates.resize(count);
+OccludedLines::MiddleLine OccludedLines::MiddleOf(const LineBox& box) const {
+  return {Middle(box.from, box.to), box.directions.Middle(),
+          -std::numeric_limits<double>::infinity(), hull_->reach};
+}
+
+BoxVerdict OccludedLines::Ask(const BoxQuestion& question,
+                              const std::vector<std::int32_t>& segments) {
+  ++boxes_;
+  candidates_.clear();
+  ends_.clear();
+  MiddleLine line = MiddleOf(question.box);
+  for (const std::int32_t i : segments) {
+    const SkylineNet::Segment& s = net_->segments[static_cast<std::size_t>(i)];
+    if (Admit(question, {net_->Point(s.a), net_->Point(s.b), s.a, s.b}, line)) return {true, 0};
+  }
+  return Conclude(question, line, 0, 0);
+}
+
+BoxVerdict OccludedLines::AskPart(const BoxQuestion& question, std::size_t begin, std::size_t end,
+                                  int depth) {
+  ++boxes_;
+  ends_.clear();
+  MiddleLine line = MiddleOf(question.box);
+  BoxVerdict verdict{true, 0};
+  bool proven = false;
+  for (std::size_t i = begin; i < end && !proven; ++i) {
+    const Occluder o = candidates_[i];
+    proven = Admit(question, o, line);
+  }
+  if (!proven) verdict = Conclude(question, line, end, depth);
+  candidates_.resize(end);
   return verdict;
 }
 
-BoxVerdict OccludedLines::AskBox(const BoxQuestion& question, std::vector<Occluder>& candidates,
-                                 std::size_t begin, std::size_t end, int depth) {
-  ++boxes_;
+bool OccludedLines::Admit(const BoxQuestion& question, const Occluder& o, MiddleLine& line) {
   const LineBox& box = question.box;
   const auto side_of = [](const Offsets& of) {
-    const auto [least, most] = std::minmax_element(of.begin(), of.end());
-    return *most <= 0 ? Side::kLeft : *least >= 0 ? Side::kRight : Side::kBoth;
+    if (std::max(std::max(of[0], of[1]), std::max(of[2], of[3])) <= 0) return Side::kLeft;
+    if (std::min(std::min(of[0], of[1]), std::min(of[2], of[3])) >= 0) return Side::kRight;
+    return Side::kBoth;
   };
-  const GridPoint middle = Middle(box.from, box.to);
-  const DirectionRange::Normal normal = box.directions.Middle();
-  const auto offset = [&](const GridPoint& p) {
-    return (p.column - middle.column) * normal.x + (p.row - middle.row) * normal.y;
-  };
-  const auto distance = [&](const GridPoint& p) {
-    return std::abs((p.column - middle.column) * normal.y - (p.row - middle.row) * normal.x);
-  };
-  double best = -std::numeric_limits<double>::infinity();
-  double best_distance = hull_->reach;
-  ends_.clear();
-  const std::size_t kept = candidates.size();
-  for (std::size_t i = begin; i < end; ++i) {
-    const Occluder o = candidates[i];
-    const Offsets of_a = box.Offsets(o.a.column, o.a.row);
-    const Offsets of_b = box.Offsets(o.b.column, o.b.row);
-    const Side a = side_of(of_a);
-    const Side b = side_of(of_b);
-    if (a == b && a != Side::kBoth) continue;
-    if (a != Side::kBoth && b != Side::kBoth) {
-      bool proven = true;
-      for (std::size_t c = 0; c < LineBox::kCorners && proven; ++c) {
-        proven = HeightAtCrossing(o, of_a[c], of_b[c]) >= box.HeightAt(c) - question.allowed_m;
-      }
-      if (proven) {
-        candidates.resize(kept);
-        return {true, 0};
-      }
-    } else if (a != Side::kBoth) {
-      ends_.push_back({o.b_id, a, candidates.size()});
-    } else if (b != Side::kBoth) {
-      ends_.push_back({o.a_id, b, candidates.size()});
+  const Offsets of_a = box.Offsets(o.a.column, o.a.row);
+  const Offsets of_b = box.Offsets(o.b.column, o.b.row);
+  const Side a = side_of(of_a);
+  const Side b = side_of(of_b);
+  if (a == b && a != Side::kBoth) return false;
+  if (a != Side::kBoth && b != Side::kBoth) {
+    bool proven = true;
+    for (std::size_t c = 0; c < LineBox::kCorners && proven; ++c) {
+      proven = HeightAtCrossing(o.a, o.b, of_a[c], of_b[c]) >= box.HeightAt(c) - question.allowed_m;
     }
-    const double at_a = offset(o.a);
-    const double at_b = offset(o.b);
-    if ((at_a <= 0) != (at_b <= 0)) {
-      const double height = HeightAtCrossing(o, at_a, at_b);
-      if (height > best) {
-        best = height;
-        best_distance = std::max(distance(o.a), distance(o.b));
-      }
-    }
-    candidates.push_back(o);
+    if (proven) return true;
+  } else if (a != Side::kBoth) {
+    ends_.push_back({o.b_id, a, candidates_.size()});
+  } else if (b != Side::kBoth) {
+    ends_.push_back({o.a_id, b, candidates_.size()});
   }
+  candidates_.push_back(o);
+  const auto offset = [&line](const GridPoint& p) {
+    return (p.column - line.through.column) * line.normal.x +
+           (p.row - line.through.row) * line.normal.y;
+  };
+  const double at_a = offset(o.a);
+  const double at_b = offset(o.b);
+  if ((at_a <= 0) == (at_b <= 0)) return false;
+  const double height = HeightAtCrossing(o.a, o.b, at_a, at_b);
+  if (height <= line.height_m) return false;
+  const auto distance = [&line](const GridPoint& p) {
+    return std::abs((p.column - line.through.column) * line.normal.y -
+                    (p.row - line.through.row) * line.normal.x);
+  };
+  line.height_m = height;
+  line.distance = std::max(distance(o.a), distance(o.b));
+  return false;
+}
+
+bool OccludedLines::ProvenAtEnds(const BoxQuestion& question) {
   std::sort(ends_.begin(), ends_.end(), [](const LooseEnd& p, const LooseEnd& q) {
     return std::tie(p.id, p.other, p.candidate) < std::tie(q.id, q.other, q.candidate);
   });
   for (std::size_t i = 0; i < ends_.size(); ++i) {
-    bool proven = ProvenAtHull(question, candidates, ends_[i]);
-    for (std::size_t j = i + 1; j < ends_.size() && ends_[j].id == ends_[i].id && !proven; ++j) {
-      proven = ends_[i].other != ends_[j].other &&
-               ProvenAtJoint(question, candidates, ends_[i], ends_[j]);
-    }
-    if (proven) {
-      candidates.resize(kept);
-      return {true, 0};
+    if (ProvenAtHull(question, ends_[i])) return true;
+    for (std::size_t j = i + 1; j < ends_.size() && ends_[j].id == ends_[i].id; ++j) {
+      if (ends_[i].other == ends_[j].other) continue;
+      if (ProvenAtJoint(question, ends_[i], ends_[j])) return true;
     }
   }
-  const bool meets = best > -std::numeric_limits<double>::infinity() || !MissesNet(middle, normal);
-  if (!meets && MissesNet(box)) {
-    candidates.resize(kept);
-    return {true, 0};
-  }
-  // On the middle line the surface is at `best`, or at the floor at most.
-  const double excess = middle.height_m - std::max(best, question.floor_m);
+  return false;
+}
+
+BoxVerdict OccludedLines::Conclude(const BoxQuestion& question, const MiddleLine& line,
+                                   std::size_t begin, int depth) {
+  const LineBox& box = question.box;
+  if (ProvenAtEnds(question)) return {true, 0};
+  const bool crossed = line.height_m > -std::numeric_limits<double>::infinity();
+  const bool meets = crossed || !MissesNet(line.through, line.normal);
+  if (!meets && MissesNet(box)) return {true, 0};
+  // On the middle line the surface is at its height, or at the floor at most.
+  const double excess = line.through.height_m - std::max(line.height_m, question.floor_m);
   const bool attained = meets && excess > question.tolerated_m;
-  if (attained || depth >= kMostHalvings) {
-    candidates.resize(kept);
-    return {!attained, attained ? excess : 0};
-  }
+  if (attained || depth >= kMostHalvings) return {!attained, attained ? excess : 0};
   BoxQuestion half = question;
   BoxQuestion other = question;
-  const double across = std::abs((box.to.column - box.from.column) * normal.x +
-                                 (box.to.row - box.from.row) * normal.y);
-  if (across > best_distance * box.directions.Width()) {
-    half.box.to = middle;
-    other.box.from = middle;
+  const double across = std::abs((box.to.column - box.from.column) * line.normal.x +
+                                 (box.to.row - box.from.row) * line.normal.y);
+  if (across > line.distance * box.directions.Width()) {
+    half.box.to = line.through;
+    other.box.from = line.through;
   } else {
-    half.box.directions.last = normal;
-    other.box.directions.first = normal;
+    half.box.directions.last = line.normal;
+    other.box.directions.first = line.normal;
   }
-  const std::size_t stop = candidates.size();
-  BoxVerdict verdict = AskBox(half, candidates, kept, stop, depth + 1);
-  if (verdict.proven) verdict = AskBox(other, candidates, kept, stop, depth + 1);
-  candidates.resize(kept);
-  return verdict;
+  const std::size_t end = candidates_.size();
+  const BoxVerdict verdict = AskPart(half, begin, end, depth + 1);
+  return verdict.proven ? AskPart(other, begin, end, depth + 1) : verdict;
 }
 
 }  // namespace farhorizon

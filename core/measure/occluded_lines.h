@@ -8,14 +8,6 @@
 
 namespace farhorizon {
 
-/// A segment of a net that may occlude lines of a box, with the numbers of its ends.
-struct Occluder {
-  GridPoint a;
-  GridPoint b;
-  std::int32_t a_id = 0;
-  std::int32_t b_id = 0;
-};
-
 /// The convex hull of a net's points in plan, turning one way, without points on its sides; and
 /// where each point is on it, kNoneThere inside. reach: how far some point is from the first one.
 struct NetHull {
@@ -61,9 +53,9 @@ class OccludedLines {
  public:
   OccludedLines(const SkylineNet& net, const NetHull& hull) : net_(&net), hull_(&hull) {}
 
-  /// candidates: every segment of the net that is anywhere above question.floor_m and meets a line
-  ///   of the box. The vector is left as it was, but grows in between.
-  BoxVerdict Ask(const BoxQuestion& question, std::vector<Occluder>& candidates);
+  /// segments: every one of the net that is anywhere above question.floor_m and meets a line of the
+  ///   box, once; others do not matter.
+  BoxVerdict Ask(const BoxQuestion& question, const std::vector<std::int32_t>& segments);
 
   /// Boxes looked at so far.
   [[nodiscard]] std::int64_t boxes() const { return boxes_; }
@@ -71,12 +63,20 @@ class OccludedLines {
  private:
   enum class Side : std::uint8_t { kLeft, kRight, kBoth };  // of all lines of a box, or of some
 
-  // A segment against a box.
-  struct Facing {
-    std::array<double, LineBox::kCorners> of_a;
-    std::array<double, LineBox::kCorners> of_b;
-    Side a;
-    Side b;
+  // A segment that may occlude lines of the box.
+  struct Occluder {
+    GridPoint a;
+    GridPoint b;
+    std::int32_t a_id;
+    std::int32_t b_id;
+  };
+  // The middle line of a box and the highest occluder over it: its height there, and how far along
+  // the line its further end is.
+  struct MiddleLine {
+    GridPoint through;
+    DirectionRange::Normal normal;
+    double height_m;
+    double distance;
   };
   // An end that is between the box's lines, of a segment whose other end is not.
   struct LooseEnd {
@@ -85,21 +85,26 @@ class OccludedLines {
     std::size_t candidate;
   };
 
-  BoxVerdict AskBox(const BoxQuestion& question, std::vector<Occluder>& candidates,
-                    std::size_t begin, std::size_t end, int depth);
-  [[nodiscard]] bool ProvenAtJoint(const BoxQuestion& question,
-                                   const std::vector<Occluder>& candidates, const LooseEnd& left,
+  [[nodiscard]] MiddleLine MiddleOf(const LineBox& box) const;
+  // Of candidates [begin, end), for one half of a box after `depth` halvings.
+  BoxVerdict AskPart(const BoxQuestion& question, std::size_t begin, std::size_t end, int depth);
+  // Takes the segment among the candidates where it may matter; true where it alone proves the box.
+  bool Admit(const BoxQuestion& question, const Occluder& o, MiddleLine& line);
+  bool ProvenAtEnds(const BoxQuestion& question);
+  [[nodiscard]] bool ProvenAtJoint(const BoxQuestion& question, const LooseEnd& left,
                                    const LooseEnd& right) const;
-  [[nodiscard]] bool ProvenAtHull(const BoxQuestion& question,
-                                  const std::vector<Occluder>& candidates,
-                                  const LooseEnd& end) const;
+  [[nodiscard]] bool ProvenAtHull(const BoxQuestion& question, const LooseEnd& end) const;
+  // Of a box of which no candidate alone, of those from `begin` on, proves the whole.
+  BoxVerdict Conclude(const BoxQuestion& question, const MiddleLine& line, std::size_t begin,
+                      int depth);
   [[nodiscard]] bool MissesNet(const LineBox& box) const;
   [[nodiscard]] bool MissesNet(const GridPoint& through, DirectionRange::Normal normal) const;
 
   const SkylineNet* net_;
   const NetHull* hull_;
   std::int64_t boxes_ = 0;
-  std::vector<LooseEnd> ends_;
+  std::vector<Occluder> candidates_;  // a stack: those of a half box follow those of the whole
+  std::vector<LooseEnd> ends_;        // of the present box
 };
 
 }  // namespace farhorizon

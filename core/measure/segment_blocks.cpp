@@ -102,18 +102,20 @@ void SegmentBlocks::Find(const LineBox& box, double above_m, std::vector<std::in
   const std::int32_t count = by_column ? columns_ : rows_;
   const double across_begin = by_column ? row_ : column_;
   const std::int32_t across_count = by_column ? rows_ : columns_;
+  // How far across the lines reach where blocks begin.
+  const auto reach = [&](std::int32_t i) {
+    const double from = begin + i * kBlock - along(box.from);
+    const double to = begin + i * kBlock - along(box.to);
+    return std::minmax({across(box.from) + from * first, across(box.from) + from * last,
+                        across(box.to) + to * first, across(box.to) + to * last});
+  };
+  auto [least_before, most_before] = reach(0);
   for (std::int32_t i = 0; i < count; ++i) {
-    double least = std::numeric_limits<double>::infinity();
-    double most = -least;
-    for (const GridPoint* p : {&box.from, &box.to}) {
-      const double from = begin + i * kBlock - along(*p);
-      for (const double at : {from, from + kBlock}) {
-        const double x = across(*p) + at * first;
-        const double y = across(*p) + at * last;
-        least = std::min({least, x, y});
-        most = std::max({most, x, y});
-      }
-    }
+    const auto [least_after, most_after] = reach(i + 1);
+    const double least = std::min(least_before, least_after);
+    const double most = std::max(most_before, most_after);
+    least_before = least_after;
+    most_before = most_after;
     // A little wider than rounding.
     const double low = (least - 1e-6 - across_begin) / kBlock;
     const double high = (most + 1e-6 - across_begin) / kBlock;

@@ -38,11 +38,10 @@ struct StripSpan {
 
 class RaisedSearch {
  public:
-  RaisedSearch(const OccludingSurface& surface, const SkylineFloor& floor, double floor_less_m,
+  RaisedSearch(const OccludingSurface& surface, const SkylineFloor& floor,
                const std::vector<RaisedPiece>& pieces, const RaisedBounds& bounds)
       : surface_(surface),
         floor_(floor),
-        floor_less_m_(floor_less_m),
         pieces_(pieces),
         bounds_(bounds),
         lines_(surface.net, surface.hull),
@@ -86,7 +85,7 @@ class RaisedSearch {
     const double angle = std::numbers::pi / floor_.strips.directions;
     for (const RaisedPiece& piece : pieces_) {
       const StripSpan strips = SpanOf(piece, range);
-      const double known = floor_.Least(k, strips.first, strips.last) - floor_less_m_;
+      const double known = floor_.Least(k, strips.first, strips.last);
       if (known >= Highest(piece) - Allowed(piece.outline)) continue;
       if (lines_.boxes() <= most_boxes_) {
         AskPiece(piece, k * angle, (k + 1) * angle);
@@ -102,11 +101,6 @@ class RaisedSearch {
   void CollectCandidates(const RaisedPiece& piece, const DirectionRange& range) {
     floor_m_ = std::min(piece.a.height_m, piece.b.height_m) - kGathered * Allowed(piece.outline);
     blocks_.Find({piece.a, piece.b, range}, floor_m_, found_);
-    candidates_.clear();
-    for (const std::int32_t i : found_) {
-      const SkylineNet::Segment& s = surface_.net.segments[static_cast<std::size_t>(i)];
-      candidates_.push_back({surface_.net.Point(s.a), surface_.net.Point(s.b), s.a, s.b});
-    }
   }
 
   void AskPiece(const RaisedPiece& piece, double first, double last) {
@@ -140,7 +134,7 @@ class RaisedSearch {
       question.tolerated_m = Tolerated(piece.outline);
       question.allowed_m = Allowed(piece.outline);
       question.floor_m = floor_m_;
-      const BoxVerdict verdict = lines_.Ask(question, candidates_);
+      const BoxVerdict verdict = lines_.Ask(question, found_);
       if (verdict.proven) return;
       Tolerated(piece.outline) = std::max(verdict.excess_m, Tolerated(piece.outline) + least_room_);
       const double lower_end = std::min(piece.a.height_m, piece.b.height_m);
@@ -150,7 +144,6 @@ class RaisedSearch {
 
   const OccludingSurface& surface_;
   const SkylineFloor& floor_;
-  double floor_less_m_;
   const std::vector<RaisedPiece>& pieces_;
   RaisedBounds bounds_;
   double least_room_ = 0;
@@ -159,7 +152,6 @@ class RaisedSearch {
   SegmentBlocks blocks_;
   double floor_m_ = 0;  // what is nowhere above it is not among the candidates
   std::vector<std::int32_t> found_;
-  std::vector<Occluder> candidates_;
 };
 
 }  // namespace
@@ -185,9 +177,9 @@ OccludingSurface OccludingSurface::Of(SkylineNet net) {
 }
 
 Result<RaisedBounds> BoundRaised(const OccludingSurface& surface, const SkylineFloor& floor,
-                                 double floor_less_m, const std::vector<RaisedPiece>& pieces,
-                                 const RaisedBounds& bounds, const RunControl& control) {
-  return RaisedSearch(surface, floor, floor_less_m, pieces, bounds).Run(control);
+                                 const std::vector<RaisedPiece>& pieces, const RaisedBounds& bounds,
+                                 const RunControl& control) {
+  return RaisedSearch(surface, floor, pieces, bounds).Run(control);
 }
 
 }  // namespace farhorizon

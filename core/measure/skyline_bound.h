@@ -41,10 +41,10 @@ struct OccludingSurface {
 ///
 /// A bound that is raised is raised to what some line attains. The result is WithRoom of it. Where
 /// the work is at its end the bound becomes the greatest height above what is known of the skyline.
-/// floor, floor_less_m: over every line the surface is at or above the floor, less that much.
+/// floor: over every line that it has a height for, the surface is at or above it.
 /// Errors: kCancelled. Cost: see the head of the body; bounded by a multiple of segments + pieces.
 Result<RaisedBounds> BoundRaised(const OccludingSurface& surface, const SkylineFloor& floor,
-                                 double floor_less_m, const std::vector<RaisedPiece>& pieces,
-                                 const RaisedBounds& bounds, const RunControl& control);
+                                 const std::vector<RaisedPiece>& pieces, const RaisedBounds& bounds,
+                                 const RunControl& control);
 
 }  // namespace farhorizon

@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <tuple>
 
 #include "core/geometry/union_find.h"
 
@@ -35,18 +36,20 @@ float RoundedDown(double value) {
 
 class FloorFinder {
  public:
-  FloorFinder(const SkylineNet& net, SkylineFloor& floor)
+  FloorFinder(const SkylineNet& net, const std::vector<double>& lowered_m, SkylineFloor& floor)
       : net_(net),
         floor_(floor),
-        order_(net.segments.size()),
         parent_(net.points.size()),
         spans_(net.points.size()),
         next_free_(static_cast<std::size_t>(floor.strips.count) + 1) {
-    std::iota(order_.begin(), order_.end(), 0);
-    std::sort(order_.begin(), order_.end(), [this](std::int32_t i, std::int32_t j) {
-      const double at_i = LowerEnd(i);
-      const double at_j = LowerEnd(j);
-      return at_i > at_j || (at_i == at_j && i < j);
+    for (std::size_t i = 0; i < net.segments.size(); ++i) {
+      if (!std::isfinite(lowered_m[i])) continue;
+      const SkylineNet::Segment& s = net.segments[i];
+      const double lower_end = std::min(net.Point(s.a).height_m, net.Point(s.b).height_m);
+      order_.push_back({RoundedDown(lower_end - lowered_m[i]), s.a, s.b});
+    }
+    std::sort(order_.begin(), order_.end(), [](const Lowered& p, const Lowered& q) {
+      return std::tie(q.height, p.a, p.b) < std::tie(p.height, q.a, q.b);
     });
   }
 
@@ -63,8 +66,7 @@ class FloorFinder {
     std::iota(next_free_.begin(), next_free_.end(), 0);
     float* heights =
         &floor_.heights[static_cast<std::size_t>(k) * static_cast<std::size_t>(strips.count)];
-    for (const std::int32_t i : order_) {
-      const SkylineNet::Segment& s = net_.segments[static_cast<std::size_t>(i)];
+    for (const Lowered& s : order_) {
       const std::int32_t a = FindRoot(parent_, s.a);
       const std::int32_t b = FindRoot(parent_, s.b);
       if (a == b) continue;
@@ -73,15 +75,16 @@ class FloorFinder {
       const Span& joined = spans_[static_cast<std::size_t>(b)];
       if (joined.from >= span.from && joined.to <= span.to) continue;
       span = {std::min(span.from, joined.from), std::max(span.to, joined.to)};
-      if (span.from < span.to) Fill(span, RoundedDown(LowerEnd(i)), heights);
+      if (span.from < span.to) Fill(span, s.height, heights);
     }
   }
 
  private:
-  [[nodiscard]] double LowerEnd(std::int32_t i) const {
-    const SkylineNet::Segment& s = net_.segments[static_cast<std::size_t>(i)];
-    return std::min(net_.Point(s.a).height_m, net_.Point(s.b).height_m);
-  }
+  struct Lowered {
+    float height;  // of its lower end
+    std::int32_t a;
+    std::int32_t b;
+  };
 
   // Gives the strips that lie in the span, and have no height yet, this one.
   void Fill(const Span& span, float height, float* heights) {
@@ -98,7 +101,7 @@ class FloorFinder {
 
   const SkylineNet& net_;
   SkylineFloor& floor_;
-  std::vector<std::int32_t> order_;
+  std::vector<Lowered> order_;  // falling
   std::vector<std::int32_t> parent_;
   std::vector<Span> spans_;
   std::vector<std::int32_t> next_free_;  // strips without a height: themselves
@@ -136,14 +139,14 @@ double SkylineFloor::Least(int k, std::int32_t first, std::int32_t last) const {
   return *std::min_element(row + first, row + last + 1);
 }
 
-Result<SkylineFloor> FindSkylineFloor(const SkylineNet& net, const LineStrips& strips,
-                                      const RunControl& control) {
+Result<SkylineFloor> FindSkylineFloor(const SkylineNet& net, const std::vector<double>& lowered_m,
+                                      const LineStrips& strips, const RunControl& control) {
   SkylineFloor floor;
   floor.strips = strips;
   floor.heights.assign(
       static_cast<std::size_t>(strips.directions) * static_cast<std::size_t>(strips.count),
       kUnknown);
-  FloorFinder finder(net, floor);
+  FloorFinder finder(net, lowered_m, floor);
   for (int k = 0; k < strips.directions; ++k) {
     if (control.StopRequested()) {
       return Error{ErrorCode::kCancelled, "stopped while bounding the skyline from below"};

@@ -47,8 +47,9 @@ struct SkylineFloor {
   [[nodiscard]] double Least(int k, std::int32_t first, std::int32_t last) const;
 };
 
+/// lowered_m: how far each segment of the net is taken below its place; infinity: left out.
 /// Errors: kCancelled. Cost: directions x (segments + strips).
-Result<SkylineFloor> FindSkylineFloor(const SkylineNet& net, const LineStrips& strips,
-                                      const RunControl& control);
+Result<SkylineFloor> FindSkylineFloor(const SkylineNet& net, const std::vector<double>& lowered_m,
+                                      const LineStrips& strips, const RunControl& control);
 
 }  // namespace farhorizon

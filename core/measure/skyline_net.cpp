@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/measure/ground_walk.h"
+
 namespace farhorizon {
 
 SkylineNet SkylineNetOf(const Terrain& terrain, const Horizon& horizon) {
@@ -32,19 +34,16 @@ SkylineNet SkylineNetOf(const Terrain& terrain, const Horizon& horizon) {
   return net;
 }
 
-SkylineNet InnerNetOf(const SkylineNet& net, const std::vector<std::uint8_t>& inner) {
-  SkylineNet result{net.points, {}};
-  for (std::size_t i = 0; i < net.segments.size(); ++i) {
-    if (inner[i] != 0) result.segments.push_back(net.segments[i]);
-  }
-  return result;
-}
-
-SkylineNet SkylineNetOf(const GridMesh& mesh, const MeshSides& sides) {
+SkylineNet SkylineNetOf(const Dem& dem, const HullMergeTree& hulls, const GridMesh& mesh,
+                        const MeshSides& sides, double sunk_m) {
   SkylineNet net;
   net.points = mesh.points;
   for (const MeshSide& side : sides.sides) {
-    if (IsRidgeOrOutline(mesh, side)) net.segments.push_back({side.a, side.b, side.IsOutline()});
+    if (!IsRidgeOrOutline(mesh, side)) continue;
+    if (!side.IsOutline() && IsInHull(dem, hulls, net.Point(side.a), net.Point(side.b), sunk_m)) {
+      continue;
+    }
+    net.segments.push_back({side.a, side.b, side.IsOutline()});
   }
   return net;
 }

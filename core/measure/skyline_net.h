@@ -30,11 +30,11 @@ struct SkylineNet {
 /// The horizon edges, in their order (core/horizon/README.md, theorem 2).
 SkylineNet SkylineNetOf(const Terrain& terrain, const Horizon& horizon);
 
-/// Those that are whole without an end on the outline of the terrain: over every line the surface
-/// is at least as high as they are, also where its outline has moved a little.
-SkylineNet InnerNetOf(const SkylineNet& net, const std::vector<std::uint8_t>& inner);
-
-/// The ridges and the outline of a mesh (lemma 0 there). points: those of the mesh.
-SkylineNet SkylineNetOf(const GridMesh& mesh, const MeshSides& sides);
+/// The ridges and the outline of a mesh (lemma 0 there), without those that other ground of the
+/// mesh occludes because they are in a merged hull of the DEM's, well below the horizon edges that
+/// are there. points: those of the mesh.
+/// sunk_m: how far the horizon edges off the outline are above the mesh at most.
+SkylineNet SkylineNetOf(const Dem& dem, const HullMergeTree& hulls, const GridMesh& mesh,
+                        const MeshSides& sides, double sunk_m);
 
 }  // namespace farhorizon
