@@ -17,8 +17,9 @@ constexpr double kRim = 0.05;
 // a fan all of them. The latter number of steps takes half a minute.
 constexpr double kMostLayers = 64;
 constexpr double kMostRows = 4e9;
-// Steeper than this, a rise of 10 km over a metre, is no ground.
-constexpr double kWallShare = 1e-4;
+// Skirts are upright within the tilt of the vertical over a tile, a hundredth in 60 km. Cliffs may
+// be as steep, but all their corners are on the ground.
+constexpr double kWallShare = 0.02;
 
 struct Corners {
   std::array<GridPoint, 3> p;
@@ -130,7 +131,7 @@ std::int64_t DropSkirts(GridMesh& mesh, double cell_m) {
       double& highest = on_ground[i] ? ground : other;
       highest = std::max(highest, mesh.points[i].height_m);
     }
-    return other <= ground;
+    return std::isfinite(other) && other <= ground;
   };
   std::vector<std::array<std::int32_t, 3>> kept;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {

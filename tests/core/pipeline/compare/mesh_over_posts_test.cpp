@@ -63,7 +63,7 @@ TEST(HeightsOverPosts, CoversARimThatRoundingMoved) {
 TEST(HeightsOverPosts, RefusesWorkWithoutBound) {
   const Dem dem = Level(50, 50);
   GridMesh mesh = Sheet(0, 0, 49, 49);
-  for (int i = 0; i < 100; ++i) mesh.triangles.push_back({0, 2, 3});
+  for (int i = 0; i < 200; ++i) mesh.triangles.push_back({0, 2, 3});
   const auto heights = HeightsOverPosts(mesh, dem);
   ASSERT_FALSE(heights);
   EXPECT_EQ(heights.error().kind, "overlap");
