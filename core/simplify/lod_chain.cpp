@@ -42,6 +42,7 @@ constexpr double kLeast = 1e-9;  // a share of which no side has a post but its 
 constexpr int kRoundsOfPolish = 2;
 // At an exact level most vertices are held, and more rounds change nothing that is seen.
 constexpr int kRoundsOfExactPolish = 1;
+constexpr double kCollapsing = 0.7;  // of a level's time
 // Of a level's triangles, at most, that its sides' posts may ask for, so that small levels are not
 // all sides.
 constexpr double kMostOfSides = 0.5;
@@ -70,6 +71,7 @@ class ChainBuilder {
       levels_.push_back(LevelOf(work_, side_heights_));
       work_.mesh.Compact();
     }
+    control.Report(Stage::kSimplify, 1);
     return std::move(levels_);
   }
 
@@ -156,7 +158,8 @@ class ChainBuilder {
 
   Status Simplify(double triangles, const RunControl& control) {
     const auto budget = static_cast<std::int32_t>(std::min(triangles, full_));
-    Status done = collapser_.Run(budget, control, [this] { Weigh(); });
+    Status done = collapser_.Run(budget, control.Between(0, kCollapsing), [this] { Weigh(); });
+    control.Report(Stage::kSimplify, kCollapsing);
     const int rounds = work_.rules.exact() ? kRoundsOfExactPolish : kRoundsOfPolish;
     for (int i = 0; i < rounds; ++i) {
       if (done) done = FlipEdges(work_, control);
