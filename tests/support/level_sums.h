@@ -113,8 +113,8 @@ inline double SquaresOf(const HalfEdgeMesh& mesh) {
 }
 
 /// A bracket of the mesh's greatest height over a line: `least` without the edges that end within
-/// 1e-3 cells of the line, `most` with those that fail to meet it by less. Where an edge runs nearly
-/// along the line, floats lose what they do of its ends' distances. -infinity: none.
+/// 1e-3 cells of the line, `most` with those that fail to meet it by less. Where an edge runs
+/// nearly along the line, floats lose what they do of its ends' distances. -infinity: none.
 struct HeightBracket {
   double least = -std::numeric_limits<double>::infinity();
   double most = -std::numeric_limits<double>::infinity();
