@@ -1,9 +1,7 @@
 #pragma once
 
 #include <chrono>
-#include <map>
 #include <optional>
-#include <string>
 
 #include "core/base/run_control.h"
 
@@ -21,7 +19,7 @@ class StageTimer {
   }
 
   /// Seconds by stage, the present one up to now.
-  std::map<std::string, double> Seconds() {
+  StageSeconds Seconds() {
     if (stage_) Enter(*stage_);
     return seconds_;
   }
@@ -38,7 +36,7 @@ class StageTimer {
 
   std::optional<Stage> stage_;
   Clock::time_point since_ = Clock::now();
-  std::map<std::string, double> seconds_;
+  StageSeconds seconds_;
 };
 
 }  // namespace farhorizon

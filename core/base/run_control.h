@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <functional>
+#include <map>
 #include <stop_token>
 #include <string>
 
@@ -22,12 +23,17 @@ using WarningHandler = std::function<void(const std::string& text)>;
 /// Takes what was assumed about the data. Called as Progress is, once for each assumption.
 using AssumptionHandler = std::function<void(const Assumption&)>;
 
+/// Seconds that the work has spent in each stage so far, by the stage's name.
+using StageSeconds = std::map<std::string, double>;
+
 /// How a caller watches long work and stops it. All may be left empty.
 struct RunControl {
   Progress progress = {};
   std::stop_token stop = {};
   WarningHandler on_warning = {};
   AssumptionHandler on_assumption = {};
+  /// The times of a caller who wants them in what is written; the work itself has no clock.
+  std::function<StageSeconds()> timings = {};
 
   void Report(Stage stage, double done) const {
     if (progress) progress(stage, done);
@@ -43,6 +49,7 @@ struct RunControl {
     }
     return piece;
   }
+  [[nodiscard]] StageSeconds Timings() const { return timings ? timings() : StageSeconds(); }
   void Warn(const std::string& text) const {
     if (on_warning) on_warning(text);
   }

@@ -17,14 +17,22 @@ namespace farhorizon {
 
 namespace {
 
-constexpr int kPositionId = 0;
-constexpr int kPostId = 1;
-constexpr int kNormalId = 2;
+// How an attribute is stored, and the unique id by which it is found.
+struct AttributeForm {
+  int id;
+  std::int8_t components;
+  draco::DataType type;
+};
+constexpr AttributeForm kPosition = {kDracoPositionId, 3, draco::DT_FLOAT32};
+constexpr AttributeForm kPost = {kDracoPostId, 1, draco::DT_UINT32};
+constexpr AttributeForm kNormal = {kDracoNormalId, 3, draco::DT_FLOAT32};
 // 8 bits turn a normal by half a degree, which no shading shows; each further bit costs a quarter
 // of a byte a vertex or more. kLeastNormalUp relies on it.
 constexpr int kNormalBits = 8;
-// Draco's scale is 0 (slowest, smallest) to 10, its default 5. Any value is sound.
-constexpr int kEncodingSpeed = 3;
+// Draco's scale is 0 (slowest, smallest) to 10, its default 5. Any value is sound. 1 predicts a
+// position from several parallelograms, where 3 takes one: 6 % fewer bytes for twice the time to
+// encode and a sixth more to decode in a browser; 0 saves no more, 5 and up lose a fifth.
+constexpr int kEncodingSpeed = 1;
 constexpr std::array<const char*, 3> kOriginNames = {"lattice_origin_east", "lattice_origin_north",
                                                      "lattice_origin_up"};
 constexpr char kStepName[] = "lattice_step";
@@ -62,12 +70,16 @@ Status CheckMesh(const LocalMesh& mesh) {
   return Ok{};
 }
 
-int AddAttribute(draco::Mesh& mesh, draco::GeometryAttribute::Type type, std::int8_t components,
-                 draco::DataType data_type, std::size_t count) {
+// Adds one that has the unique id by which clients ask for it. References to attributes that were
+// added before stay valid.
+draco::PointAttribute& AddAttribute(draco::Mesh& mesh, const AttributeForm& form,
+                                    draco::GeometryAttribute::Type type, std::size_t count) {
   draco::GeometryAttribute attribute;
-  attribute.Init(type, nullptr, static_cast<std::uint8_t>(components), data_type, false,
-                 static_cast<std::int64_t>(components) * draco::DataTypeLength(data_type), 0);
-  return mesh.AddAttribute(attribute, true, static_cast<std::uint32_t>(count));
+  attribute.Init(type, nullptr, static_cast<std::uint8_t>(form.components), form.type, false,
+                 std::int64_t{form.components} * draco::DataTypeLength(form.type), 0);
+  const int index = mesh.AddAttribute(attribute, true, static_cast<std::uint32_t>(count));
+  mesh.attribute(index)->set_unique_id(static_cast<std::uint32_t>(form.id));
+  return *mesh.attribute(index);
 }
 
 std::array<float, 3> ToFloat(const std::array<double, 3>& v) {
@@ -83,25 +95,26 @@ std::unique_ptr<draco::GeometryMetadata> MetadataOf(const QuantizationLattice& l
   return metadata;
 }
 
-std::unique_ptr<draco::Mesh> ToDraco(const LocalMesh& mesh, const QuantizationLattice& lattice) {
+std::unique_ptr<draco::Mesh> ToDraco(const LocalMesh& mesh, const QuantizationLattice& lattice,
+                                     DracoPosts posts) {
   auto result = std::make_unique<draco::Mesh>();
   const std::size_t count = mesh.positions.size();
   result->set_num_points(static_cast<std::uint32_t>(count));
-  const int position =
-      AddAttribute(*result, draco::GeometryAttribute::POSITION, 3, draco::DT_FLOAT32, count);
-  const int post =
-      AddAttribute(*result, draco::GeometryAttribute::GENERIC, 1, draco::DT_UINT32, count);
-  const int normal =
-      AddAttribute(*result, draco::GeometryAttribute::NORMAL, 3, draco::DT_FLOAT32, count);
-  Check(position == kPositionId && post == kPostId && normal == kNormalId,
-        "Draco numbers attributes as they come");
+  draco::PointAttribute& position =
+      AddAttribute(*result, kPosition, draco::GeometryAttribute::POSITION, count);
+  draco::PointAttribute* post =
+      posts == DracoPosts::kLeftOut
+          ? nullptr
+          : &AddAttribute(*result, kPost, draco::GeometryAttribute::GENERIC, count);
+  draco::PointAttribute& normal =
+      AddAttribute(*result, kNormal, draco::GeometryAttribute::NORMAL, count);
   for (std::size_t i = 0; i < count; ++i) {
     const draco::AttributeValueIndex index(static_cast<std::uint32_t>(i));
     const std::array<float, 3> xyz = ToFloat(LatticeNumbers(mesh.positions[i], lattice));
     const std::array<float, 3> upwards = ToFloat(mesh.normals[i]);
-    result->attribute(position)->SetAttributeValue(index, xyz.data());
-    result->attribute(post)->SetAttributeValue(index, &mesh.posts[i]);
-    result->attribute(normal)->SetAttributeValue(index, upwards.data());
+    position.SetAttributeValue(index, xyz.data());
+    if (post != nullptr) post->SetAttributeValue(index, &mesh.posts[i]);
+    normal.SetAttributeValue(index, upwards.data());
   }
   result->SetNumFaces(mesh.triangles.size());
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
@@ -119,26 +132,27 @@ Error BadDraco(const std::string& message) {
 
 struct Attributes {
   const draco::PointAttribute* position = nullptr;
-  const draco::PointAttribute* post = nullptr;
+  const draco::PointAttribute* post = nullptr;  // null in a stream without posts
   const draco::PointAttribute* normal = nullptr;
 };
 
 Result<Attributes> AttributesOf(const draco::Mesh& mesh) {
-  const auto find = [&](int id, draco::GeometryAttribute::Type type, int components,
-                        draco::DataType data_type) -> const draco::PointAttribute* {
+  const auto find = [&](const AttributeForm& form,
+                        draco::GeometryAttribute::Type type) -> const draco::PointAttribute* {
     const draco::PointAttribute* found =
-        mesh.GetAttributeByUniqueId(static_cast<std::uint32_t>(id));
+        mesh.GetAttributeByUniqueId(static_cast<std::uint32_t>(form.id));
     const bool fits = found != nullptr && found->attribute_type() == type &&
-                      found->num_components() == components && found->data_type() == data_type;
+                      found->num_components() == form.components && found->data_type() == form.type;
     return fits ? found : nullptr;
   };
-  const Attributes result = {
-      find(kPositionId, draco::GeometryAttribute::POSITION, 3, draco::DT_FLOAT32),
-      find(kPostId, draco::GeometryAttribute::GENERIC, 1, draco::DT_UINT32),
-      find(kNormalId, draco::GeometryAttribute::NORMAL, 3, draco::DT_FLOAT32)};
+  const Attributes result = {find(kPosition, draco::GeometryAttribute::POSITION),
+                             find(kPost, draco::GeometryAttribute::GENERIC),
+                             find(kNormal, draco::GeometryAttribute::NORMAL)};
   if (result.position == nullptr) return BadDraco("attribute 0 is not POSITION in three floats");
-  if (result.post == nullptr) return BadDraco("attribute 1 is not GENERIC in one 32-bit number");
   if (result.normal == nullptr) return BadDraco("attribute 2 is not NORMAL in three floats");
+  const bool other = result.post == nullptr &&
+                     mesh.GetAttributeByUniqueId(static_cast<std::uint32_t>(kPost.id)) != nullptr;
+  if (other) return BadDraco("attribute 1 is not GENERIC in one 32-bit number");
   return result;
 }
 
@@ -163,34 +177,37 @@ Result<QuantizationLattice> LatticeOf(const draco::Mesh& mesh) {
   return lattice;
 }
 
-static_assert(kMaxLatticeBits == 16);
-bool IsLatticeNumber(float x) { return x >= 0 && x < 65536 && std::floor(x) == x; }
+bool IsLatticeNumber(float x) {
+  constexpr float kEnd = 1U << unsigned{kMaxLatticeBits};
+  return x >= 0 && x < kEnd && std::floor(x) == x;
+}
 
 // Reads positions, posts and normals, and sets the lattice's bits to as many as hold the positions.
 Status ReadVertices(const draco::Mesh& mesh, const Attributes& attributes, DecodedMesh& result) {
   QuantizationLattice& lattice = result.lattice;
   LocalMesh& local = result.mesh;
   local.positions.reserve(mesh.num_points());
-  local.posts.reserve(mesh.num_points());
+  if (attributes.post != nullptr) local.posts.reserve(mesh.num_points());
   local.normals.reserve(mesh.num_points());
   float last = 1;
   for (std::uint32_t i = 0; i < mesh.num_points(); ++i) {
     const draco::PointIndex point(i);
     std::array<float, 3> number{};
     std::array<float, 3> normal{};
-    std::uint32_t post = 0;
     attributes.position->GetMappedValue(point, number.data());
-    attributes.post->GetMappedValue(point, &post);
     attributes.normal->GetMappedValue(point, normal.data());
     if (!std::ranges::all_of(number, IsLatticeNumber)) {
-      return BadDraco("a position is no lattice number of 16 bits");
+      return BadDraco("a position is no lattice number of " + std::to_string(kMaxLatticeBits) +
+                      " bits");
     }
     last = std::max(last, *std::ranges::max_element(number));
     const auto coordinate = [&](std::size_t axis) {
       return lattice.origin[axis] + number[axis] * lattice.step_m;
     };
     local.positions.push_back({coordinate(0), coordinate(1), coordinate(2)});
-    local.posts.push_back(post);
+    if (attributes.post != nullptr) {
+      attributes.post->GetMappedValue(point, &local.posts.emplace_back());
+    }
     local.normals.push_back({normal[0], normal[1], normal[2]});
   }
   std::frexp(last, &lattice.bits);  // last < 2^bits
@@ -200,11 +217,12 @@ Status ReadVertices(const draco::Mesh& mesh, const Attributes& attributes, Decod
 }  // namespace
 
 Result<std::vector<std::uint8_t>> EncodeDraco(const LocalMesh& mesh,
-                                              const QuantizationLattice& lattice) {
+                                              const QuantizationLattice& lattice,
+                                              DracoPosts posts) {
   Check(lattice.bits >= 1 && lattice.bits <= kMaxLatticeBits && ExactInFloat(lattice),
         "a bad lattice");
   if (Status sound = CheckMesh(mesh); !sound) return std::move(sound.error());
-  const std::unique_ptr<draco::Mesh> whole = ToDraco(mesh, lattice);
+  const std::unique_ptr<draco::Mesh> whole = ToDraco(mesh, lattice, posts);
 
   draco::ExpertEncoder encoder(*whole);
   encoder.SetEncodingMethod(draco::MESH_EDGEBREAKER_ENCODING);
@@ -213,9 +231,12 @@ Result<std::vector<std::uint8_t>> EncodeDraco(const LocalMesh& mesh,
   // Draco's step is range / (2^bits - 1): 1, so that it changes no lattice number.
   constexpr std::array<float, 3> kOrigin = {0, 0, 0};
   const double range = std::ldexp(1.0, lattice.bits) - 1;
-  encoder.SetAttributeExplicitQuantization(kPositionId, lattice.bits, 3, kOrigin.data(),
+  const auto index = [&whole](const AttributeForm& form) {
+    return whole->GetAttributeIdByUniqueId(static_cast<std::uint32_t>(form.id));
+  };
+  encoder.SetAttributeExplicitQuantization(index(kPosition), lattice.bits, 3, kOrigin.data(),
                                            static_cast<float>(range));
-  encoder.SetAttributeQuantization(kNormalId, kNormalBits);
+  encoder.SetAttributeQuantization(index(kNormal), kNormalBits);
   draco::EncoderBuffer buffer;
   const draco::Status status = encoder.EncodeToBuffer(&buffer);
   if (!status.ok()) return BadMesh("Draco refuses the mesh: " + status.error_msg_string());

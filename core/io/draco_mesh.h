@@ -18,9 +18,17 @@ inline constexpr double kLeastNormalUp = 1.0 / 32;
 /// numbers without an error.
 inline constexpr std::uint32_t kMaxPost = (1U << 28U) - 1;
 
-/// Encodes a mesh as a Draco bitstream (2.2, edgebreaker). Attribute 0 POSITION: lattice numbers,
-/// from 0 to 2^bits - 1, as floats; 1 GENERIC: the posts; 2 NORMAL: on Draco's octahedron in 8
-/// bits, less than a degree off. Same mesh, same bytes.
+/// The unique ids of the attributes of our bitstreams.
+inline constexpr int kDracoPositionId = 0;
+inline constexpr int kDracoPostId = 1;
+inline constexpr int kDracoNormalId = 2;
+
+/// Whether a bitstream has the vertices' posts: a fifth of its bytes.
+enum class DracoPosts { kWritten, kLeftOut };
+
+/// Encodes a mesh as a Draco bitstream (2.2, edgebreaker). Attributes, by unique id: 0 POSITION,
+/// lattice numbers, from 0 to 2^bits - 1, as floats; 1 GENERIC, the posts, where they are written;
+/// 2 NORMAL, on Draco's octahedron in 8 bits, less than a degree off. Same mesh, same bytes.
 ///
 /// A point in metres is origin + step * number. The bitstream's geometry metadata has these four
 /// doubles as lattice_origin_east, lattice_origin_north, lattice_origin_up and lattice_step
@@ -38,10 +46,11 @@ inline constexpr std::uint32_t kMaxPost = (1U << 28U) - 1;
 ///   twice or one that does not exist, a vertex is in no triangle, a post is beyond kMaxPost, or
 ///   libdraco refuses.
 Result<std::vector<std::uint8_t>> EncodeDraco(const LocalMesh& mesh,
-                                              const QuantizationLattice& lattice);
+                                              const QuantizationLattice& lattice,
+                                              DracoPosts posts = DracoPosts::kWritten);
 
-/// What a bitstream holds. mesh: positions in metres. lattice: origin and step from the metadata,
-/// as few bits as hold the positions.
+/// What a bitstream holds. mesh: positions in metres; no posts where they were left out. lattice:
+/// origin and step from the metadata, as few bits as hold the positions.
 struct DecodedMesh {
   LocalMesh mesh;
   QuantizationLattice lattice;

@@ -43,6 +43,8 @@ void RegisterDrivers() {
     GDALRegister_GSBG();
     GDALRegister_GS7BG();
     GDALRegister_MEM();
+    GDALRegister_JPEG();
+    GDALRegister_PNG();
     RegisterOGRFlatGeobuf();
     RegisterOGRGeoPackage();
   });

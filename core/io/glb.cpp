@@ -31,9 +31,6 @@ constexpr int kUnsignedInt = 5125;
 constexpr int kFloat = 5126;
 constexpr int kTriangles = 4;
 constexpr std::size_t kMaxShortVertices = 65535;  // 65535 itself restarts a strip
-// Unique ids of the attributes that EncodeDraco writes.
-constexpr int kDracoPosition = 0;
-constexpr int kDracoNormal = 2;
 
 constexpr char kDraco[] = "KHR_draco_mesh_compression";
 constexpr char kEdges[] = "EXT_mesh_primitive_edge_visibility";
@@ -192,7 +189,7 @@ std::vector<std::uint8_t> WriteGlb(
                     {"material", 0}};
   primitive["extensions"][kDraco] = {
       {"bufferView", draco_view},
-      {"attributes", {{"POSITION", kDracoPosition}, {"NORMAL", kDracoNormal}}}};
+      {"attributes", {{"POSITION", kDracoPositionId}, {"NORMAL", kDracoNormalId}}}};
   Json materials = Json::array({Material("terrain", {0.62, 0.6, 0.55, 1})});
   Json used = Json::array({kDraco});
   const EdgeVisibility edges = FlagEdges(mesh, horizon_edges);

@@ -22,7 +22,7 @@ std::array<double, 16> GltfMatrix(const QuantizationLattice& lattice);
 ///   positions in lattice numbers.
 /// horizon_edges: pairs of vertices of `decoded`, flagged as FlagEdges says
 ///   [EXT_mesh_primitive_edge_visibility]. The extension is left out where there are none.
-/// The posts stay in the Draco bitstream, but are no attribute of the glTF primitive.
+/// Posts are no attribute of the glTF primitive.
 std::vector<std::uint8_t> WriteGlb(
     const std::vector<std::uint8_t>& draco, const DecodedMesh& decoded,
     const std::vector<std::pair<std::uint32_t, std::uint32_t>>& horizon_edges);

@@ -7,6 +7,7 @@
 
 #include "core/base/hex.h"
 #include "core/base/result.h"
+#include "core/io/base64.h"
 
 namespace farhorizon {
 
@@ -24,12 +25,7 @@ std::optional<Digest> Digest::FromHex(std::string_view hex) {
 
 std::string Digest::Hex() const { return ToHex(bytes_); }
 
-std::string Digest::Base64() const {
-  // Four characters for each three bytes, and EVP_EncodeBlock's zero byte after them.
-  std::array<unsigned char, (kBytes + 2) / 3 * 4 + 1> text{};
-  const int size = EVP_EncodeBlock(text.data(), bytes_.data(), static_cast<int>(kBytes));
-  return {text.begin(), text.begin() + size};
-}
+std::string Digest::Base64() const { return ToBase64(bytes_); }
 
 struct Sha256::State {
   EVP_MD_CTX* context = EVP_MD_CTX_new();

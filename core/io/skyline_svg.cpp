@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <vector>
 
 #include "core/io/geojson_text.h"
 #include "core/io/svg_text.h"
+#include "core/io/ticks.h"
 
 namespace farhorizon {
 
@@ -37,25 +37,9 @@ struct Range {
   [[nodiscard]] double Size() const { return std::max(most - least, 0.01); }
 };
 
-// A round distance between ticks, about eight to a range: 1, 2 or 5 times a power of ten.
-double TickStep(double size) {
-  const double rough = size / 8;
-  const double power = std::pow(10.0, std::floor(std::log10(rough)));
-  for (const double factor : {1.0, 2.0, 5.0}) {
-    if (rough <= factor * power) return factor * power;
-  }
-  return 10 * power;
-}
-
+// About eight; none where nothing was included.
 std::vector<double> TicksIn(const Range& range) {
-  const double step = TickStep(range.Size());
-  std::vector<double> ticks;
-  if (range.least > range.most) return ticks;  // nothing was included
-  const auto last = static_cast<std::int64_t>(std::floor(range.most / step));
-  for (auto i = static_cast<std::int64_t>(std::ceil(range.least / step)); i <= last; ++i) {
-    ticks.push_back(static_cast<double>(i) * step);
-  }
-  return ticks;
+  return TicksWithin(range.least, range.most, TickStep(range.Size(), 8));
 }
 
 class Plot {

@@ -28,6 +28,8 @@ class ArtifactWriter {
   /// Adds a file that the caller has written to PathOf(name). Errors: those of ReadFile.
   Status AddWritten(const std::string& name);
   [[nodiscard]] std::filesystem::path PathOf(const std::string& name) const;
+  /// What was added so far.
+  [[nodiscard]] const std::vector<ManifestEntry>& entries() const { return entries_; }
 
   /// Writes manifest.json, with the artifacts by name. Errors: those of WriteFile.
   Status Finish();

@@ -19,6 +19,7 @@
 #include "core/pipeline/mesh_region.h"
 #include "core/pipeline/post_places.h"
 #include "core/pipeline/report.h"
+#include "core/pipeline/report_page/report_page.h"
 #include "core/pipeline/terrain_input.h"
 #include "core/pipeline/version.h"
 
@@ -56,11 +57,11 @@ struct WrittenLevels {
 // The levels' region, with the terrain's heights and room for what the coarsest level may add.
 Result<BoundingRegion> RegionOf(const TerrainInput& input, const WrittenLevels& levels) {
   const LevelReport& coarsest = levels.reports.back();
-  BoundingRegion region = levels.region.Sides(coarsest.quantization_step_m);
+  BoundingRegion region = levels.region.Sides(coarsest.side_step_m);
   Result<std::array<double, 2>> heights = input.EllipsoidalHeights();
   if (!heights) return std::move(heights.error());
   // Flat triangles sink below the curved earth, and vertices are rounded: by no more than this.
-  const double margin = coarsest.geometric_error_m + coarsest.quantization_step_m;
+  const double margin = coarsest.geometric_error_m + coarsest.side_step_m;
   region.min_height_m = (*heights)[0] - margin;
   region.max_height_m = (*heights)[1] + margin;
   return region;
@@ -106,28 +107,25 @@ LevelAsked AskedOf(const LevelPlan& plan, const std::vector<Lod>& chain, std::si
 
 Result<WrittenLevels> WriteLevels(const LevelContext& context, const LevelPlan& plan,
                                   const std::vector<Lod>& chain, const BuildOptions& options,
-                                  ArtifactWriter& writer) {
+                                  ArtifactWriter& writer, ReportPage& page) {
   WrittenLevels written = {{}, MeshRegion(context.georeference)};
   std::vector<LevelReport>& reports = written.reports;
   for (std::size_t i = 0; i < chain.size(); ++i) {
     const RunControl control = LevelControl(context.control, i, chain.size());
-    const int number = static_cast<int>(i);
+    const LevelStorage storage = {plan.finest_side_m, CoarsenessOf(plan, context.terrain.dem(), i),
+                                  Asks(options, "3dtiles"), Asks(options, "drc")};
     Result<LevelArtifact> level =
-        EncodeLevel(context.With(control), chain[i], number, LatticeStep(plan, number));
+        EncodeLevel(context.With(control), chain[i], static_cast<int>(i), storage);
     if (!level) return std::move(level.error());
     level->report.asked = AskedOf(plan, chain, i);
     const std::string name = "lod" + std::to_string(i);
-    if (Asks(options, "3dtiles")) {
+    if (storage.glb) {
       Status added = writer.Add(name + ".glb", AsText(level->glb));
       if (!added) return std::move(added.error());
-    } else {
-      level->report.glb_bytes = 0;
     }
-    if (Asks(options, "drc")) {
+    if (storage.drc) {
       Status added = writer.Add(name + ".drc", AsText(level->drc));
       if (!added) return std::move(added.error());
-    } else {
-      level->report.drc_bytes = 0;
     }
     // Clients refine towards smaller errors: no level may claim a smaller error than a finer one.
     if (i > 0) {
@@ -136,6 +134,7 @@ Result<WrittenLevels> WriteLevels(const LevelContext& context, const LevelPlan& 
     }
     reports.push_back(level->report);
     if (Status added = written.region.Add(level->mesh); !added) return std::move(added.error());
+    if (Status drawn = page.AddLevel(level->mesh); !drawn) return std::move(drawn.error());
   }
   return written;
 }
@@ -171,7 +170,10 @@ Status BuildArtifacts(const fs::path& dem, const fs::path& directory, const Buil
   MeshMeasurer measurer((*input)->terrain(), *horizon, *std::move(places));
   const LevelContext context{
       (*input)->terrain(), *horizon, (*input)->georeference(), *normals, measurer, control};
-  Result<WrittenLevels> levels = WriteLevels(context, *plan, *chain, options, writer);
+  Result<ReportPage> page =
+      ReportPage::Start((*input)->terrain(), (*input)->georeference(), *horizon);
+  if (!page) return std::move(page.error());
+  Result<WrittenLevels> levels = WriteLevels(context, *plan, *chain, options, writer, *page);
   if (!levels) return std::move(levels.error());
   if (Asks(options, "3dtiles")) {
     Status tileset = WriteTilesetFor(**input, *levels, writer);
@@ -191,6 +193,10 @@ Status BuildArtifacts(const fs::path& dem, const fs::path& directory, const Buil
                       levels->reports};
   Status reported = writer.Add("report.json", WriteReport(report));
   if (!reported) return reported;
+  Result<std::string> html = page->Write({report, *features, writer.entries(), control.Timings()});
+  if (!html) return std::move(html.error());
+  Status shown = writer.Add("report.html", *html);
+  if (!shown) return shown;
   Status finished = writer.Finish();
   control.Report(Stage::kWrite, 1);
   return finished;

@@ -4,11 +4,13 @@
 #include "core/pipeline/level_artifact.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "core/io/draco_mesh.h"
 #include "core/io/glb.h"
 #include "core/measure/covers.h"
+#include "core/pipeline/level_lattice.h"
 
 namespace farhorizon {
 
@@ -64,6 +66,54 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> KeptInDecoded(const Horizon
   return pairs;
 }
 
+// Gives the vertices of `decoded`, whose stream has no posts, those of the vertices of `mesh` at
+// the same place. Where no triangle is flat, no two posts share a place.
+void NamePosts(const LocalMesh& mesh, LocalMesh& decoded) {
+  using Place = std::array<double, 3>;
+  const auto place = [](const Enu& p) -> Place { return {p.east, p.north, p.up}; };
+  std::vector<std::pair<Place, std::uint32_t>> posts;
+  posts.reserve(mesh.positions.size());
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    posts.emplace_back(place(mesh.positions[i]), mesh.posts[i]);
+  }
+  std::sort(posts.begin(), posts.end());
+  decoded.posts.reserve(decoded.positions.size());
+  for (const Enu& p : decoded.positions) {
+    const auto at =
+        std::lower_bound(posts.begin(), posts.end(), std::pair(place(p), std::uint32_t{0}));
+    Check(at != posts.end() && at->first == place(p),
+          "Draco gives lattice positions back as they are");
+    decoded.posts.push_back(at->second);
+  }
+}
+
+// The streams of a level. decoded: what is in the files, with posts.
+struct Encoded {
+  std::vector<std::uint8_t> glb_stream;
+  std::vector<std::uint8_t> drc;
+  DecodedMesh decoded;
+};
+
+// Requires: mesh.positions lie on the lattice.
+Result<Encoded> Encode(const LocalMesh& mesh, const QuantizationLattice& lattice,
+                       const LevelStorage& storage) {
+  Encoded encoded;
+  if (storage.drc) {
+    Result<std::vector<std::uint8_t>> drc = EncodeDraco(mesh, lattice, DracoPosts::kWritten);
+    if (!drc) return std::move(drc.error());
+    encoded.drc = *std::move(drc);
+  }
+  // Levels are measured even where no file of theirs is asked for.
+  Result<std::vector<std::uint8_t>> stream = EncodeDraco(mesh, lattice, DracoPosts::kLeftOut);
+  if (!stream) return std::move(stream.error());
+  encoded.glb_stream = *std::move(stream);
+  Result<DecodedMesh> decoded = DecodeDraco(encoded.glb_stream);
+  if (!decoded) return std::move(decoded.error());
+  encoded.decoded = *std::move(decoded);
+  NamePosts(mesh, encoded.decoded.mesh);
+  return encoded;
+}
+
 }  // namespace
 
 Result<LevelReport> MeasureLevel(const LevelContext& context, const LocalMesh& decoded, int level,
@@ -101,36 +151,44 @@ Result<LevelReport> MeasureLevel(const LevelContext& context, const LocalMesh& d
   report.vertices = static_cast<std::int64_t>(decoded.positions.size());
   report.vertical = {RoundUp(error->vertical.max_m), RoundUp(error->vertical.rms_m)};
   report.silhouette = {RoundUp(error->silhouette.max_m), RoundUp(error->silhouette.rms_m)};
+  report.rim_m = RoundUp(error->rim_m);
+  report.facet_angle_deg = RoundUp(error->facet_angle_rms_deg);
+  report.needle_share = RoundUp(error->needle_share);
   report.geometric_error_m = report.vertical.max_m;
   report.quantization_step_m = step_m;
   return report;
 }
 
 Result<LevelArtifact> EncodeLevel(const LevelContext& context, const Lod& lod, int level,
-                                  double step_m) {
+                                  const LevelStorage& storage) {
   context.control.Report(Stage::kEncode, 0);
   Result<LocalMesh> local = ToLocal(context, lod.mesh);
   if (!local) return std::move(local.error());
-  const QuantizationLattice lattice = ChooseLattice(local->positions, step_m);
+  LatticeSteps steps =
+      StepsOfLevel(storage.finest_side_m, context.georeference, lod, storage.coarseness);
+  Result<QuantizationLattice> lattice =
+      RoundToLattice(context.terrain.dem(), context.georeference.frame(), steps, *local);
+  if (!lattice) return std::move(lattice.error()).WithContext("level " + std::to_string(level));
+  Result<Encoded> encoded = Encode(*local, *lattice, storage);
+  if (!encoded) return std::move(encoded.error());
   LevelArtifact artifact;
-  Result<std::vector<std::uint8_t>> drc = EncodeDraco(*local, lattice);
-  if (!drc) return std::move(drc.error());
-  artifact.drc = *std::move(drc);
-  Result<DecodedMesh> decoded = DecodeDraco(artifact.drc);
-  if (!decoded) return std::move(decoded.error());
-  artifact.glb =
-      WriteGlb(artifact.drc, *decoded, KeptInDecoded(context.horizon, lod, decoded->mesh));
+  if (storage.glb) {
+    artifact.glb = WriteGlb(encoded->glb_stream, encoded->decoded,
+                            KeptInDecoded(context.horizon, lod, encoded->decoded.mesh));
+  }
+  artifact.drc = std::move(encoded->drc);
   context.control.Report(Stage::kEncode, 1);
-  Result<LevelReport> report = MeasureLevel(context, decoded->mesh, level, lattice.step_m);
+  Result<LevelReport> report = MeasureLevel(context, encoded->decoded.mesh, level, lattice->step_m);
   if (!report) {
     return std::move(report.error()).WithContext("level " + std::to_string(level));
   }
   artifact.report = *std::move(report);
   artifact.report.exact = lod.exact;
+  artifact.report.side_step_m = steps.sides_m;
   artifact.report.horizon_edges = static_cast<std::int64_t>(lod.kept.size());
   artifact.report.glb_bytes = static_cast<std::int64_t>(artifact.glb.size());
   artifact.report.drc_bytes = static_cast<std::int64_t>(artifact.drc.size());
-  artifact.mesh = std::move(decoded->mesh);
+  artifact.mesh = std::move(encoded->decoded.mesh);
   return artifact;
 }
 

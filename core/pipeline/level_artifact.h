@@ -7,7 +7,6 @@
 #include "core/base/run_control.h"
 #include "core/horizon/horizon.h"
 #include "core/io/local_mesh.h"
-#include "core/io/quantization_lattice.h"
 #include "core/measure/mesh_error.h"
 #include "core/pipeline/georeference.h"
 #include "core/pipeline/post_normals.h"
@@ -40,19 +39,28 @@ inline RunControl LevelControl(const RunControl& control, std::size_t i, std::si
   return control.Between(share(i), share(i + 1));
 }
 
+/// How a level is to be stored.
+///
+/// finest_side_m, coarseness: as StepsOfLevel has them. glb, drc: which files are asked for.
+struct LevelStorage {
+  double finest_side_m = 0;
+  int coarseness = 0;
+  bool glb = true;
+  bool drc = true;
+};
+
 /// A level as it is stored, and the measures of the mesh that it decodes to.
 struct LevelArtifact {
-  std::vector<std::uint8_t> drc;
-  std::vector<std::uint8_t> glb;
-  LocalMesh mesh;      ///< what both decode to
-  LevelReport report;  ///< all but `asked`
+  std::vector<std::uint8_t> drc;  ///< empty where it is not asked for
+  std::vector<std::uint8_t> glb;  ///< likewise
+  LocalMesh mesh;                 ///< what both decode to
+  LevelReport report;             ///< all but `asked`
 };
 
 /// Encodes one level and measures it on the decoded mesh.
-/// step_m: its lattice's, at most, where 16 bits reach over the level.
-/// Errors: those of Georeference::ToEnu, EncodeDraco and MeasureLevel.
+/// Errors: those of Georeference::ToEnu, RoundToLattice, EncodeDraco and MeasureLevel.
 Result<LevelArtifact> EncodeLevel(const LevelContext& context, const Lod& lod, int level,
-                                  double step_m);
+                                  const LevelStorage& storage);
 
 /// The three errors and the counts of a decoded mesh; exact, horizon_edges, bytes and what was
 /// asked are left to the caller.

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "core/io/quantization_lattice.h"
-#include "core/terrain/height_range.h"
+#include "core/pipeline/level_lattice.h"
 
 namespace farhorizon {
 
@@ -43,18 +43,19 @@ Result<std::vector<Enu>> ReachOf(const Terrain& terrain, const Georeference& geo
 
 // The sum of the terrain's steepest slopes along rows and along columns, metres up per metre.
 double SteepestSlopes(const TerrainInput& input) {
-  const double quantum_m = input.dem().quantum_m;
   double by_column = 0;
   double by_row = 0;
-  for (const Edge& edge : input.terrain().Edges()) {
-    const Point3i a = input.terrain().Point(edge.a);
-    const Point3i b = input.terrain().Point(edge.b);
-    const double rise_m = std::abs(static_cast<double>(b.z) - a.z) * quantum_m;
-    // Every triangle has a side along each axis: these are the gradient's components.
-    if (a.y == b.y) by_column = std::max(by_column, rise_m / input.georeference().column_step_m());
-    if (a.x == b.x) by_row = std::max(by_row, rise_m / input.georeference().row_step_m());
+  const Dem& dem = input.dem();
+  const auto rise = [&dem](VertexId a, VertexId b) {
+    return dem.HasData(a) && dem.HasData(b) ? std::abs(dem.HeightM(b) - dem.HeightM(a)) : 0;
+  };
+  // Every triangle has a side along each axis: these are the gradient's components.
+  for (VertexId v = 0; v < input.terrain().post_count(); ++v) {
+    if (dem.Column(v) + 1 < dem.columns) by_column = std::max(by_column, rise(v, v + 1));
+    if (dem.Row(v) + 1 < dem.rows) by_row = std::max(by_row, rise(v, v + dem.columns));
   }
-  return by_column + by_row;
+  return by_column / input.georeference().column_step_m() +
+         by_row / input.georeference().row_step_m();
 }
 
 // The most that rounding a vertex changes the height over a fixed point of the plan: half a step up
@@ -77,10 +78,10 @@ Result<LevelPlan> PlanLevels(const TerrainInput& input, const BuildOptions& opti
   plan.lods.column_bend = column_m * column_m / (2 * kEarthRadiusM);
   plan.lods.row_bend = row_m * row_m / (2 * kEarthRadiusM);
   const double cell_m = std::sqrt(column_m * row_m);
-  plan.finest_step_m = cell_m / 1024;
+  plan.finest_side_m = FinestSideStep(input.georeference(), options.max_error_m.value_or(0));
   Result<std::vector<Enu>> reach = ReachOf(input.terrain(), input.georeference());
   if (!reach) return std::move(reach.error());
-  const double step_m = ChooseLattice(*reach, plan.finest_step_m).step_m;
+  const double step_m = ChooseLattice(*reach, plan.finest_side_m).step_m;
   plan.lods.triangles = options.triangles;
   if (!options.triangles.empty()) return plan;
 
@@ -92,14 +93,25 @@ Result<LevelPlan> PlanLevels(const TerrainInput& input, const BuildOptions& opti
   if (lost >= plan.max_error_m) {
     return Error{ErrorCode::kInvalidArgument,
                  "a vertical error of " + Metres(plan.max_error_m) +
-                     " is finer than positions in 16 bits, which are " + Metres(step_m) +
-                     " apart over this DEM; ask for " + Metres(std::ceil(2 * lost)) + " or more",
+                     " is finer than positions in " + std::to_string(kMaxLatticeBits) +
+                     " bits, which are " + Metres(step_m) + " apart over this DEM; ask for " +
+                     Metres(2 * lost) + " or more",
                  "max-error-too-small"};
   }
   plan.lods.levels = options.levels;
   plan.lods.max_error_m = std::max(plan.max_error_m - lost, plan.max_error_m / 2);
   plan.lods.silhouette_error_m = options.silhouette_error_m;
   return plan;
+}
+
+int CoarsenessOf(const LevelPlan& plan, const Dem& dem, std::size_t level) {
+  if (plan.lods.triangles.empty()) return static_cast<int>(level);
+  // Level 0 by size has some 0.2 of all triangles, each further one 2/5 of the one before it.
+  const double all = 2.0 * (dem.columns - 1) * (dem.rows - 1);
+  const double share = static_cast<double>(plan.lods.triangles[level]) / all;
+  int coarseness = 0;
+  for (double next = 0.4 * 0.4; share <= next; next *= 0.4) ++coarseness;
+  return coarseness;
 }
 
 }  // namespace farhorizon

@@ -192,8 +192,8 @@ class PlacementCheck {
     const std::string what = "cells at column " + std::to_string(dem_.Column(v)) + ", row " +
                              std::to_string(dem_.Row(v)) + " are " + Number(*least, "%.3g") +
                              " m wide on the ground in " + georeference_.CrsName() +
-                             ", positions in 16 bits over this DEM are " + Number(step_m_, "%.3g") +
-                             " m apart; ";
+                             ", positions in " + std::to_string(kMaxLatticeBits) +
+                             " bits over this DEM are " + Number(step_m_, "%.3g") + " m apart; ";
     if (georeference_.FullTurn() > 0 && LatitudeShare(dem_.Row(v)) > kPolar) {
       return NearThePole(v, what);
     }

@@ -14,7 +14,7 @@ namespace farhorizon {
 inline constexpr double kMostDegreesFromMiddle = 20;
 
 /// Checks on a sample of posts, the outermost among them, that the DEM has a place on the globe
-/// that one local frame and positions of 16 bits can show.
+/// that one local frame and positions of kMaxLatticeBits can show.
 /// Errors: kUnsupportedData: kind "too-large-extent"; kind "cells-too-narrow" where posts lie
 ///   closer to one another than positions can tell, as at a pole; kind "outside-crs" where posts
 ///   are beyond a pole, do not come back from the globe, or have coordinates that look like the

@@ -14,6 +14,12 @@ using Json = nlohmann::ordered_json;
 
 Json ToJson(const ErrorMeasure& error) { return {{"max", error.max_m}, {"rms", error.rms_m}}; }
 
+Json ToJson(const ErrorMeasure& silhouette, double rim_m) {
+  Json json = ToJson(silhouette);
+  json["rim"] = rim_m;
+  return json;
+}
+
 ErrorMeasure ReadMeasure(const Json& json) {
   return {json.at("max").get<double>(), json.at("rms").get<double>()};
 }
@@ -131,9 +137,12 @@ Json ToJson(const LevelReport& level) {
           {"horizon_edges", level.horizon_edges},
           {"asked", ToJson(level.asked)},
           {"vertical_error_m", ToJson(level.vertical)},
-          {"silhouette_error_m", ToJson(level.silhouette)},
+          {"silhouette_error_m", ToJson(level.silhouette, level.rim_m)},
+          {"facet_angle_deg", level.facet_angle_deg},
+          {"needle_share", level.needle_share},
           {"geometric_error_m", level.geometric_error_m},
           {"quantization_step_m", level.quantization_step_m},
+          {"side_step_m", level.side_step_m},
           {"glb_bytes", level.glb_bytes},
           {"drc_bytes", level.drc_bytes}};
 }
@@ -148,8 +157,12 @@ LevelReport ReadLevel(const Json& json) {
   level.asked = ReadAsked(json.at("asked"));
   level.vertical = ReadMeasure(json.at("vertical_error_m"));
   level.silhouette = ReadMeasure(json.at("silhouette_error_m"));
+  json.at("silhouette_error_m").at("rim").get_to(level.rim_m);
+  json.at("facet_angle_deg").get_to(level.facet_angle_deg);
+  json.at("needle_share").get_to(level.needle_share);
   json.at("geometric_error_m").get_to(level.geometric_error_m);
   json.at("quantization_step_m").get_to(level.quantization_step_m);
+  json.at("side_step_m").get_to(level.side_step_m);
   json.at("glb_bytes").get_to(level.glb_bytes);
   json.at("drc_bytes").get_to(level.drc_bytes);
   return level;

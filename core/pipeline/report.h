@@ -35,8 +35,10 @@ struct LevelAsked {
 
 /// One level, measured on its decoded mesh: a member of `levels` of report.json.
 ///
-/// exact: before vertices were rounded to be encoded, its skyline was the DEM's. glb_bytes,
-/// drc_bytes: 0 where there is no such file.
+/// exact: before vertices were rounded to be encoded, its skyline was the DEM's. vertical,
+/// silhouette, rim_m, facet_angle_deg (root mean square), needle_share: as MeshError has them.
+/// quantization_step_m, side_step_m: positions are multiples of the former, those on the tile's
+/// four sides of the latter. glb_bytes, drc_bytes: 0 where there is no such file.
 struct LevelReport {
   int level = 0;
   bool exact = false;
@@ -46,8 +48,12 @@ struct LevelReport {
   LevelAsked asked;
   ErrorMeasure vertical;
   ErrorMeasure silhouette;
+  double rim_m = 0;
+  double facet_angle_deg = 0;
+  double needle_share = 0;
   double geometric_error_m = 0;
   double quantization_step_m = 0;
+  double side_step_m = 0;
   std::int64_t glb_bytes = 0;
   std::int64_t drc_bytes = 0;
 };

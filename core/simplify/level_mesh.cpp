@@ -1,9 +1,40 @@
 #include "core/simplify/level_mesh.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace farhorizon {
+
+namespace {
+
+double VerticalRms(const HalfEdgeMesh& mesh) {
+  const PostSquares plain(mesh.ground());  // no slopes, no limit
+  double sum = 0;
+  for (std::int32_t h = 0; h < mesh.half_edges(); ++h) {
+    if (!mesh.Stands(h / 3)) continue;
+    const auto at = [&](std::int32_t k) { return mesh.at(mesh.origin(k)); };
+    const std::int32_t next = HalfEdgeMesh::Next(h);
+    if (h % 3 == 0) sum += static_cast<double>(plain.Of(at(h), at(h + 1), at(h + 2)));
+    if (mesh.twin(h) == HalfEdgeMesh::kNone) {
+      sum += static_cast<double>(plain.OfRim(at(h), at(next)));
+    }
+  }
+  return std::sqrt(sum / mesh.vertices());
+}
+
+double SilhouetteRms(const SampledSkyline& skyline) {
+  double sum = 0;
+  std::int64_t lines = 0;
+  for (std::int32_t line = 0; line < skyline.pencils().lines(); ++line) {
+    if (!skyline.Counts(line)) continue;
+    sum += static_cast<double>(skyline.Square(line, skyline.top(line)));
+    ++lines;
+  }
+  return lines > 0 ? std::sqrt(sum / static_cast<double>(lines)) : 0;
+}
+
+}  // namespace
 
 Lod LevelOf(const Workpiece& work, const std::vector<SidePosts::Height>& sides) {
   const HalfEdgeMesh& mesh = work.mesh;
@@ -31,6 +62,8 @@ Lod LevelOf(const Workpiece& work, const std::vector<SidePosts::Height>& sides) 
   }
   lod.kept = work.rules.KeptIn(mesh);
   lod.exact = !work.rules.allows_rises();
+  lod.vertical_rms_m = VerticalRms(mesh);
+  lod.silhouette_rms_m = lod.exact ? 0 : SilhouetteRms(work.skyline);
   return lod;
 }
 

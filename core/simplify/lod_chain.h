@@ -34,10 +34,14 @@ struct LodPlan {
 /// kept: the horizon edges that are edges of this mesh in plan, by their index in horizon.edges,
 ///   rising.
 /// exact: the mesh has all of them at the DEM's heights, and its skyline is the DEM's.
+/// vertical_rms_m, silhouette_rms_m: as simplifying sees them, at posts in the tile's frame and over
+///   the lines that it samples. Estimates, for who has to round the mesh; core/measure measures.
 struct Lod {
   PostMesh mesh;
   std::vector<std::int32_t> kept;
   bool exact = false;
+  double vertical_rms_m = 0;
+  double silhouette_rms_m = 0;
 };
 
 /// A chain of meshes, level 0 the finest (core/simplify/README.md).

@@ -32,6 +32,7 @@ int Run(const BuildArguments& arguments) {
     StageTimer timer;
     RunControl control = run.control;
     control.progress = timer.Listen(run.control.progress);
+    if (!arguments.timings.empty()) control.timings = [&timer] { return timer.Seconds(); };
     Status built = BuildArtifacts(arguments.dem.path, arguments.directory, run.options, control);
     if (built && !arguments.timings.empty()) built = WriteTimings(arguments.timings, timer);
     return built;
@@ -50,7 +51,9 @@ void AddBuild(CLI::App& app, SelectedCommand& selected) {
       ->type_name("DIR");
   AddBuildFlags(*command, arguments->dem.flags);
   AddRunFlags(*command, arguments->dem);
-  command->add_option("--timings", arguments->timings, "write seconds by stage, as JSON")
+  command
+      ->add_option("--timings", arguments->timings,
+                   "write seconds by stage, as JSON, and into report.html, too")
       ->type_name("FILE");
   command->callback([arguments, &selected] { selected = [arguments] { return Run(*arguments); }; });
 }

@@ -52,6 +52,20 @@ HttpResponse ListResults(const HandlerContext& context, const HttpRequest& reque
   return JsonResponse(document);
 }
 
+// For a page, the one artifact that a browser shows and runs: its own script and style, no loads,
+// no origin. Whatever a stranger's DEM brought into the page would not reach this service in the
+// reader's name. A page names its script's hash itself; here are pages of all versions.
+constexpr const char* kPagePolicy =
+    "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'; "
+    "base-uri 'none'; form-action 'none'; frame-ancestors 'none'; sandbox allow-scripts";
+
+void SetDisposition(HttpResponse& response, const Artifact& artifact) {
+  const bool page = MediaTypeIn(artifact.media_type) == "text/html";
+  response.Set("Content-Disposition", std::string(page ? "inline" : "attachment") +
+                                          "; filename=\"" + artifact.name + "\"");
+  if (page) response.Set("Content-Security-Policy", kPagePolicy);
+}
+
 HttpResponse SendArtifact(const HttpRequest& request, OpenArtifact open) {
   const Artifact& artifact = open.artifact;
   const std::string etag = "\"" + artifact.sha256 + "\"";
@@ -74,7 +88,7 @@ HttpResponse SendArtifact(const HttpRequest& request, OpenArtifact open) {
   if (selection.status == 304) return response;
   response.Set("Content-Type", artifact.media_type);
   response.Set("Accept-Ranges", "bytes");
-  response.Set("Content-Disposition", "attachment; filename=\"" + artifact.name + "\"");
+  SetDisposition(response, artifact);
   if (selection.status == 206) {
     response.Set("Content-Range", "bytes " + std::to_string(selection.offset) + "-" +
                                       std::to_string(selection.offset + selection.bytes - 1) + "/" +

@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "core/pipeline/build.h"
+#include "core/pipeline/build_options.h"
 #include "service/handlers/json.h"
 #include "service/handlers/json_parameters.h"
 #include "service/handlers/problem.h"

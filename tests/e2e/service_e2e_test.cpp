@@ -176,6 +176,24 @@ TEST_F(ServiceE2e, BadInputIsRefusedBeforeTheJobAndLeavesNothing) {
   EXPECT_TRUE(json::parse(Ask(port_, "GET", "/jobs").body)["jobs"].empty());
 }
 
+TEST_F(ServiceE2e, ShowsAPageUnderAPolicyThatShutsItIn) {
+  Start();
+  const RawAnswer answer = Ask(port_, "POST", "/jobs?crs=EPSG:4326&levels=1&filename=a.asc",
+                               "Content-Type: application/octet-stream\r\n", SmallGrid());
+  const std::string job = "/jobs/" + json::parse(answer.body).value("jobID", "");
+  ASSERT_EQ(WaitForEnd(job), "successful");
+  const json links = json::parse(Ask(port_, "GET", job + "/results").body);
+  EXPECT_EQ(links["report.html"]["type"], "text/html; charset=utf-8");
+  const std::string page = Ask(port_, "GET", job + "/results/report.html").head;
+  EXPECT_THAT(page, testing::HasSubstr("Content-Type: text/html; charset=utf-8\r\n"));
+  EXPECT_THAT(page, testing::HasSubstr("Content-Disposition: inline; filename=\"report.html\""));
+  EXPECT_THAT(page, testing::HasSubstr("Content-Security-Policy: default-src 'none';"));
+  EXPECT_THAT(page, testing::HasSubstr("sandbox allow-scripts"));
+  const std::string report = Ask(port_, "GET", job + "/results/report.json").head;
+  EXPECT_THAT(report, testing::HasSubstr("Content-Disposition: attachment"));
+  EXPECT_THAT(report, testing::Not(testing::HasSubstr("Content-Security-Policy")));
+}
+
 TEST_F(ServiceE2e, ServesPartsAndKnowsWhatTheClientHas) {
   StartStandIn();
   const std::string job = Submit("good.asc");

@@ -48,15 +48,18 @@ declare -A may=(
   [core/io/dem]="core/base core/geometry core/terrain core/geo core/io core/io/text_grid core/io/raster"
   [core/pipeline]="$below_pipeline"
   [core/pipeline/verify]="$below_pipeline core/pipeline"
+  [core/pipeline/report_page]="$below_pipeline core/pipeline"
+  # What stands above the rooms of core/pipeline: the build itself.
+  [core/pipeline/build]="$below_pipeline core/pipeline core/pipeline/report_page"
   # The service's own root: clock, log, and the wrapper header of Asio. main.cpp is below.
   [service]="core/base"
-  [service/worker]="core/base core/io core/pipeline service"
+  [service/worker]="core/base core/io core/pipeline core/pipeline/build service"
   [service/jobs]="core/base core/io core/pipeline service service/worker"
   [service/handlers]="core/base core/io core/io/file_kind core/pipeline service service/jobs"
   [service/http]="core/base service service/handlers"
   # The configuration consists of the options of the parts, so it stands above them.
   [service/config]="core/base service service/worker service/jobs service/http"
-  [service/cli]="core/base core/io core/pipeline service service/worker service/jobs service/handlers service/http core/pipeline/verify core/horizon core/horizon/search service/config"
+  [service/cli]="core/base core/io core/pipeline core/pipeline/build service service/worker service/jobs service/handlers service/http core/pipeline/verify core/horizon core/horizon/search service/config"
   [service/main.cpp]="core/base service service/cli"
 )
 
@@ -91,6 +94,7 @@ folder_of() {
     service/main.cpp) echo "$1" ;;
     core/horizon/find_horizon.* | core/horizon/candidate_decider.* | core/horizon/join_horizons.*)
       echo core/horizon/search ;;
+    core/pipeline/build.*) echo core/pipeline/build ;;
     *) dirname "$1" ;;
   esac
 }

@@ -29,10 +29,10 @@ class Claims {
   }
 
   /// Checks that an error, in metres, is no greater than claimed.
-  void AtMost(const std::string& what, double claimed, double found) {
+  void AtMost(const std::string& what, double claimed, double found, const char* unit = "m") {
     std::ostringstream line;
     line.precision(10);
-    line << what << ": claimed " << claimed << " m, found " << found << " m";
+    line << what << ": claimed " << claimed << " " << unit << ", found " << found << " " << unit;
     Add(found <= claimed, line.str());
   }
 

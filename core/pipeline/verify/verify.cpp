@@ -188,8 +188,8 @@ Result<std::vector<ClaimCheck>> VerifyArtifacts(const fs::path& dem, const fs::p
   Result<PostPlaces> places = FindPostPlaces((*input)->terrain(), (*input)->georeference());
   if (!places) return std::move(places.error());
   MeshMeasurer measurer((*input)->terrain(), *horizon, *std::move(places));
-  const LevelContext context{(*input)->terrain(), *horizon, (*input)->georeference(), *normals,
-                             measurer, control};
+  const LevelContext context{
+      (*input)->terrain(), *horizon, (*input)->georeference(), *normals, measurer, control};
   VerifyLevels(context, directory, *report, published, claims);
   if (Has(report->levels, &LevelReport::glb_bytes)) {
     VerifyTileset(**input, directory, *report, claims);

@@ -1,14 +1,21 @@
-// A level from its files: the Draco stream out of the GLB or the .drc, decoded, measured by the
-// code that the build measures with, and compared with the report and with the GLB's own numbers.
+// A level from its files: the Draco streams of the GLB and of the .drc, decoded, compared with one
+// another and with the GLB's own numbers; the mesh measured by the code that the build measures
+// with, and compared with the report.
 #include "core/pipeline/verify/verify_level.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "core/io/file.h"
 #include "core/io/glb.h"
+#include "core/pipeline/mesh_orientation.h"
+#include "core/terrain/border.h"
 
 namespace farhorizon {
 
@@ -23,77 +30,73 @@ std::optional<std::vector<std::uint8_t>> Load(const std::filesystem::path& path,
   return std::vector<std::uint8_t>(text->begin(), text->end());
 }
 
-// The Draco stream of a level, from its GLB and its .drc, which must be one and the same.
-struct Stream {
-  std::vector<std::uint8_t> draco;
-  std::optional<GlbContents> glb;
+// A vertex that is not near any post of the DEM stands for none.
+constexpr std::uint32_t kNoPost = std::numeric_limits<std::uint32_t>::max();
+
+// Names the vertices of a mesh whose stream has no posts: each stands for the nearest one.
+Status NamePosts(const LevelContext& context, LocalMesh& mesh) {
+  const Dem& dem = context.terrain.dem();
+  Result<std::vector<GridPoint>> points = context.georeference.ToGrid(mesh.positions);
+  if (!points) return std::move(points.error());
+  mesh.posts.clear();
+  for (const GridPoint& p : *points) {
+    const double column = std::nearbyint(p.column);
+    const double row = std::nearbyint(p.row);
+    const bool inside = column >= 0 && column < dem.columns && row >= 0 && row < dem.rows;
+    mesh.posts.push_back(inside ? static_cast<std::uint32_t>(row * dem.columns + column) : kNoPost);
+  }
+  return Ok{};
+}
+
+std::optional<DecodedMesh> Decode(const std::string& name, const std::vector<std::uint8_t>& bytes,
+                                  Claims& claims) {
+  Result<DecodedMesh> decoded = DecodeDraco(bytes);
+  claims.Add(decoded.has_value(),
+             name + " decodes as Draco" + (decoded ? "" : ": " + decoded.error().message));
+  if (!decoded) return std::nullopt;
+  return *std::move(decoded);
+}
+
+// Triangles by post, each from its least one on, and the places of all posts: what two streams of
+// one mesh share, whatever their order.
+struct MeshContents {
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<std::tuple<std::uint32_t, double, double, double>> places;
+  friend bool operator==(const MeshContents&, const MeshContents&) = default;
 };
 
-std::optional<Stream> LoadStream(const std::filesystem::path& directory, const std::string& name,
-                                 const LevelReport& claimed, Claims& claims) {
-  Stream stream;
-  if (claimed.glb_bytes > 0) {
-    const auto bytes = Load(directory / (name + ".glb"), claims);
-    if (!bytes) return std::nullopt;
-    claims.Same(name + ".glb bytes", claimed.glb_bytes, static_cast<std::int64_t>(bytes->size()));
-    Result<GlbContents> glb = ReadGlb(*bytes);
-    claims.Add(glb.has_value(), name + ".glb is a binary glTF with a Draco mesh" +
-                                    (glb ? "" : ": " + glb.error().message));
-    if (!glb) return std::nullopt;
-    stream.draco = glb->draco;
-    stream.glb = *std::move(glb);
+MeshContents ContentsOf(const LocalMesh& mesh) {
+  MeshContents contents;
+  for (const auto& t : mesh.triangles) {
+    auto& posts = contents.triangles.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) posts[k] = mesh.posts[t[k]];
+    std::ranges::rotate(posts, std::ranges::min_element(posts));
   }
-  if (claimed.drc_bytes > 0) {
-    const auto bytes = Load(directory / (name + ".drc"), claims);
-    if (!bytes) return std::nullopt;
-    claims.Same(name + ".drc bytes", claimed.drc_bytes, static_cast<std::int64_t>(bytes->size()));
-    if (stream.glb) claims.Add(*bytes == stream.draco, name + ".glb carries the bytes of the .drc");
-    stream.draco = *bytes;
+  for (std::size_t i = 0; i < mesh.posts.size(); ++i) {
+    const Enu& p = mesh.positions[i];
+    contents.places.emplace_back(mesh.posts[i], p.east, p.north, p.up);
   }
-  if (stream.draco.empty()) return std::nullopt;
-  return stream;
+  std::ranges::sort(contents.triangles);
+  std::ranges::sort(contents.places);
+  const auto repeated = std::ranges::unique(contents.places);
+  contents.places.erase(repeated.begin(), repeated.end());
+  return contents;
 }
 
 void VerifyAccessors(const std::string& name, const GlbContents& glb, const DecodedMesh& decoded,
                      Claims& claims) {
   const LocalMesh& mesh = decoded.mesh;
-  claims.Same(name + ".glb POSITION count", glb.vertex_count,
+  claims.Same(name + " POSITION count", glb.vertex_count,
               static_cast<std::int64_t>(mesh.positions.size()));
-  claims.Same(name + ".glb NORMAL count", glb.normal_count,
+  claims.Same(name + " NORMAL count", glb.normal_count,
               static_cast<std::int64_t>(mesh.normals.size()));
-  claims.Same(name + ".glb indices count", glb.index_count,
+  claims.Same(name + " indices count", glb.index_count,
               static_cast<std::int64_t>(3 * mesh.triangles.size()));
   const LatticeBox box = LatticeBoxOf(mesh.positions, decoded.lattice);
   claims.Add(glb.min == box.least && glb.max == box.greatest,
-             name + ".glb POSITION min and max are those of the decoded mesh");
+             name + " POSITION min and max are those of the decoded mesh");
   claims.Add(glb.matrix == GltfMatrix(decoded.lattice),
-             name + ".glb has the lattice of its Draco stream in the node's matrix");
-}
-
-// The direction of `p` along which heights are counted, unscaled: the normal of the ellipsoid
-// through p. From the surface up it is (x, y, z / (1 - e^2)); at 9 km it is off by less than 5e-6.
-Enu Upwards(const Enu& p, const TangentFrame& frame) {
-  constexpr double kOneLessE2 = 1 - 0.00669437999014;  // WGS 84
-  const Ecef at = frame.ToEcef(p);
-  const Enu ahead = frame.ToEnu({at.x + at.x, at.y + at.y, at.z + at.z / kOneLessE2});
-  return {ahead.east - p.east, ahead.north - p.north, ahead.up - p.up};
-}
-
-// Whether every triangle runs counter-clockwise seen from above it. Above is not the frame's up
-// where a DEM is large and steep, and not away from the earth's centre where it is steep.
-bool AllTurnLeft(const LocalMesh& mesh, const TangentFrame& frame) {
-  return std::all_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const auto& t) {
-    const Enu& a = mesh.positions[t[0]];
-    const Enu& b = mesh.positions[t[1]];
-    const Enu& c = mesh.positions[t[2]];
-    const Enu u = {b.east - a.east, b.north - a.north, b.up - a.up};
-    const Enu v = {c.east - a.east, c.north - a.north, c.up - a.up};
-    const Enu up = Upwards(a, frame);
-    return (u.north * v.up - u.up * v.north) * up.east +
-               (u.up * v.east - u.east * v.up) * up.north +
-               (u.east * v.north - u.north * v.east) * up.up >
-           0;
-  });
+             name + " has the lattice of its Draco stream in the node's matrix");
 }
 
 // Every decoded normal is the mean of the DEM's, as nearly as Draco's bits tell.
@@ -125,24 +128,82 @@ std::vector<Edge> EdgesByPost(const LocalMesh& mesh) {
   return edges;
 }
 
+// The mesh of the GLB, with posts.
+std::optional<DecodedMesh> LoadGlb(const LevelContext& context,
+                                   const std::filesystem::path& directory,
+                                   const LevelReport& claimed, Claims& claims) {
+  const std::string name = "lod" + std::to_string(claimed.level) + ".glb";
+  const auto bytes = Load(directory / name, claims);
+  if (!bytes) return std::nullopt;
+  claims.Same(name + " bytes", claimed.glb_bytes, static_cast<std::int64_t>(bytes->size()));
+  Result<GlbContents> glb = ReadGlb(*bytes);
+  claims.Add(glb.has_value(), name + " is a binary glTF with a Draco mesh" +
+                                  (glb ? "" : ": " + glb.error().message));
+  if (!glb) return std::nullopt;
+  std::optional<DecodedMesh> decoded = Decode(name, glb->draco, claims);
+  if (!decoded) return std::nullopt;
+  VerifyAccessors(name, *glb, *decoded, claims);
+  Status named = NamePosts(context, decoded->mesh);
+  if (!named) claims.Add(false, name + ": " + named.error().message);
+  return named ? decoded : std::nullopt;
+}
+
+std::optional<DecodedMesh> LoadDrc(const std::filesystem::path& directory,
+                                   const LevelReport& claimed, Claims& claims) {
+  const std::string name = "lod" + std::to_string(claimed.level) + ".drc";
+  const auto bytes = Load(directory / name, claims);
+  if (!bytes) return std::nullopt;
+  claims.Same(name + " bytes", claimed.drc_bytes, static_cast<std::int64_t>(bytes->size()));
+  std::optional<DecodedMesh> decoded = Decode(name, *bytes, claims);
+  if (!decoded) return std::nullopt;
+  const bool posts = !decoded->mesh.posts.empty();
+  claims.Add(posts, name + " has its vertices' posts");
+  return posts ? decoded : std::nullopt;
+}
+
+// The mesh of the level's files.
+std::optional<DecodedMesh> LoadMesh(const LevelContext& context,
+                                    const std::filesystem::path& directory,
+                                    const LevelReport& claimed, Claims& claims) {
+  std::optional<DecodedMesh> glb;
+  std::optional<DecodedMesh> drc;
+  if (claimed.glb_bytes > 0) glb = LoadGlb(context, directory, claimed, claims);
+  if (claimed.drc_bytes > 0) drc = LoadDrc(directory, claimed, claims);
+  if (glb && drc) {
+    claims.Add(ContentsOf(glb->mesh) == ContentsOf(drc->mesh),
+               "lod" + std::to_string(claimed.level) + ".glb and .drc hold the same mesh");
+  }
+  return glb ? std::move(glb) : std::move(drc);
+}
+
+// Vertices on the tile's sides lie where a neighbour's do.
+void VerifySides(const LevelContext& context, const std::string& name, const LocalMesh& mesh,
+                 double step_m, Claims& claims) {
+  std::int64_t off = 0;
+  for (std::size_t i = 0; i < mesh.posts.size(); ++i) {
+    const auto post = static_cast<VertexId>(mesh.posts[i]);
+    if (mesh.posts[i] == kNoPost || !OnSide(context.terrain.dem(), post)) continue;
+    const Enu& p = mesh.positions[i];
+    for (const double x : {p.east, p.north, p.up}) off += std::fmod(x, step_m) == 0 ? 0 : 1;
+  }
+  claims.Same(name + " coordinates on sides that are no multiple of side_step_m", std::int64_t{0},
+              off);
+}
+
 }  // namespace
 
 std::vector<Edge> VerifyLevel(const LevelContext& context, const std::filesystem::path& directory,
                               const LevelReport& claimed, Claims& claims) {
   const std::string name = "lod" + std::to_string(claimed.level);
-  const std::optional<Stream> stream = LoadStream(directory, name, claimed, claims);
-  if (!stream) {
+  const std::optional<DecodedMesh> decoded = LoadMesh(context, directory, claimed, claims);
+  if (!decoded) {
     claims.Add(false, name + ": no mesh to measure");
     return {};
   }
-  Result<DecodedMesh> decoded = DecodeDraco(stream->draco);
-  claims.Add(decoded.has_value(),
-             name + " decodes as Draco" + (decoded ? "" : ": " + decoded.error().message));
-  if (!decoded) return {};
-  if (stream->glb) VerifyAccessors(name, *stream->glb, *decoded, claims);
   const LocalMesh& mesh = decoded->mesh;
   claims.Same(name + " lattice's step, metres", claimed.quantization_step_m,
               decoded->lattice.step_m);
+  VerifySides(context, name, mesh, claimed.side_step_m, claims);
   claims.Add(AllTurnLeft(mesh, context.georeference.frame()),
              name + ": no triangle is flipped or without area");
   Result<LevelReport> found =
@@ -157,6 +218,10 @@ std::vector<Edge> VerifyLevel(const LevelContext& context, const std::filesystem
   claims.AtMost(name + " vertical error, rms", claimed.vertical.rms_m, found->vertical.rms_m);
   claims.AtMost(name + " silhouette error, max", claimed.silhouette.max_m, found->silhouette.max_m);
   claims.AtMost(name + " silhouette error, rms", claimed.silhouette.rms_m, found->silhouette.rms_m);
+  claims.AtMost(name + " silhouette error, rim", claimed.rim_m, found->rim_m);
+  claims.AtMost(name + " angle of facets, rms", claimed.facet_angle_deg, found->facet_angle_deg,
+                "degrees");
+  claims.AtMost(name + " needles", claimed.needle_share, found->needle_share, "of the triangles");
   claims.AtMost(name + " geometric error", claimed.geometric_error_m, found->geometric_error_m);
   return EdgesByPost(mesh);
 }

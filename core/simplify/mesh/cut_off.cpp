@@ -40,21 +40,29 @@ void HalfEdgeMesh::CutOff(std::int32_t v) {
   ChangeDegree(polygon.back().vertex, 1);
 
   const auto place = [&](std::size_t i) { return at_[polygon[i % polygon.size()].vertex]; };
-  const auto is_ear = [&](std::size_t i) {
+  // How good an ear corner i is: 0: none, 1: a thin one, 2: a sound one.
+  const auto ear_at = [&](std::size_t i) {
     const std::size_t n = polygon.size();
     const Place a = place(i + n - 1);
     const Place b = place(i);
     const Place c = place(i + 1);
-    if (Turn(a, b, c) <= 0) return false;
+    if (Turn(a, b, c) <= 0) return 0;
     for (std::size_t k = 2; k + 1 < n; ++k) {
-      if (Contains(a, b, c, place(i + k))) return false;
+      if (Contains(a, b, c, place(i + k))) return 0;
     }
-    return true;
+    return IsSound(a, b, c) ? 2 : 1;
   };
   while (polygon.size() >= 3) {
     const std::size_t n = polygon.size();
     std::size_t ear = 0;
-    while (ear + 1 < n && !is_ear(ear)) ++ear;
+    int best = 0;
+    for (std::size_t i = 0; i < n && best < 2; ++i) {
+      const int kind = ear_at(i);
+      if (kind > best) {
+        best = kind;
+        ear = i;
+      }
+    }
     const std::size_t before = (ear + n - 1) % n;
     const std::size_t after = (ear + 1) % n;
     const std::int32_t t = free.back();

@@ -12,9 +12,18 @@ Ground::Ground(const Terrain& terrain, const EarthDrop& drop)
   frame_.reserve(dem.heights.size());
   for (std::int32_t y = 0; y < rows_; ++y) {
     for (std::int32_t x = 0; x < columns_; ++x) {
-      frame_.push_back(HasData(x, y) ? At(x, y).frame : 0);
+      frame_.push_back(HasData(x, y) ? At(x, y).frame : Continued(x, y));
     }
   }
+}
+
+// From the post above, parallel to the ground one column on, as a cell's triangle of its other three
+// corners has it.
+float Ground::Continued(std::int32_t x, std::int32_t y) const {
+  if (y == 0 || !HasData(x, y - 1)) return 0;
+  const float above = At(x, y - 1).frame;
+  if (x + 1 == columns_ || !HasData(x + 1, y) || !HasData(x + 1, y - 1)) return above;
+  return above + At(x + 1, y).frame - At(x + 1, y - 1).frame;
 }
 
 float Ground::DropAt(std::int32_t x, std::int32_t y) const {

@@ -30,8 +30,8 @@ class Ground {
     return terrain_->dem().HasData(y * columns_ + x);
   }
 
-  /// Heights in the tile's frame of row y's posts; what stands at posts without data has no
-  /// meaning.
+  /// Heights in the tile's frame of row y's posts. At a post without data: one that goes on as the
+  /// ground beside it, for differences across the ground's outline.
   [[nodiscard]] const float* Row(std::int32_t y) const {
     return frame_.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_);
   }
@@ -54,6 +54,7 @@ class Ground {
   [[nodiscard]] const Terrain& terrain() const { return *terrain_; }
 
  private:
+  [[nodiscard]] float Continued(std::int32_t x, std::int32_t y) const;
   [[nodiscard]] float DropAt(std::int32_t x, std::int32_t y) const;
 
   const Terrain* terrain_;

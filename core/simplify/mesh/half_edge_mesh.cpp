@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/simplify/mesh/squares.h"
-
 namespace farhorizon {
 
 bool HalfEdgeMesh::Gather(std::int32_t v, Ring& ring) const {
@@ -125,7 +123,11 @@ void HalfEdgeMesh::Flip(std::int32_t h) {
 void HalfEdgeMesh::Measure(std::int32_t triangle) {
   if (!Stands(triangle)) return;
   const std::int32_t h = 3 * triangle;
-  squares_[triangle] = Squares(*ground_, at_[origin_[h]], at_[origin_[h + 1]], at_[origin_[h + 2]]);
+  squares_[triangle] = measure_.Of(at_[origin_[h]], at_[origin_[h + 1]], at_[origin_[h + 2]]);
+}
+
+void HalfEdgeMesh::MeasureAll() {
+  for (std::int32_t t = 0; t < half_edges() / 3; ++t) Measure(t);
 }
 
 void HalfEdgeMesh::Compact() {

@@ -6,6 +6,7 @@
 
 #include "core/simplify/mesh/ground.h"
 #include "core/simplify/mesh/ring.h"
+#include "core/simplify/mesh/squares.h"
 #include "core/simplify/mesh/table.h"
 
 namespace farhorizon {
@@ -14,7 +15,7 @@ namespace farhorizon {
 ///
 /// Half-edge h is a side of triangle h / 3, from origin(h) to origin(Next(h)). Triangles turn from
 /// columns to rows (Turn > 0). A vertex keeps its id, the post where it began, when it is moved.
-/// Invariants: no triangle is flipped or flat in plan; together they cover the terrain's domain
+/// Invariants: every triangle is sound, but what CutOff may leave; together they cover the terrain's domain
 /// once; twin(twin(h)) == h.
 /// A post at which fans meet without a shared edge is `knotted`: it must stay as it is.
 /// Memory: 77 bytes a post at first.
@@ -41,23 +42,27 @@ class HalfEdgeMesh {
   [[nodiscard]] const Place& at(std::int32_t v) const { return at_[v]; }
   [[nodiscard]] float squares(std::int32_t triangle) const { return squares_[triangle]; }
   [[nodiscard]] const Ground& ground() const { return *ground_; }
+  /// How posts are measured against triangles. After a change of it, MeasureAll.
+  [[nodiscard]] const PostSquares& measure() const { return measure_; }
+  [[nodiscard]] PostSquares& measure() { return measure_; }
 
   /// false where the vertex is knotted or has too many neighbours for a ring.
   bool Gather(std::int32_t v, Ring& ring) const;
   /// The same for a vertex with any number of neighbours. Requires: it is on the rim, not knotted.
   [[nodiscard]] std::vector<std::int32_t> GatherRim(std::int32_t v) const;
 
-  /// Moves the ring's centre onto its neighbour b. Requires: no triangle flips.
+  /// Moves the ring's centre onto its neighbour b. Requires: all triangles stay sound.
   void Collapse(const Ring& ring, std::int32_t b);
-  /// Turns the edge of h to the other diagonal of its two triangles. Requires: they are convex
-  /// together.
+  /// Turns the edge of h to the other diagonal of its two triangles. Requires: both stay sound.
   void Flip(std::int32_t h);
   /// Takes rim vertex v away and fills what its triangles covered with others between its
-  /// neighbours. Requires: v is not knotted and between two rim neighbours in a straight line.
+  /// neighbours, sound ones where it finds them, else thin ones that turn.
+  /// Requires: v is not knotted and between two rim neighbours in a straight line.
   void CutOff(std::int32_t v);
   void SetPlace(std::int32_t v, const Place& place) { at_[v] = place; }
   /// Computes a standing triangle's squares anew.
   void Measure(std::int32_t triangle);
+  void MeasureAll();
 
   /// Closes the gaps that triangles have left; half-edges get new ids.
   void Compact();
@@ -73,6 +78,7 @@ class HalfEdgeMesh {
   void ChangeDegree(std::int32_t v, std::int32_t by);
 
   const Ground* ground_;
+  PostSquares measure_;
   Table<Place> at_;             // per vertex
   Table<std::int32_t> origin_;  // per half-edge; kNone at a triangle that is gone
   Table<std::int32_t> twin_;    // per half-edge; kNone at the rim

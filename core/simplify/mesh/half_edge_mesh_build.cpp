@@ -37,7 +37,7 @@ class OpenEdges {
 
 }  // namespace
 
-HalfEdgeMesh::HalfEdgeMesh(const Ground& ground) : ground_(&ground) {
+HalfEdgeMesh::HalfEdgeMesh(const Ground& ground) : ground_(&ground), measure_(ground) {
   const Terrain& terrain = ground.terrain();
   const Dem& dem = terrain.dem();
   const std::int64_t most = 6 * std::int64_t{dem.columns - 1} * (dem.rows - 1);
@@ -73,7 +73,7 @@ HalfEdgeMesh::HalfEdgeMesh(const Ground& ground) : ground_(&ground) {
     }
   }
   triangles_ = origin_.size() / 3;
-  squares_.resize(triangles_, 0);  // every post is at a corner of its triangles
+  squares_.resize(triangles_, 0);
   MarkKnots();
 }
 

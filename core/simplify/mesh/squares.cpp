@@ -61,59 +61,69 @@ void ForEachRow(Place a, Place b, Place c, Visit visit) {
 
 }  // namespace
 
-float Squares(const Ground& ground, const Place& a, const Place& b, const Place& c, float most_m) {
+float PostSquares::Of(const Place& a, const Place& b, const Place& c) const {
   const Plane plane(a, b, c);
-  const float most = most_m * most_m;
-  float sum = 0;
+  const std::int32_t columns = ground_->columns();
+  float squares = 0;
+  float slopes = 0;
   float greatest = 0;
   ForEachRow(a, b, c, [&](int r, int first, int end) {
-    const float* f = ground.Row(r);
+    const float* f = ground_->Row(r);
     const float z = a.frame + plane.by_row * static_cast<float>(r - a.y);
     for (int x = first; x < end; ++x) {
       const float off = f[x] - (z + plane.by_column * static_cast<float>(x - a.x));
       const float square = off * off;
-      sum += square;
+      squares += square;
       greatest = std::max(greatest, square);
+      // A post that a triangle has, has ground to its right and below: half open rows and columns.
+      const float by_column = f[x + 1] - f[x] - plane.by_column;
+      const float by_row = f[x + columns] - f[x] - plane.by_row;
+      slopes += by_column * by_column + by_row * by_row;
     }
   });
-  return greatest > most ? std::numeric_limits<float>::infinity() : sum;
+  if (greatest > most_) return std::numeric_limits<float>::infinity();
+  return squares + slope_weight_ * slopes;
 }
 
-void AddPull(const Ground& ground, const Place& a, const Place& b, const Place& c,
-             HeightPull& sum) {
+void PostSquares::AddPull(const Place& a, const Place& b, const Place& c, HeightPull& sum) const {
   const Plane plane(a, b, c);
+  const std::int32_t columns = ground_->columns();
   const float weight_by_column = static_cast<float>(b.y - c.y) * plane.inverse;  // 1 at a
   const float weight_by_row = static_cast<float>(c.x - b.x) * plane.inverse;
+  const float slope_stiffness =
+      slope_weight_ * (weight_by_column * weight_by_column + weight_by_row * weight_by_row);
   ForEachRow(a, b, c, [&](int r, int first, int end) {
-    const float* f = ground.Row(r);
+    const float* f = ground_->Row(r);
     const auto rows = static_cast<float>(r - a.y);
     const float z = a.frame + plane.by_row * rows;
     const float w = 1 + weight_by_row * rows;
     for (int x = first; x < end; ++x) {
-      const auto columns = static_cast<float>(x - a.x);
-      const float weight = w + weight_by_column * columns;
-      sum.pull += weight * (f[x] - (z + plane.by_column * columns));
-      sum.stiffness += weight * weight;
+      const auto steps = static_cast<float>(x - a.x);
+      const float weight = w + weight_by_column * steps;
+      const float by_column = f[x + 1] - f[x] - plane.by_column;
+      const float by_row = f[x + columns] - f[x] - plane.by_row;
+      sum.pull += weight * (f[x] - (z + plane.by_column * steps)) +
+                  slope_weight_ * (weight_by_column * by_column + weight_by_row * by_row);
+      sum.stiffness += weight * weight + slope_stiffness;
     }
   });
 }
 
-float RimSquares(const Ground& ground, const Place& a, const Place& b, float most_m) {
+float PostSquares::OfRim(const Place& a, const Place& b) const {
   const int columns = b.x - a.x;
   const int rows = b.y - a.y;
   if (rows < 0 || (rows == 0 && columns > 0)) return 0;  // a left or an upper edge
   const int steps = std::max(std::abs(columns), rows);
   const auto length = static_cast<float>(steps);
-  const float most = most_m * most_m;
   float sum = 0;
   float greatest = 0;
   for (int i = 0; i < steps; ++i) {
     const float mesh = a.frame + (b.frame - a.frame) * static_cast<float>(i) / length;
-    const float off = ground.Row(a.y + rows / steps * i)[a.x + columns / steps * i] - mesh;
+    const float off = ground_->Row(a.y + rows / steps * i)[a.x + columns / steps * i] - mesh;
     sum += off * off;
     greatest = std::max(greatest, off * off);
   }
-  return greatest > most ? std::numeric_limits<float>::infinity() : sum;
+  return greatest > most_ ? std::numeric_limits<float>::infinity() : sum;
 }
 
 }  // namespace farhorizon

@@ -5,8 +5,6 @@
 
 #include <algorithm>
 
-#include "core/simplify/mesh/squares.h"
-
 namespace farhorizon {
 
 namespace {
@@ -20,7 +18,7 @@ bool Collapser::Fits(std::int32_t j) const {
   const Place& b = ring_.at(j);
   for (std::int32_t i = 0; i < ring_.sides(); ++i) {
     const std::int32_t k = ring_.after(i);
-    if (i != j && k != j && Turn(b, ring_.at(i), ring_.at(k)) <= 0) return false;
+    if (i != j && k != j && !IsSound(b, ring_.at(i), ring_.at(k))) return false;
   }
   return true;
 }
@@ -28,14 +26,13 @@ bool Collapser::Fits(std::int32_t j) const {
 // The change of the sum by a collapse onto the neighbour at place j; as soon as it is known to be
 // at least `most`, any such number.
 float Collapser::Cost(std::int32_t j, float before, float most, bool rises) const {
-  const Ground& ground = work_->ground;
-  const float most_m = work_->rules.most_m();
+  const PostSquares& measure = work_->mesh.measure();
   const Place& b = ring_.at(j);
   float cost = -before;
-  if (!ring_.closed) cost += RimSquares(ground, ring_.at(ring_.count - 1), ring_.at(0), most_m);
+  if (!ring_.closed) cost += measure.OfRim(ring_.at(ring_.count - 1), ring_.at(0));
   for (std::int32_t i = 0; i < ring_.sides() && cost < most; ++i) {
     const std::int32_t k = ring_.after(i);
-    if (i != j && k != j) cost += Squares(ground, b, ring_.at(i), ring_.at(k), most_m);
+    if (i != j && k != j) cost += measure.Of(b, ring_.at(i), ring_.at(k));
   }
   if (cost >= most) return cost;
   cost += work_->price.ChangeOfLost(ring_, b, j);
@@ -59,7 +56,7 @@ std::pair<float, std::int32_t> Collapser::Rate(std::int32_t v, const Refused& re
   const bool rises = work_->price.MayRiseAround(ring_, centre);
   float before = 0;
   if (!ring_.closed) {
-    before = RimSquares(work_->ground, centre, first) + RimSquares(work_->ground, last, centre);
+    before = mesh.measure().OfRim(centre, first) + mesh.measure().OfRim(last, centre);
   }
   for (std::int32_t i = 0; i < ring_.sides(); ++i) before += mesh.squares(ring_.triangle_at(i));
   const std::int32_t step = ring_.closed ? 1 : ring_.count - 1;

@@ -1,6 +1,5 @@
 #include <algorithm>
 
-#include "core/simplify/mesh/squares.h"
 #include "core/simplify/polish/least_gain.h"
 #include "core/simplify/polish/polish.h"
 
@@ -28,12 +27,10 @@ class Flipper {
     const Place& pb = mesh_.at(b);
     const Place& pc = mesh_.at(c);
     const Place& pd = mesh_.at(d);
-    if (Turn(pd, pc, pb) <= 0 || Turn(pd, pb, pa) <= 0 || work_.rules.MustStay(pa, pc)) return;
-    const float most_m = work_.rules.most_m();
+    if (!IsSound(pd, pc, pb) || !IsSound(pd, pb, pa) || work_.rules.MustStay(pa, pc)) return;
     const float slack = std::min(most_[a], most_[c]);
-    float change = Squares(work_.ground, pd, pc, pb, most_m) +
-                   Squares(work_.ground, pd, pb, pa, most_m) - mesh_.squares(h / 3) -
-                   mesh_.squares(o / 3);
+    float change = mesh_.measure().Of(pd, pc, pb) + mesh_.measure().Of(pd, pb, pa) -
+                   mesh_.squares(h / 3) - mesh_.squares(o / 3);
     if (change - slack >= -kLeastGain) return;
     quad_.count = 0;
     quad_.closed = true;

@@ -9,8 +9,8 @@ bool VertexChange::Begin(std::int32_t v) {
     before_ += work_.mesh.squares(ring_.triangle_at(i));
   }
   if (!ring_.closed) {
-    before_ += RimSquares(work_.ground, place(), ring_.at(0)) +
-               RimSquares(work_.ground, ring_.at(ring_.count - 1), place());
+    before_ += work_.mesh.measure().OfRim(place(), ring_.at(0)) +
+               work_.mesh.measure().OfRim(ring_.at(ring_.count - 1), place());
   }
   slack_ = work_.price.Begin(v);
   work_.price.FindLost(ring_);
@@ -19,7 +19,7 @@ bool VertexChange::Begin(std::int32_t v) {
 
 bool VertexChange::IsInside(const Place& place) const {
   for (std::int32_t i = 0; i < ring_.sides(); ++i) {
-    if (Turn(place, ring_.at(i), ring_.at(ring_.after(i))) <= 0) return false;
+    if (!IsSound(place, ring_.at(i), ring_.at(ring_.after(i)))) return false;
   }
   return true;
 }
@@ -27,7 +27,7 @@ bool VertexChange::IsInside(const Place& place) const {
 HeightPull VertexChange::PullOfPosts(const Place& place) const {
   HeightPull sum;
   for (std::int32_t i = 0; i < ring_.sides(); ++i) {
-    AddPull(work_.ground, place, ring_.at(i), ring_.at(ring_.after(i)), sum);
+    work_.mesh.measure().AddPull(place, ring_.at(i), ring_.at(ring_.after(i)), sum);
   }
   return sum;
 }
@@ -39,14 +39,13 @@ HeightPull VertexChange::PullOfLines() const {
 }
 
 float VertexChange::Cost(const Place& place, float bound) const {
-  const float most_m = work_.rules.most_m();
+  const PostSquares& measure = work_.mesh.measure();
   float cost = -before_;
   for (std::int32_t i = 0; i < ring_.sides() && cost - slack_ < bound; ++i) {
-    cost += Squares(work_.ground, place, ring_.at(i), ring_.at(ring_.after(i)), most_m);
+    cost += measure.Of(place, ring_.at(i), ring_.at(ring_.after(i)));
   }
   if (!ring_.closed) {
-    cost += RimSquares(work_.ground, place, ring_.at(0), most_m) +
-            RimSquares(work_.ground, ring_.at(ring_.count - 1), place, most_m);
+    cost += measure.OfRim(place, ring_.at(0)) + measure.OfRim(ring_.at(ring_.count - 1), place);
   }
   if (cost - slack_ >= bound) return cost;
   cost += work_.price.ChangeOfLost(ring_, place, -1);

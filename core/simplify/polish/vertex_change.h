@@ -1,6 +1,5 @@
 #pragma once
 
-#include "core/simplify/mesh/squares.h"
 #include "core/simplify/work/workpiece.h"
 
 namespace farhorizon {

@@ -57,15 +57,13 @@ bool LevelRules::Has(const Place& p, const Place& q, int bit) const {
   return (flags >> static_cast<unsigned>(2 * direction + bit) & 1U) != 0;
 }
 
-void LevelRules::BeginExact(float most_m, double rise_m) {
+void LevelRules::BeginExact(double rise_m) {
   exact_ = true;
   rise_steps_ = guard_.scale().Steps(rise_m / ground_->terrain().dem().quantum_m);
-  most_m_ = most_m;
 }
 
 void LevelRules::BeginSoft(const HalfEdgeMesh& mesh) {
   exact_ = false;
-  most_m_ = std::numeric_limits<float>::infinity();
   const std::vector<std::int32_t> kept = KeptIn(mesh);
   std::size_t next = 0;
   for (std::size_t e = 0; e < horizon_->edges.size(); ++e) {

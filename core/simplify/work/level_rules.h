@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 #include "core/horizon/guard/skyline_guard.h"
@@ -13,22 +12,21 @@ namespace farhorizon {
 /// What no price buys.
 ///
 /// At an exact level: the ends of horizon edges stay at their posts and heights, horizon edges are
-/// not flipped, no new edge rises above the DEM's skyline, no post is off by more than most_m. At
-/// every level: a horizon edge that the finer level does not have does not come back.
+/// not flipped, no new edge rises above the DEM's skyline. At every level: a horizon edge that the
+/// finer level does not have does not come back.
 class LevelRules {
  public:
   /// Requires: all outlive it.
   LevelRules(const Ground& ground, const Horizon& horizon);
 
   /// rise_m: by how much an edge may rise above the skyline all the same.
-  void BeginExact(float most_m, double rise_m);
+  void BeginExact(double rise_m);
   /// mesh: the finer level, whose horizon edges may stay.
   void BeginSoft(const HalfEdgeMesh& mesh);
 
   /// Whether the level is an exact one, but for the rises that it was allowed.
   [[nodiscard]] bool exact() const { return exact_; }
   [[nodiscard]] bool allows_rises() const { return !exact_ || rise_steps_ > 0; }
-  [[nodiscard]] float most_m() const { return most_m_; }
   /// Whether v must not be changed at all.
   [[nodiscard]] bool IsLocked(std::int32_t v) const {
     return exact_ && locked_[static_cast<std::size_t>(v)];
@@ -70,7 +68,6 @@ class LevelRules {
   SkylineGuard guard_;
   bool exact_ = false;
   std::int32_t rise_steps_ = 0;
-  float most_m_ = std::numeric_limits<float>::infinity();
   std::vector<bool> locked_;  // per post
   // Per block of posts: what occluded the last edge there that took a search.
   mutable std::vector<std::vector<OccluderId>> likely_;

@@ -107,18 +107,34 @@ TEST(Draco, TheMetadataNameTheLattice) {
   }
 }
 
-TEST(Draco, EveryNumberOfTheGreatestLatticeDecodesExactly) {
-  // 0 … 65535 on one axis, in a strip.
+TEST(Draco, NumbersOfTheGreatestLatticeDecodeExactly) {
+  // One of each eight numbers of 19 bits on one axis, the first and the last included, in a strip.
+  constexpr std::uint32_t kEnd = 1U << 19U;
+  static_assert(kMaxLatticeBits == 19);
   LocalMesh mesh;
-  for (std::uint32_t i = 0; i < 65536; ++i) {
-    mesh.positions.push_back({i / 8.0 - 4000, i % 2 * 100.0, 65535 - i + 0.0});
+  for (std::uint32_t i = 0; i < kEnd / 8; ++i) {
+    const std::uint32_t number = i % 2 == 0 ? 8 * i : 8 * i + 7;
+    mesh.positions.push_back({number / 64.0 - 4000, i % 2 * 100.0, (kEnd - 1 - number) / 64.0});
     mesh.posts.push_back(i);
     mesh.normals.push_back({0, 0, 1});
     if (i >= 2) mesh.triangles.push_back({i - 2, i - 1, i});
   }
-  const QuantizationLattice lattice = {.origin = {-4000, 0, 0}, .step_m = 0.125, .bits = 16};
-  for (Enu& p : mesh.positions) p.up /= 8;
+  const QuantizationLattice lattice = {.origin = {-4000, 0, 0}, .step_m = 1 / 64.0, .bits = 19};
   ExpectSamePositions(RoundTrip(mesh, lattice), mesh, lattice);
+}
+
+TEST(Draco, PostsMayBeLeftOut) {
+  const LocalMesh mesh = HillyGrid(61, 43, 27.3);
+  const QuantizationLattice lattice = ChooseLattice(mesh.positions, 0.5);
+  const std::vector<std::uint8_t> with = *EncodeDraco(mesh, lattice);
+  const std::vector<std::uint8_t> without = *EncodeDraco(mesh, lattice, DracoPosts::kLeftOut);
+  EXPECT_LT(without.size(), with.size());
+  const DecodedMesh decoded = *DecodeDraco(without);
+  EXPECT_TRUE(decoded.mesh.posts.empty());
+  EXPECT_EQ(decoded.mesh.positions.size(), mesh.positions.size());
+  EXPECT_EQ(decoded.mesh.triangles.size(), mesh.triangles.size());
+  EXPECT_EQ(decoded.mesh.normals.size(), mesh.normals.size());
+  EXPECT_EQ(decoded.lattice.step_m, lattice.step_m);
 }
 
 TEST(Draco, NormalsComeBackWithinADegree) {

@@ -22,7 +22,7 @@ TEST(ChooseLattice, CoversItsPointsWithOriginsThatAreMultiplesOfTheStep) {
     std::vector<Enu> points;
     for (int k = 0; k < 5; ++k) points.push_back({draw(random), draw(random), draw(random) / 10});
     const QuantizationLattice lattice = ChooseLattice(points, std::abs(draw(random)) / 1000);
-    EXPECT_LE(lattice.bits, 16);
+    EXPECT_LE(lattice.bits, kMaxLatticeBits);
     for (const double origin : lattice.origin) {
       EXPECT_EQ(std::remainder(origin, lattice.step_m), 0);
     }
@@ -35,10 +35,10 @@ TEST(ChooseLattice, CoversItsPointsWithOriginsThatAreMultiplesOfTheStep) {
   }
 }
 
-TEST(ChooseLattice, TakesNoMoreBitsThanCesiumReadsAndNoMoreThanItNeeds) {
+TEST(ChooseLattice, TakesNoMoreBitsThanDracoCodesWellAndNoMoreThanItNeeds) {
   const std::vector<Enu> wide = {{0, 0, 0}, {30000, 0, 0}};
-  EXPECT_EQ(ChooseLattice(wide, 0.001).bits, 16);
-  EXPECT_EQ(ChooseLattice(wide, 0.001).step_m, 0.5);  // 60000 steps; a quarter would take 120000
+  EXPECT_EQ(ChooseLattice(wide, 0.001).bits, 19);
+  EXPECT_EQ(ChooseLattice(wide, 0.001).step_m, 0.0625);  // 480,000 steps; half would take 960,000
   EXPECT_EQ(ChooseLattice({{0, 0, 0}, {7, 0, 0}}, 1).bits, 3);
   EXPECT_EQ(ChooseLattice({{5, 5, 5}}, 1).bits, 1);
 }

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/drawn_dem.h"
-#include "tests/support/grid_meshes.h"
+#include "tests/support/measured_meshes.h"
 
 namespace farhorizon {
 namespace {

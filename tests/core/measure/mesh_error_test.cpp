@@ -7,7 +7,7 @@
 #include "core/horizon/find_horizon.h"
 #include "tests/support/drawn_dem.h"
 #include "tests/support/effort.h"
-#include "tests/support/grid_meshes.h"
+#include "tests/support/measured_meshes.h"
 
 namespace farhorizon {
 namespace {

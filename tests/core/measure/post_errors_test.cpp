@@ -6,7 +6,7 @@
 
 #include "tests/support/drawn_dem.h"
 #include "tests/support/effort.h"
-#include "tests/support/grid_meshes.h"
+#include "tests/support/measured_meshes.h"
 
 namespace farhorizon {
 namespace {

@@ -24,6 +24,9 @@ Report SomeReport() {
   finest.asked = {.vertical_m = 2.5, .silhouette_m = 0.5};
   finest.vertical = {1.5, 0.5};
   finest.silhouette = {0.25, 0.125};
+  finest.rim_m = 0.75;
+  finest.facet_angle_deg = 7.5;
+  finest.needle_share = 0.005;
   finest.geometric_error_m = 3.5;
   finest.quantization_step_m = 0.0625;
   finest.glb_bytes = 1000;
@@ -42,6 +45,9 @@ TEST(Report, ReadsBackWhatItWrote) {
   ASSERT_TRUE(read);
   EXPECT_EQ(WriteReport(*read), text);
   EXPECT_EQ(read->levels.front().silhouette.max_m, 0.25);
+  EXPECT_EQ(read->levels.front().rim_m, 0.75);
+  EXPECT_EQ(read->levels.front().facet_angle_deg, 7.5);
+  EXPECT_EQ(read->levels.front().needle_share, 0.005);
   EXPECT_TRUE(read->levels[0].exact);
   EXPECT_EQ(read->levels[0].asked.triangles, 0);
   EXPECT_EQ(read->levels[0].asked.vertical_m, 2.5);

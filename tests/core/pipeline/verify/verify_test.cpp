@@ -11,6 +11,7 @@
 #include "core/io/glb.h"
 #include "core/io/horizon_features.h"
 #include "core/pipeline/build.h"
+#include "core/pipeline/report.h"
 #include "tests/support/temp_dir.h"
 
 namespace farhorizon {
@@ -62,6 +63,7 @@ class Built : public ::testing::Test {
     const std::string bytes = SlurpFile(folder_ / "out" / name);
     return *DecodeDraco({bytes.begin(), bytes.end()});
   }
+  void Rewrite(const DecodedMesh& glb_mesh, const DecodedMesh& drc_mesh);
   double StepOf(const std::string& name) { return Decode(name).lattice.step_m; }
 
   static bool Names(const std::vector<std::string>& lines, const std::string& text) {
@@ -130,7 +132,7 @@ TEST_F(Verify, ANodeThatPlacesTheMeshElsewhereIsFound) {
 }
 
 TEST_F(Verify, ADracoStreamWithAnotherLatticeIsFound) {
-  // Halves the step, in the bitstream that both files have.
+  // Halves the step, in the bitstreams of both files.
   const double half = StepOf("lod1.drc") / 2;
   for (const std::string name : {"lod1.drc", "lod1.glb"}) {
     std::string bytes = SlurpFile(folder_ / "out" / name);
@@ -139,9 +141,20 @@ TEST_F(Verify, ADracoStreamWithAnotherLatticeIsFound) {
     SpillFile(folder_ / "out" / name, bytes);
   }
   const std::vector<std::string> lines = False();
-  EXPECT_FALSE(Names(lines, "carries the bytes of the .drc"));
   EXPECT_TRUE(Names(lines, "lod1.glb has the lattice of its Draco stream"));
   EXPECT_TRUE(Names(lines, "lod1 lattice's step"));
+}
+
+// Writes both files of level 1 anew.
+void Built::Rewrite(const DecodedMesh& glb_mesh, const DecodedMesh& drc_mesh) {
+  const std::vector<std::uint8_t> drc = *EncodeDraco(drc_mesh.mesh, drc_mesh.lattice);
+  const std::vector<std::uint8_t> stream =
+      *EncodeDraco(glb_mesh.mesh, glb_mesh.lattice, DracoPosts::kLeftOut);
+  DecodedMesh decoded = *DecodeDraco(stream);
+  decoded.mesh.posts.resize(decoded.mesh.positions.size());
+  const std::vector<std::uint8_t> glb = WriteGlb(stream, decoded, {});
+  SpillFile(folder_ / "out" / "lod1.drc", {drc.begin(), drc.end()});
+  SpillFile(folder_ / "out" / "lod1.glb", {glb.begin(), glb.end()});
 }
 
 TEST_F(Verify, NormalsThatAreNotTheDemsAreFound) {
@@ -153,13 +166,62 @@ TEST_F(Verify, NormalsThatAreNotTheDemsAreFound) {
     n = {n[0] / length, n[1] / length, n[2] / length};
   }
   decoded.lattice.bits = 16;
-  const std::vector<std::uint8_t> drc = *EncodeDraco(decoded.mesh, decoded.lattice);
-  const std::vector<std::uint8_t> glb = WriteGlb(drc, *DecodeDraco(drc), {});
-  SpillFile(folder_ / "out" / "lod1.drc", {drc.begin(), drc.end()});
-  SpillFile(folder_ / "out" / "lod1.glb", {glb.begin(), glb.end()});
+  Rewrite(decoded, decoded);
   const std::vector<std::string> lines = False();
   EXPECT_TRUE(Names(lines, "lod1 normals a degree or more off the DEM's: claimed 0, found"));
   EXPECT_FALSE(Names(lines, "lod0 normals"));
+}
+
+TEST_F(Verify, TwoFilesThatHoldOtherMeshesAreFound) {
+  DecodedMesh decoded = Decode("lod1.drc");
+  decoded.lattice.bits = 16;
+  Rewrite(decoded, decoded);
+  EXPECT_FALSE(Names(False(), "lod1.glb and .drc hold the same mesh"));
+  DecodedMesh raised = decoded;
+  raised.mesh.positions[5].up += decoded.lattice.step_m;
+  Rewrite(raised, decoded);
+  EXPECT_TRUE(Names(False(), "lod1.glb and .drc hold the same mesh"));
+  DecodedMesh renamed = decoded;
+  std::swap(renamed.mesh.posts[5], renamed.mesh.posts[6]);
+  Rewrite(decoded, renamed);
+  EXPECT_TRUE(Names(False(), "lod1.glb and .drc hold the same mesh"));
+}
+
+TEST_F(Verify, SidesThatAreNotWhereANeighboursAreAreFound) {
+  DecodedMesh decoded = Decode("lod1.drc");
+  decoded.lattice.bits = 16;
+  const auto on_side = std::ranges::find_if(decoded.mesh.posts, [](std::uint32_t post) {
+    return post % 30 == 0 && post > 0 && post < 30 * 23;
+  });
+  ASSERT_NE(on_side, decoded.mesh.posts.end());
+  const auto at = static_cast<std::size_t>(on_side - decoded.mesh.posts.begin());
+  decoded.lattice.step_m /= 2;
+  decoded.mesh.positions[at].up += decoded.lattice.step_m;
+  Rewrite(decoded, decoded);
+  EXPECT_TRUE(Names(False(), "lod1 coordinates on sides that are no multiple"));
+}
+
+TEST_F(Verify, EveryClaimHoldsOfLevelsByTriangles) {
+  options_.levels = BuildOptions().levels;
+  options_.triangles = {900, 300};
+  ASSERT_TRUE(BuildArtifacts(folder_ / "hills.asc", folder_ / "out", options_, control_));
+  EXPECT_TRUE(False().empty()) << False().front();
+  const Report report = *ReadReport(SlurpFile(folder_ / "out" / "report.json"));
+  ASSERT_EQ(report.levels.size(), 2U);
+  EXPECT_EQ(report.levels[0].asked.triangles, 900);
+  EXPECT_EQ(report.levels[1].asked.triangles, 300);
+}
+
+TEST_F(Verify, EveryClaimHoldsWhereOneFormatIsAskedFor) {
+  for (const char* format : {"3dtiles", "drc"}) {
+    std::filesystem::remove_all(folder_ / "out");
+    options_.formats = {format};
+    ASSERT_TRUE(BuildArtifacts(folder_ / "hills.asc", folder_ / "out", options_, control_));
+    const bool glb = std::filesystem::exists(folder_ / "out" / "lod0.glb");
+    EXPECT_EQ(glb, options_.formats[0] == "3dtiles");
+    EXPECT_NE(glb, std::filesystem::exists(folder_ / "out" / "lod0.drc"));
+    EXPECT_TRUE(False().empty()) << format << ": " << False().front();
+  }
 }
 
 // White noise under a budget that leaves much undecided.

@@ -1,0 +1,83 @@
+#include "core/pipeline/level_lattice.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/pipeline/mesh_orientation.h"
+#include "core/terrain/border.h"
+
+namespace farhorizon {
+
+namespace {
+
+// The greatest power of two that is not above `value`.
+double PowerOfTwoWithin(double value) {
+  int exponent = 0;
+  std::frexp(value, &exponent);  // 2^(exponent - 1) <= value < 2^exponent
+  return std::ldexp(1.0, exponent - 1);
+}
+
+Enu Rounded(const Enu& p, double step) {
+  const auto round = [step](double x) { return std::nearbyint(x / step) * step; };
+  return {round(p.east), round(p.north), round(p.up)};
+}
+
+std::vector<Enu> Rounded(const Dem& dem, const LatticeSteps& steps, const LocalMesh& mesh) {
+  std::vector<Enu> rounded;
+  rounded.reserve(mesh.positions.size());
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    const bool on_side = OnSide(dem, static_cast<VertexId>(mesh.posts[i]));
+    rounded.push_back(Rounded(mesh.positions[i], on_side ? steps.sides_m : steps.inside_m));
+  }
+  return rounded;
+}
+
+}  // namespace
+
+double FinestSideStep(const Georeference& georeference, double max_error_m) {
+  const double step = PowerOfTwoWithin(georeference.row_step_m() / 175);
+  // Half a step is an eighth of the error on level ground, and as much again on a slope of 45
+  // degrees.
+  return max_error_m > 0 ? std::min(step, PowerOfTwoWithin(max_error_m / 4)) : step;
+}
+
+LatticeSteps StepsOfLevel(double finest_side_m, const Georeference& georeference, const Lod& lod,
+                          int number) {
+  const double cell_m = std::min(georeference.column_step_m(), georeference.row_step_m());
+  LatticeSteps steps;
+  steps.sides_m = std::min(std::ldexp(finest_side_m, number), PowerOfTwoWithin(cell_m / 16));
+  const double wanted = lod.exact ? lod.vertical_rms_m / 4
+                                  : std::max(1.25 * lod.silhouette_rms_m, lod.vertical_rms_m / 32);
+  steps.inside_m = steps.sides_m;
+  if (wanted > 0) steps.inside_m = std::min(steps.sides_m, PowerOfTwoWithin(wanted));
+  return steps;
+}
+
+Result<QuantizationLattice> RoundToLattice(const Dem& dem, const TangentFrame& frame,
+                                           LatticeSteps& steps, LocalMesh& mesh) {
+  const std::vector<Enu> exact = mesh.positions;
+  bool finer = false;
+  while (true) {
+    std::vector<Enu> rounded = Rounded(dem, steps, {exact, mesh.posts, {}, {}});
+    const QuantizationLattice lattice = ChooseLattice(rounded, steps.inside_m);
+    const bool reaches = lattice.step_m == steps.inside_m;
+    if (!reaches && finer) {
+      return Error{ErrorCode::kUnsupportedData,
+                   "a triangle is flipped or flat, however finely its vertices are rounded",
+                   "flipped-triangle"};
+    }
+    if (!reaches) {
+      steps.inside_m = lattice.step_m;
+      steps.sides_m = std::max(steps.sides_m, steps.inside_m);
+      continue;
+    }
+    mesh.positions = std::move(rounded);
+    if (AllTurnLeft(mesh, frame)) return lattice;
+    finer = true;
+    steps.inside_m /= 2;
+    steps.sides_m /= 2;
+  }
+}
+
+}  // namespace farhorizon

@@ -1,0 +1,191 @@
+// Two tiles that are made apart agree on the side that they share.
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/horizon/find_horizon.h"
+#include "core/simplify/lod_chain.h"
+#include "tests/support/ascii_dem.h"
+#include "tests/support/effort.h"
+#include "tests/support/level_checks.h"
+#include "tests/support/terrains.h"
+
+namespace farhorizon {
+namespace {
+
+// Columns first ... first + columns - 1 of a DEM, or rows where `by_row`.
+Dem Crop(const Dem& whole, std::int32_t first, std::int32_t count, bool by_row) {
+  Dem dem = whole;
+  dem.heights.clear();
+  (by_row ? dem.rows : dem.columns) = count;
+  for (std::int32_t r = 0; r < dem.rows; ++r) {
+    for (std::int32_t c = 0; c < dem.columns; ++c) {
+      const std::int32_t x = by_row ? c : c + first;
+      const std::int32_t y = by_row ? r + first : r;
+      dem.heights.push_back(whole.heights[static_cast<std::size_t>(y * whole.columns + x)]);
+    }
+  }
+  return dem;
+}
+
+struct SidePost {
+  std::int32_t place;
+  double height_m;
+  friend bool operator==(const SidePost&, const SidePost&) = default;
+};
+
+struct Tile {
+  Tile(const Dem& of, const LodPlan& plan)
+      : dem(of), terrain(*Terrain::Build(dem)), horizon(*FindHorizon(terrain, {}, {})) {
+    levels = *BuildLodChain(terrain, horizon, plan, {});
+  }
+  // A level's posts on one column, or row.
+  [[nodiscard]] std::vector<SidePost> On(std::size_t level, std::int32_t line, bool by_row) const {
+    std::vector<SidePost> posts;
+    const PostMesh& mesh = levels[level].mesh;
+    for (std::size_t i = 0; i < mesh.posts.size(); ++i) {
+      const std::int32_t column = dem.Column(mesh.posts[i]);
+      const std::int32_t row = dem.Row(mesh.posts[i]);
+      if ((by_row ? row : column) != line) continue;
+      posts.push_back({by_row ? column : row, mesh.heights_m[i]});
+    }
+    return posts;
+  }
+  Dem dem;
+  Terrain terrain;
+  Horizon horizon;
+  std::vector<Lod> levels;
+};
+
+struct Agreement {
+  int levels = 0;
+  std::int64_t fitted = 0;  // posts at other heights than the DEM's
+  std::int64_t kept = 0;
+  std::int64_t posts = 0;
+};
+
+void ExpectOneSide(const Dem& whole, bool by_row, const LodPlan& plan, Agreement& agreement) {
+  const std::int32_t n = (by_row ? whole.rows : whole.columns) / 2 + 1;
+  const Tile west(Crop(whole, 0, n, by_row), plan);
+  const Tile east(Crop(whole, n - 1, n, by_row), plan);
+  const std::size_t count = std::min(west.levels.size(), east.levels.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::vector<SidePost> side = west.On(i, n - 1, by_row);
+    ASSERT_EQ(side, east.On(i, 0, by_row)) << "level " << i << "\n" << DrawAscii(whole);
+    ++agreement.levels;
+    agreement.kept += std::ssize(side);
+    agreement.posts += by_row ? whole.columns : whole.rows;
+    for (const SidePost& post : side) {
+      const std::int32_t v =
+          by_row ? (n - 1) * whole.columns + post.place : post.place * whole.columns + n - 1;
+      agreement.fitted += whole.HeightM(v) != post.height_m ? 1 : 0;
+    }
+  }
+}
+
+LodPlan ByTriangles(const Dem& whole) {
+  LodPlan plan;
+  const std::int64_t full = std::int64_t{whole.columns} * whole.rows;
+  for (const int part : {1, 4, 10, 25, 60, 150, 400}) plan.triangles.push_back(full / part + 1);
+  return plan;
+}
+
+Dem RoughWhole(std::int32_t side, std::mt19937& random) {
+  if (random() % 3 == 0) {
+    RandomTerrain noise;
+    noise.columns = side;
+    noise.rows = side;
+    noise.max_height = random() % 2 == 0 ? 2 : 1000;
+    return RandomDem(noise, random);
+  }
+  return FractalDem(side, 2000, 60 + static_cast<int>(random() % 80),
+                    static_cast<std::uint32_t>(random()));
+}
+
+TEST(LodChainSides, TwoNeighboursAgreeOnPostsAndHeightsByTriangles) {
+  std::mt19937 random(1);
+  Agreement agreement;
+  for (int round = 0; round < Rounds(120); ++round) {
+    const Dem whole = RoughWhole(2 * (8 + static_cast<std::int32_t>(random() % 14)) + 1, random);
+    SCOPED_TRACE(round);
+    ExpectOneSide(whole, round % 2 == 0, ByTriangles(whole), agreement);
+    if (HasFatalFailure()) return;
+  }
+  EXPECT_GT(agreement.levels, Rounds(700));
+  EXPECT_GT(agreement.fitted, Rounds(1000));
+  EXPECT_LT(agreement.kept, agreement.posts * 3 / 4);
+}
+
+TEST(LodChainSides, TwoNeighboursAgreeOnPostsAndHeightsBySize) {
+  std::mt19937 random(2);
+  Agreement agreement;
+  for (int round = 0; round < Rounds(8); ++round) {
+    const Dem whole = RoughWhole(121, random);
+    LodPlan plan;
+    plan.max_error_m = 2;
+    plan.column_bend = 1e-3;
+    SCOPED_TRACE(round);
+    ExpectOneSide(whole, round % 2 == 0, plan, agreement);
+    if (HasFatalFailure()) return;
+  }
+  EXPECT_GT(agreement.levels, Rounds(16));
+  EXPECT_GT(agreement.fitted, Rounds(100));
+}
+
+TEST(LodChainSides, HolesAcrossTheSideMakeNoDifference) {
+  std::mt19937 random(3);
+  Agreement agreement;
+  for (int round = 0; round < Rounds(120); ++round) {
+    const std::int32_t side = 2 * (8 + static_cast<std::int32_t>(random() % 14)) + 1;
+    Dem whole = RoughWhole(side, random);
+    const bool by_row = round % 2 == 0;
+    // Rectangles without data that reach over the shared column on both sides of it, alike.
+    for (int hole = 0; hole < 3; ++hole) {
+      const auto from = static_cast<std::int32_t>(random() % static_cast<unsigned>(side));
+      const auto length = static_cast<std::int32_t>(1 + random() % 4);
+      const auto reach = static_cast<std::int32_t>(1 + random() % 4);
+      for (std::int32_t k = from; k < std::min(side, from + length); ++k) {
+        for (std::int32_t x = side / 2 - reach; x <= side / 2 + reach; ++x) {
+          whole.heights[static_cast<std::size_t>(by_row ? x * side + k : k * side + x)] = kNoHeight;
+        }
+      }
+    }
+    SCOPED_TRACE(round);
+    ExpectOneSide(whole, by_row, ByTriangles(whole), agreement);
+    if (HasFatalFailure()) return;
+  }
+  EXPECT_GT(agreement.levels, Rounds(700));
+}
+
+// Posts of a level's sides that should have gone: those between whose neighbours along the side the
+// outline runs straight, that are in one fan, and that the neighbour tile, which has the same side
+// but is flat behind it, does not have.
+TEST(LodChainSides, NoPostOfASideIsStuck) {
+  std::mt19937 random(4);
+  std::int64_t levels = 0;
+  for (int round = 0; round < Rounds(1500); ++round) {
+    const std::int32_t side = 2 * (3 + static_cast<std::int32_t>(random() % 6)) + 1;
+    const Dem whole = RoughWhole(side, random);
+    const LodPlan plan = ByTriangles(whole);
+    const std::int32_t n = side / 2 + 1;
+    const Dem rough = Crop(whole, 0, n, false);
+    Dem smooth = rough;
+    for (VertexId v = 0; v < static_cast<VertexId>(smooth.heights.size()); ++v) {
+      if (smooth.Column(v) + 1 < n) smooth.heights[static_cast<std::size_t>(v)] = 0;
+    }
+    const Tile stuck(rough, plan);
+    const Tile free(smooth, plan);
+    for (std::size_t i = 0; i < plan.triangles.size(); ++i) {
+      ASSERT_EQ(stuck.On(i, n - 1, false), free.On(i, n - 1, false)) << "level " << i << "\n"
+                                                                     << DrawAscii(rough);
+      ++levels;
+    }
+  }
+  EXPECT_EQ(levels, Rounds(1500) * 7);
+}
+
+}  // namespace
+}  // namespace farhorizon

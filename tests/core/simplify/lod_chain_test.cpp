@@ -1,0 +1,306 @@
+#include "core/simplify/lod_chain.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <set>
+#include <stop_token>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/horizon/find_horizon.h"
+#include "tests/support/ascii_dem.h"
+#include "tests/support/effort.h"
+#include "tests/support/level_checks.h"
+#include "tests/support/small_terrains.h"
+#include "tests/support/terrains.h"
+
+namespace farhorizon {
+namespace {
+
+struct Chain {
+  Chain(const Dem& of, const LodPlan& plan, const RunControl& control = {})
+      : dem(of), terrain(*Terrain::Build(dem)), horizon(*FindHorizon(terrain, {}, {})) {
+    levels = *BuildLodChain(terrain, horizon, plan, control);
+  }
+  Dem dem;
+  Terrain terrain;
+  Horizon horizon;
+  std::vector<Lod> levels;
+};
+
+void ExpectSound(const Chain& chain) {
+  for (std::size_t i = 0; i < chain.levels.size(); ++i) {
+    ASSERT_EQ(FaultOfLevel(chain.terrain, chain.horizon, chain.levels[i]), "")
+        << "level " << i << "\n"
+        << DrawAscii(chain.dem);
+    if (i == 0) continue;
+    const std::vector<std::int32_t>& finer = chain.levels[i - 1].kept;
+    const std::vector<std::int32_t>& kept = chain.levels[i].kept;
+    ASSERT_TRUE(std::includes(finer.begin(), finer.end(), kept.begin(), kept.end()))
+        << "level " << i << " has horizon edges that the finer one lacks\n"
+        << DrawAscii(chain.dem);
+    ASSERT_LE(chain.levels[i].mesh.triangles.size(), chain.levels[i - 1].mesh.triangles.size());
+  }
+}
+
+// From all triangles down to one.
+std::vector<std::int64_t> Falling(std::int64_t full) {
+  std::vector<std::int64_t> triangles;
+  for (const int part : {1, 2, 5, 10, 20, 50}) {
+    const std::int64_t next = full / part;
+    if (next > 1 && (triangles.empty() || next < triangles.back())) triangles.push_back(next);
+  }
+  triangles.push_back(1);
+  return triangles;
+}
+
+TEST(LodChain, EveryLevelCoversTheDomainAndNestsOnAnySmallTerrain) {
+  std::mt19937 random(1);
+  for (int round = 0; round < Rounds(2500); ++round) {
+    const Dem dem = AnySmallDemInQuanta(13, random);
+    LodPlan plan;
+    plan.triangles = Falling(std::ssize(Terrain::Build(dem)->Triangles()));
+    plan.row_bend = round % 4 * 0.05;
+    const Chain chain(dem, plan);
+    ASSERT_EQ(chain.levels.size(), plan.triangles.size());
+    SCOPED_TRACE(round);
+    ExpectSound(chain);
+    if (HasFatalFailure()) return;
+  }
+}
+
+TEST(LodChain, EveryLevelCoversTheDomainAndNestsOnLandscapes) {
+  std::mt19937 random(2);
+  for (int round = 0; round < Rounds(60); ++round) {
+    const Dem dem = AnySolidLandscape(24, 60, random);
+    LodPlan plan;
+    plan.max_error_m = 5;
+    if (round % 2 == 0) plan.triangles = Falling(std::ssize(Terrain::Build(dem)->Triangles()));
+    SCOPED_TRACE(round);
+    ExpectSound(Chain(dem, plan));
+    if (HasFatalFailure()) return;
+  }
+}
+
+// Triangles of the domain with posts at its outline's corners, at knots and on the sides alone:
+// what a level needs however few it may have. A post more inside is two triangles more.
+std::int64_t LeastTriangles(const Chain& chain, const Lod& level) {
+  const std::set<Edge> outline = OutlineOf(level.mesh.triangles);
+  std::set<VertexId> rim;
+  for (const Edge& edge : outline) rim.insert({edge.a, edge.b});
+  const auto inside = std::ssize(level.mesh.posts) - std::ssize(rim);
+  (void)chain;
+  return std::ssize(level.mesh.triangles) - 2 * inside;
+}
+
+TEST(LodChain, HoldsABudgetOfTrianglesOrHasNothingButItsOutline) {
+  std::mt19937 random(3);
+  int held = 0;
+  int outlines = 0;
+  for (int round = 0; round < Rounds(60); ++round) {
+    const Dem dem = AnySolidLandscape(24, 50, random);
+    LodPlan plan;
+    plan.triangles = Falling(std::ssize(Terrain::Build(dem)->Triangles()));
+    const Chain chain(dem, plan);
+    for (std::size_t i = 0; i < chain.levels.size(); ++i) {
+      const auto found = std::ssize(chain.levels[i].mesh.triangles);
+      if (found <= plan.triangles[i]) {
+        ++held;
+        // None is given away: an operation takes at most two triangles, a side's posts aside.
+        continue;
+      }
+      ++outlines;
+      ASSERT_LE(found, 1.2 * static_cast<double>(LeastTriangles(chain, chain.levels[i])) + 8)
+          << plan.triangles[i] << " asked, level " << i << "\n"
+          << DrawAscii(dem);
+    }
+  }
+  EXPECT_GT(held, Rounds(200));
+  EXPECT_GT(outlines, Rounds(20));
+}
+
+TEST(LodChain, BySizeHasFiveLevelsOfTwoFifthsEachDownToFiveHundredTriangles) {
+  const Chain chain(FractalDem(81, 4000, 100, 7), {});
+  ASSERT_GE(chain.levels.size(), 3U);
+  EXPECT_TRUE(chain.levels[0].exact);
+  for (std::size_t i = 1; i < chain.levels.size(); ++i) {
+    const auto finer = static_cast<double>(chain.levels[i - 1].mesh.triangles.size());
+    const auto found = static_cast<double>(chain.levels[i].mesh.triangles.size());
+    EXPECT_LE(found, 0.4 * finer);
+    EXPECT_GE(found, 0.4 * finer - 60);
+    EXPECT_GE(found, 440);
+    EXPECT_FALSE(chain.levels[i].exact);
+  }
+  LodPlan two;
+  two.levels = 2;
+  EXPECT_EQ(Chain(FractalDem(81, 4000, 100, 7), two).levels.size(), 2U);
+}
+
+TEST(LodChain, IsTheSameOnASecondRun) {
+  std::mt19937 random(4);
+  for (int round = 0; round < Rounds(30); ++round) {
+    const Dem dem = AnySolidLandscape(10, 40, random);
+    LodPlan plan;
+    if (round % 2 == 0) plan.triangles = Falling(std::ssize(Terrain::Build(dem)->Triangles()));
+    const Chain one(dem, plan);
+    const Chain two(dem, plan);
+    ASSERT_EQ(one.levels.size(), two.levels.size());
+    for (std::size_t i = 0; i < one.levels.size(); ++i) {
+      ASSERT_EQ(one.levels[i].mesh.posts, two.levels[i].mesh.posts);
+      ASSERT_EQ(one.levels[i].mesh.heights_m, two.levels[i].mesh.heights_m);
+      ASSERT_EQ(one.levels[i].mesh.triangles, two.levels[i].mesh.triangles);
+      ASSERT_EQ(one.levels[i].kept, two.levels[i].kept);
+    }
+  }
+}
+
+TEST(LodChain, StopsSoonWhenAStopIsRequested) {
+  const Dem dem = FractalDem(129, 4000, 120, 9);
+  const Terrain terrain = *Terrain::Build(dem);
+  const Horizon horizon = *FindHorizon(terrain, {}, {});
+  for (const double at : {0.0, 0.2, 0.9}) {
+    std::stop_source source;
+    RunControl control;
+    control.stop = source.get_token();
+    double last = 0;
+    control.progress = [&](Stage, double done) {
+      last = done;
+      if (done >= at) source.request_stop();
+    };
+    Result<std::vector<Lod>> levels = BuildLodChain(terrain, horizon, {}, control);
+    ASSERT_FALSE(levels) << "stopped at " << at;
+    EXPECT_EQ(levels.error().code, ErrorCode::kCancelled);
+    EXPECT_LT(last, at + 0.2);
+  }
+}
+
+TEST(LodChain, ProgressRisesFromZeroToOne) {
+  for (const int levels : {1, 4}) {
+    std::vector<double> reported;
+    RunControl control;
+    control.progress = [&](Stage stage, double done) {
+      EXPECT_EQ(stage, Stage::kSimplify);
+      reported.push_back(done);
+    };
+    LodPlan plan;
+    plan.levels = levels;
+    const Chain chain(FractalDem(97, 2000, 100, 3), plan, control);
+    ASSERT_FALSE(reported.empty());
+    EXPECT_EQ(reported.front(), 0);
+    EXPECT_EQ(reported.back(), 1);
+    EXPECT_TRUE(std::is_sorted(reported.begin(), reported.end()));
+    EXPECT_LT(reported.size(), 1000U);
+  }
+}
+
+TEST(LodChain, ALevelSeaIsFinerWhereTheEarthCurves) {
+  const Dem sea = MakeDem(65, 65, [](std::int32_t, std::int32_t) { return 0; });
+  LodPlan flat;
+  flat.triangles = {200};
+  LodPlan curved = flat;
+  curved.column_bend = 0.05;
+  curved.row_bend = 0.05;
+  const Chain without(sea, flat);
+  const Chain with(sea, curved);
+  // As good as 200 triangles can be: a grid of 10 x 10 cells of 6.4 posts would be off by at most
+  // 2 x 0.05 x 3.2^2 = 1 m and would have an rms of half of that.
+  EXPECT_LT(GreatestErrorOf(with.terrain, with.levels[0].mesh, curved), 2.5);
+  EXPECT_GT(GreatestErrorOf(without.terrain, without.levels[0].mesh, curved), 2.5);
+  LodPlan by_size;
+  by_size.max_error_m = 0.5;
+  LodPlan by_size_curved = curved;
+  by_size_curved.triangles.clear();
+  by_size_curved.max_error_m = 0.5;
+  EXPECT_LT(Chain(sea, by_size).levels[0].mesh.triangles.size(),
+            Chain(sea, by_size_curved).levels[0].mesh.triangles.size());
+}
+
+TEST(LodChain, HeightsKeepTheirDigitsFarFromZero) {
+  Dem dem = FractalDem(33, 300, 100, 5);
+  const Chain near(dem, {});
+  dem.height_offset_m = 1e6;
+  const Chain far(dem, {});
+  ASSERT_EQ(near.levels.size(), far.levels.size());
+  for (std::size_t i = 0; i < near.levels.size(); ++i) {
+    ASSERT_EQ(near.levels[i].mesh.posts, far.levels[i].mesh.posts);
+    for (std::size_t k = 0; k < near.levels[i].mesh.posts.size(); ++k) {
+      ASSERT_NEAR(near.levels[i].mesh.heights_m[k] + 1e6, far.levels[i].mesh.heights_m[k], 1e-6);
+    }
+  }
+}
+
+struct HardGround {
+  const char* name;
+  Dem dem;
+};
+
+std::vector<HardGround> HardGrounds() {
+  std::mt19937 random(6);
+  const auto any = [&random](std::int32_t bound) {
+    return static_cast<std::int32_t>(random() % static_cast<unsigned>(bound));
+  };
+  std::vector<HardGround> all;
+  all.push_back({"flat", MakeDem(150, 150, [](std::int32_t, std::int32_t) { return 3; })});
+  all.push_back(
+      {"slope", MakeDem(150, 90, [](std::int32_t c, std::int32_t r) { return 7 * c - r; })});
+  all.push_back(
+      {"noise", MakeDem(110, 110, [&](std::int32_t, std::int32_t) { return any(1000); })});
+  all.push_back({"peaks", MakeDem(121, 121, [](std::int32_t c, std::int32_t r) {
+                   return c % 2 == 1 && r % 2 == 1 ? 9 : 0;
+                 })});
+  all.push_back(
+      {"saw", MakeDem(121, 121, [](std::int32_t c, std::int32_t) { return c % 2 * 50; })});
+  all.push_back({"strip", MakeDem(2, 4000, [&](std::int32_t, std::int32_t) { return any(50); })});
+  all.push_back({"level strip", MakeDem(4000, 2, [](std::int32_t, std::int32_t) { return 1; })});
+  all.push_back({"holes", MakeDem(110, 110, [&](std::int32_t, std::int32_t) {
+                   return any(4) == 0 ? kNoHeight : any(1000);
+                 })});
+  all.push_back({"bowl", MakeDem(101, 101, [](std::int32_t c, std::int32_t r) {
+                   return (c - 50) * (c - 50) + (r - 50) * (r - 50);
+                 })});
+  all.push_back({"cliff", MakeDem(100, 100, [](std::int32_t c, std::int32_t r) {
+                   return c + r > 90 ? 1 << 22 : c % 3;
+                 })});
+  return all;
+}
+
+TEST(LodChain, HardGroundTakesBoundedTimeAndGivesSoundMeshes) {
+  for (const HardGround& hard : HardGrounds()) {
+    SCOPED_TRACE(hard.name);
+    const Terrain terrain = *Terrain::Build(hard.dem);
+    const Horizon horizon = *FindHorizon(terrain, {}, {});
+    for (const bool by_size : {true, false}) {
+      LodPlan plan;
+      plan.max_error_m = 1;
+      if (!by_size) plan.triangles = Falling(std::ssize(terrain.Triangles()));
+      const auto begin = std::chrono::steady_clock::now();
+      const Result<std::vector<Lod>> levels = BuildLodChain(terrain, horizon, plan, {});
+      const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+      ASSERT_TRUE(levels);
+      for (const Lod& level : *levels) {
+        ASSERT_EQ(FaultOfLevel(terrain, horizon, level), "");
+      }
+      // A thousand times what one post takes on ground, on a slow machine.
+      EXPECT_LT(took.count(), 60) << (by_size ? "by size" : "by triangles");
+      RecordProperty(std::string(hard.name) + (by_size ? " by size" : " by triangles"),
+                     std::to_string(took.count()));
+    }
+  }
+}
+
+TEST(LodChain, ALevelPlaneBecomesNothingButItsSides) {
+  const Dem dem = MakeDem(60, 40, [](std::int32_t c, std::int32_t r) { return 2 * c + 3 * r; });
+  LodPlan plan;
+  plan.triangles = {2};
+  const Chain chain(dem, plan);
+  for (std::size_t k = 0; k < chain.levels[0].mesh.posts.size(); ++k) {
+    const VertexId v = chain.levels[0].mesh.posts[k];
+    EXPECT_TRUE(OnSide(dem, v));
+    EXPECT_NEAR(chain.levels[0].mesh.heights_m[k], dem.HeightM(v), 1e-3);
+  }
+}
+
+}  // namespace
+}  // namespace farhorizon
