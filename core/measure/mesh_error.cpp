@@ -1,5 +1,5 @@
 // Heights at the posts and a sample of lines come first: what they attain is where the search for
-// the silhouette's bound begins. It is proven edge by edge (core/measure/README.md, theorem S4):
+// the silhouette's bound begins. It is proven edge by edge (core/measure/README.md, section 3):
 // where an edge of one surface is no higher above the other one's ground than the bound, it is
 // proven on the spot; for the rest, lines of sight are asked.
 #include "core/measure/mesh_error.h"

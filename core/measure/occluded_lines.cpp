@@ -36,7 +36,7 @@ GridPoint Middle(const GridPoint& p, const GridPoint& q) {
 }  // namespace
 
 NetHull NetHull::Of(const SkylineNet& net) {
-  // The ends of segments, sorted, then the lower and the upper chain [Andrew79].
+  // The ends of segments, sorted, then the lower and the upper chain.
   std::vector<std::int32_t> used;
   for (const SkylineNet::Segment& s : net.segments) {
     used.push_back(s.a);

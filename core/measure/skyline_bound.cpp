@@ -1,8 +1,7 @@
-// Ranges of directions one by one. In each, most pieces are below the floor of the skyline on all lines of the strips that they reach. For the
-// others the occluders that are high enough are sorted into wider strips, and those in a piece's
-// strips are asked by boxes (OccludedLines).
-// Cost: for each range one look at each piece; where pieces are left, one at each point and segment
-// of the surface; then the boxes, which are limited.
+// Ranges of directions one by one. In each, most pieces are below the floor of the skyline on all
+// lines of the strips that they reach. For the others the occluders that are high enough are
+// gathered along their lines, and asked by boxes (OccludedLines).
+// Cost: for each range one look at each piece; then the boxes, which are limited.
 #include "core/measure/skyline_bound.h"
 
 #include <algorithm>
