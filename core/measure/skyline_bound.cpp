@@ -26,7 +26,7 @@ constexpr double kLeastRoom = 1e-7;
 // before they have to be gathered again.
 constexpr double kGathered = 1.5;
 // Boxes for each piece and segment, and at least, before the search ends with what it has.
-constexpr std::int64_t kMostBoxes = 200;
+constexpr std::int64_t kMostBoxes = 20;
 constexpr std::int64_t kLeastBoxes = 1'000'000;
 
 // Strips that lines through something are in.
