@@ -44,9 +44,9 @@ Status CheckPosts(const Terrain& terrain, const GridMesh& mesh,
   return Ok{};
 }
 
-// The mesh's triangles by posts, over the posts of the terrain, or the reason why they do not cover the terrain's domain.
-// Triangles that all turn counter-clockwise cover it once if their areas add up to the domain's and
-// their outline is on the domain's (CheckCovers checks that).
+// The mesh's triangles by posts, over the posts of the terrain, or the reason why they do not cover
+// the terrain's domain. Triangles that all turn counter-clockwise cover it once if their areas add
+// up to the domain's and their outline is on the domain's (CheckCovers checks that).
 Result<GridMesh> MeshOverPosts(const Terrain& terrain, const GridMesh& mesh,
                                const std::vector<VertexId>& posts) {
   GridMesh over_posts;

@@ -49,21 +49,23 @@ class Facets {
         row_m_(places.row_m),
         quantum_m_(terrain.dem().quantum_m) {}
 
-  // Adds the cells of a row whose middles the plane has.
-  void AddRow(std::int32_t row, const RowPart& part, const Gradient& plane) {
+  // Adds the triangles of a row whose middles the plane has: those at the north-eastern posts of
+  // cells, or those at the south-western ones.
+  void AddRow(std::int32_t row, const RowPart& part, bool north_east, const Gradient& plane) {
     const Dem& dem = terrain_.dem();
     for (std::int32_t column = part.first; column < part.end; ++column) {
       const auto nw = static_cast<std::size_t>(row * dem.columns + column);
-      const auto sw = nw + static_cast<std::size_t>(dem.columns);
       const std::int32_t* top = &dem.heights[nw];
-      const std::int32_t* bottom = &dem.heights[sw];
-      if (top[0] != kNoHeight && top[1] != kNoHeight && bottom[0] != kNoHeight &&
-          bottom[1] != kNoHeight) {
+      const std::int32_t* bottom = top + dem.columns;
+      if (top[0] == kNoHeight || top[1] == kNoHeight || bottom[0] == kNoHeight ||
+          bottom[1] == kNoHeight) {
+        // Three posts make one triangle: without the south-western one it is as any other.
+        if (north_east == (bottom[0] == kNoHeight)) AddBesideHole(row, column, plane);
+      } else if (north_east) {
         Add(plane, Rise(top[0], top[1]), Rise(top[1], bottom[1]));
+      } else {
         Add(plane, Rise(bottom[0], bottom[1]), Rise(top[0], bottom[0]));
-        continue;
       }
-      AddBesideHole(row, column, plane);
     }
   }
 
@@ -146,8 +148,14 @@ FacetLook MeasureFacets(const Terrain& terrain, const GridMesh& mesh, const Post
     }
     needles += IsNeedle(corners) ? 1 : 0;
     const Gradient plane = GradientOf(corners);
-    ForEachRow(mesh, t, 0.5, terrain.dem().columns - 1, terrain.dem().rows - 1,
-               [&](std::int32_t row, const RowPart& part) { facets.AddRow(row, part, plane); });
+    for (const bool north_east : {true, false}) {
+      const GridOffset middle =
+          north_east ? GridOffset{2.0 / 3, 1.0 / 3} : GridOffset{1.0 / 3, 2.0 / 3};
+      ForEachRow(mesh, t, middle, terrain.dem().columns - 1, terrain.dem().rows - 1,
+                 [&](std::int32_t row, const RowPart& part) {
+                   facets.AddRow(row, part, north_east, plane);
+                 });
+    }
   }
   const auto count = static_cast<double>(std::max<std::size_t>(mesh.triangles.size(), 1));
   return {facets.RmsDegrees(), static_cast<double>(needles) / count};

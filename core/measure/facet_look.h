@@ -10,8 +10,7 @@ struct FacetLook {
   double needle_share = 0;
 };
 
-/// The mesh's planes are compared with the DEM's at the middles of cells, which both triangles of a
-/// cell have. Cost: O(posts + triangles).
+/// The planes are compared at the middles of the DEM's triangles. Cost: O(posts + triangles).
 FacetLook MeasureFacets(const Terrain& terrain, const GridMesh& mesh, const PostPlaces& places);
 
 }  // namespace farhorizon

@@ -46,14 +46,15 @@ struct RaisedPiece {
 
 /// Where the edges of two surfaces are above the other one's ground.
 ///
-/// mesh_raised: the pieces of the mesh's ridges and outline that are more than `allowed_m` above the
-///   DEM's ground, or have none, and are in no merged hull of it: only there can the mesh's skyline
-///   be above the DEM's by more. Pieces are at most a few cells long.
+/// mesh_raised: the pieces of the mesh's ridges and outline that are more than `allowed_m` above
+///   the DEM's ground, or have none, and are in no merged hull of it: only there can the mesh's
+///   skyline be above the DEM's by more. Pieces are at most a few cells long.
 /// dem_raised: the horizon edges that are anywhere more than `allowed_m` above the mesh, or have
 ///   none of it below.
-/// sunk_m: of each horizon edge, how far it is above the mesh at most, metres; infinity where it has
-///   none of it below.
-/// most_m: the greatest difference of heights met, metres, infinity where a piece has no ground below.
+/// sunk_m: of each horizon edge, how far it is above the mesh at most, metres; infinity where it
+///   has none of it below.
+/// most_m: the greatest difference of heights met, metres; infinity where a piece has no ground
+///   below.
 struct GroundWalk {
   std::vector<RaisedPiece> mesh_raised;
   std::vector<RaisedPiece> dem_raised;

@@ -1,10 +1,11 @@
 // Heights at the posts and a sample of lines come first: what they attain is where the search for
-// the silhouette's bound begins. It is proven edge by edge (core/measure/README.md, theorem S4):
+// the silhouette's bound begins. It is proven edge by edge (core/measure/README.md, section 3):
 // where an edge of one surface is no higher above the other one's ground than the bound, it is
 // proven on the spot; for the rest, lines of sight are asked.
 #include "core/measure/mesh_error.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -93,7 +94,41 @@ struct MeshMeasurer::Dem {
 
 namespace {
 
-MeshDefects FindDefects(const GridMesh& mesh, const MeshSides& sides) {
+// How far beyond a mesh's outline there has to be ground for it to be a hole, columns or rows: more
+// than rounding moves a vertex.
+constexpr double kBeyond = 0.0625;
+
+// Whether the terrain has ground where the mesh ends at a side, just beyond it.
+bool EndsOverGround(const Terrain& terrain, const GridMesh& mesh, const MeshSide& side) {
+  const GridPoint& a = mesh.points[static_cast<std::size_t>(side.a)];
+  const GridPoint& b = mesh.points[static_cast<std::size_t>(side.b)];
+  const double dx = b.column - a.column;
+  const double dy = b.row - a.row;
+  const double length = std::hypot(dx, dy);
+  if (!(length > 0)) return false;
+  // To the right of a -> b on the map where the triangle is on the left of it.
+  const double beyond = (side.left != kNoneThere ? kBeyond : -kBeyond) / length;
+  const double column = (a.column + b.column) / 2 - beyond * dy;
+  const double row = (a.row + b.row) / 2 + beyond * dx;
+  const farhorizon::Dem& dem = terrain.dem();
+  if (!(column >= 0 && row >= 0 && column < dem.columns - 1 && row < dem.rows - 1)) return false;
+  const auto c = static_cast<std::int32_t>(column);
+  const auto r = static_cast<std::int32_t>(row);
+  const Terrain::CellTriangles cell = terrain.Cell(c, r);
+  for (int i = 0; i < cell.count; ++i) {
+    const Triangle& t = cell.triangles[static_cast<std::size_t>(i)];
+    bool inside = true;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Point3i p = terrain.Point(t[k]);
+      const Point3i q = terrain.Point(t[(k + 1) % 3]);
+      inside = inside && (q.y - p.y) * (column - p.x) - (q.x - p.x) * (row - p.y) >= 0;
+    }
+    if (inside) return true;
+  }
+  return false;
+}
+
+MeshDefects FindDefects(const Terrain& terrain, const GridMesh& mesh, const MeshSides& sides) {
   MeshDefects defects;
   defects.crowded_edges = sides.crowded;
   for (const std::array<std::int32_t, 3>& t : mesh.triangles) {
@@ -103,6 +138,9 @@ MeshDefects FindDefects(const GridMesh& mesh, const MeshSides& sides) {
     const double turn =
         (b.row - a.row) * (c.column - a.column) - (b.column - a.column) * (c.row - a.row);
     defects.flipped += turn > 0 ? 0 : 1;
+  }
+  for (const MeshSide& side : sides.sides) {
+    if (side.IsOutline() && EndsOverGround(terrain, mesh, side)) ++defects.open_edges;
   }
   return defects;
 }
@@ -127,7 +165,7 @@ Result<MeshError> MeshMeasurer::Measure(const PlacedMesh& mesh, const RunControl
   MeshError error;
   error.vertical = posts->vertical;
   error.covered_share = posts->covered_share;
-  error.defects = FindDefects(grid, sides);
+  error.defects = FindDefects(*dem_->terrain, grid, sides);
   error.defects.covered_twice = posts->covered_twice;
   const FacetLook look = MeasureFacets(*dem_->terrain, grid, dem_->places);
   error.facet_angle_rms_deg = look.angle_rms_deg;

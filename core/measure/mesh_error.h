@@ -90,11 +90,11 @@ struct MeshError {
   MeshDefects defects;
 };
 
-/// Lines within this angle of the grid's rows, columns or diagonals, or of a side of the outline that
-/// they cross, are left out of the bounds where their skyline is attained within about a cell of an
-/// outline; radians of the grid. A level's outline is off the DEM's by up to a hundredth of a cell:
-/// at this angle that shifts by ten cells where a line enters. Of lines drawn uniformly one in 10^6
-/// crosses a side at less.
+/// Lines within this angle of the grid's rows, columns or diagonals, or of a side of the outline
+/// that they cross, are left out of the bounds where their skyline is attained within about a cell
+/// of an outline; radians of the grid. A level's outline is off the DEM's by up to a hundredth of a
+/// cell: at this angle that shifts by ten cells where a line enters. Of lines drawn uniformly about
+/// one in 10^6 crosses a side at less.
 inline constexpr double kGrazingAngle = 1.0 / 1024;
 
 /// Measures meshes against one DEM: what belongs to the DEM alone is computed once.

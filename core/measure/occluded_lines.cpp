@@ -14,6 +14,8 @@ using Offsets = std::array<double, LineBox::kCorners>;
 // A box after so many halvings is less than 10^-12 of a cell or of half a turn wide each way: one
 // line as far as doubles can tell, and its middle line stands for it.
 constexpr int kMostHalvings = 80;
+// Most are proven at once, nearly all of the others by some tens of boxes.
+constexpr std::int64_t kMostBoxes = 20'000;
 
 double Cross(const GridPoint& o, const GridPoint& p, const GridPoint& q) {
   return (p.column - o.column) * (q.row - o.row) - (p.row - o.row) * (q.column - o.column);
@@ -34,7 +36,7 @@ GridPoint Middle(const GridPoint& p, const GridPoint& q) {
 }  // namespace
 
 NetHull NetHull::Of(const SkylineNet& net) {
-  // The ends of segments, sorted, then the lower and the upper chain [Andrew79].
+  // The ends of segments, sorted, then the lower and the upper chain.
   std::vector<std::int32_t> used;
   for (const SkylineNet::Segment& s : net.segments) {
     used.push_back(s.a);
@@ -77,8 +79,8 @@ bool OccludedLines::MissesNet(const LineBox& box) const {
   bool right = true;
   for (const std::int32_t i : hull_->ring) {
     const Offsets of = box.Offsets(net_->Point(i).column, net_->Point(i).row);
-    left = left && std::all_of(of.begin(), of.end(), [](double o) { return o < 0; });
-    right = right && std::all_of(of.begin(), of.end(), [](double o) { return o > 0; });
+    left = left && std::all_of(of.begin(), of.end(), [](double o) { return o <= 0; });
+    right = right && std::all_of(of.begin(), of.end(), [](double o) { return o >= 0; });
     if (!left && !right) return false;
   }
   return true;
@@ -145,22 +147,24 @@ OccludedLines::MiddleLine OccludedLines::MiddleOf(const LineBox& box) const {
 BoxVerdict OccludedLines::Ask(const BoxQuestion& question,
                               const std::vector<std::int32_t>& segments) {
   ++boxes_;
+  last_box_ = boxes_ + kMostBoxes;
   candidates_.clear();
   ends_.clear();
   MiddleLine line = MiddleOf(question.box);
   for (const std::int32_t i : segments) {
     const SkylineNet::Segment& s = net_->segments[static_cast<std::size_t>(i)];
-    if (Admit(question, {net_->Point(s.a), net_->Point(s.b), s.a, s.b}, line)) return {true, 0};
+    if (Admit(question, {net_->Point(s.a), net_->Point(s.b), s.a, s.b}, line))
+      return {.proven = true};
   }
   return Conclude(question, line, 0, 0);
 }
 
 BoxVerdict OccludedLines::AskPart(const BoxQuestion& question, std::size_t begin, std::size_t end,
                                   int depth) {
-  ++boxes_;
+  if (++boxes_ > last_box_) return {.proven = false, .exhausted = true};
   ends_.clear();
   MiddleLine line = MiddleOf(question.box);
-  BoxVerdict verdict{true, 0};
+  BoxVerdict verdict{.proven = true};
   bool proven = false;
   for (std::size_t i = begin; i < end && !proven; ++i) {
     const Occluder o = candidates_[i];
@@ -230,14 +234,15 @@ bool OccludedLines::ProvenAtEnds(const BoxQuestion& question) {
 BoxVerdict OccludedLines::Conclude(const BoxQuestion& question, const MiddleLine& line,
                                    std::size_t begin, int depth) {
   const LineBox& box = question.box;
-  if (ProvenAtEnds(question)) return {true, 0};
+  if (ProvenAtEnds(question)) return {.proven = true};
   const bool crossed = line.height_m > -std::numeric_limits<double>::infinity();
   const bool meets = crossed || !MissesNet(line.through, line.normal);
-  if (!meets && MissesNet(box)) return {true, 0};
+  if (!meets && MissesNet(box)) return {.proven = true};
   // On the middle line the surface is at its height, or at the floor at most.
   const double excess = line.through.height_m - std::max(line.height_m, question.floor_m);
   const bool attained = meets && excess > question.tolerated_m;
-  if (attained || depth >= kMostHalvings) return {!attained, attained ? excess : 0};
+  if (attained) return {.proven = false, .excess_m = excess};
+  if (depth >= kMostHalvings) return {.proven = true};
   BoxQuestion half = question;
   BoxQuestion other = question;
   const double across = std::abs((box.to.column - box.from.column) * line.normal.x +

@@ -21,11 +21,13 @@ struct NetHull {
 /// What is known of a box of lines.
 ///
 /// proven: the box's segment, lowered by the allowance, is on each line of the box that meets the
-///   net's surface no higher than that surface.
-/// excess_m: where it is not proven, by how much the segment is above the surface on some line of
-///   the box, at least; more than what was tolerated, or the search has come to an end.
+///   net's surface, and not with its outermost points alone, no higher than that surface.
+/// exhausted: it is not known, as that would have taken too many boxes.
+/// excess_m: otherwise, by how much the segment is above the surface on some line of the box, at
+///   least: more than what was tolerated.
 struct BoxVerdict {
   bool proven = false;
+  bool exhausted = false;
   double excess_m = 0;
 };
 
@@ -103,6 +105,7 @@ class OccludedLines {
   const SkylineNet* net_;
   const NetHull* hull_;
   std::int64_t boxes_ = 0;
+  std::int64_t last_box_ = 0;         // of the present question
   std::vector<Occluder> candidates_;  // a stack: those of a half box follow those of the whole
   std::vector<LooseEnd> ends_;        // of the present box
 };

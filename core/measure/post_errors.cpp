@@ -175,7 +175,7 @@ class PostMeasurer {
     const double least = std::min({a.height_m, b.height_m, c.height_m});
     const double most = std::max({a.height_m, b.height_m, c.height_m});
     const bool in_grid = places_.positions.empty();
-    ForEachRow(mesh_.grid, corners, 0, dem_.columns, dem_.rows,
+    ForEachRow(mesh_.grid, corners, {}, dem_.columns, dem_.rows,
                [&](std::int32_t r, const RowPart& part) {
                  for (std::int32_t column = part.first; column < part.end; ++column) {
                    const VertexId v = r * dem_.columns + column;
@@ -290,11 +290,12 @@ class PostMeasurer {
     if (distance <= kRounded * kRounded) {
       const std::int32_t triangle = side.left != kNoneThere ? side.left : side.right;
       const Meeting plane = Meet(triangle, post, up);
-      // No further up or down than the triangle goes: a thin one may be steep.
+      // No further beyond the triangle than it is high: a thin one may be steep.
       const double third = Dot(Minus(Straight(ThirdOf(triangle, side)), post), up);
       const auto [least, most] = std::minmax({Dot(a, up), Dot(b, up), third});
       if (std::isfinite(plane.above)) {
-        error = std::max(error, std::abs(std::clamp(plane.above, least, most)));
+        error =
+            std::max(error, std::abs(std::clamp(plane.above, 2 * least - most, 2 * most - least)));
       }
     }
     return {v, distance, error,

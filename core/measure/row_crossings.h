@@ -16,14 +16,20 @@ struct RowPart {
   std::int32_t end = 0;
 };
 
-/// Calls visit(row, RowPart) for each row of the points (column + offset, row + offset) of a
-/// columns x rows grid of which the triangle has some.
+/// How far the points of a grid are from whole columns and rows.
+struct GridOffset {
+  double column = 0;
+  double row = 0;
+};
+
+/// Calls visit(row, RowPart) for each row of the points of a columns x rows grid, so far from whole
+/// columns and rows, of which the triangle has some.
 ///
 /// Where a side crosses a row is computed from its lower point to its greater one by number, so
 /// that both triangles beside it get the same double.
 template <typename Visit>
-void ForEachRow(const GridMesh& mesh, const std::array<std::int32_t, 3>& triangle, double offset,
-                std::int32_t columns, std::int32_t rows, Visit&& visit) {
+void ForEachRow(const GridMesh& mesh, const std::array<std::int32_t, 3>& triangle,
+                GridOffset offset, std::int32_t columns, std::int32_t rows, Visit&& visit) {
   struct Side {
     double x, y, run, rise, top, bottom;
   };
@@ -50,9 +56,9 @@ void ForEachRow(const GridMesh& mesh, const std::array<std::int32_t, 3>& triangl
     const auto cut = static_cast<std::int32_t>(x);
     return cut < x ? cut + 1 : cut;
   };
-  const std::int32_t end_row = at_or_above(bottom - offset, rows);
-  for (std::int32_t r = at_or_above(top - offset, rows); r < end_row; ++r) {
-    const double y = r + offset;
+  const std::int32_t end_row = at_or_above(bottom - offset.row, rows);
+  for (std::int32_t r = at_or_above(top - offset.row, rows); r < end_row; ++r) {
+    const double y = r + offset.row;
     double left = 0;
     double right = 0;
     bool crossed = false;
@@ -63,8 +69,8 @@ void ForEachRow(const GridMesh& mesh, const std::array<std::int32_t, 3>& triangl
       right = crossed ? std::max(right, x) : x;
       crossed = true;
     }
-    const RowPart part = {at_or_above(left - offset, columns),
-                          at_or_above(right - offset, columns)};
+    const RowPart part = {at_or_above(left - offset.column, columns),
+                          at_or_above(right - offset.column, columns)};
     if (part.first < part.end) visit(r, part);
   }
 }

@@ -1,8 +1,7 @@
-// Ranges of directions one by one. In each, most pieces are below the floor of the skyline on all lines of the strips that they reach. For the
-// others the occluders that are high enough are sorted into wider strips, and those in a piece's
-// strips are asked by boxes (OccludedLines).
-// Cost: for each range one look at each piece; where pieces are left, one at each point and segment
-// of the surface; then the boxes, which are limited.
+// Ranges of directions one by one. In each, most pieces are below the floor of the skyline on all
+// lines of the strips that they reach. For the others the occluders that are high enough are
+// gathered along their lines, and asked by boxes (OccludedLines).
+// Cost: for each range one look at each piece; then the boxes, which are limited.
 #include "core/measure/skyline_bound.h"
 
 #include <algorithm>
@@ -27,7 +26,7 @@ constexpr double kLeastRoom = 1e-7;
 // before they have to be gathered again.
 constexpr double kGathered = 1.5;
 // Boxes for each piece and segment, and at least, before the search ends with what it has.
-constexpr std::int64_t kMostBoxes = 200;
+constexpr std::int64_t kMostBoxes = 20;
 constexpr std::int64_t kLeastBoxes = 1'000'000;
 
 // Strips that lines through something are in.
@@ -87,12 +86,10 @@ class RaisedSearch {
       const StripSpan strips = SpanOf(piece, range);
       const double known = floor_.Least(k, strips.first, strips.last);
       if (known >= Highest(piece) - Allowed(piece.outline)) continue;
-      if (lines_.boxes() <= most_boxes_) {
-        AskPiece(piece, k * angle, (k + 1) * angle);
-      } else {  // the bound becomes what is certain without a search
-        double& tolerated = Tolerated(piece.outline);
-        tolerated = std::max(tolerated, Highest(piece) - std::max(known, surface_.lowest_m));
-      }
+      if (lines_.boxes() <= most_boxes_ && AskPiece(piece, k * angle, (k + 1) * angle)) continue;
+      // The bound becomes what is certain without a search.
+      double& tolerated = Tolerated(piece.outline);
+      tolerated = std::max(tolerated, Highest(piece) - std::max(known, surface_.lowest_m));
     }
   }
 
@@ -103,7 +100,8 @@ class RaisedSearch {
     blocks_.Find({piece.a, piece.b, range}, floor_m_, found_);
   }
 
-  void AskPiece(const RaisedPiece& piece, double first, double last) {
+  // False where the search has come to no end.
+  bool AskPiece(const RaisedPiece& piece, double first, double last) {
     if (!piece.near_outline) return AskDirections(piece, first, last);
     // Without the directions that graze an outline: those of the grid's, and the piece's own.
     const double own =
@@ -116,16 +114,15 @@ class RaisedSearch {
                                     own < 0 ? own + std::numbers::pi : own};
     std::sort(grazed.begin(), grazed.end());
     for (const double g : grazed) {
-      if (g - kGrazingAngle > first) {
-        AskDirections(piece, first, std::min(last, g - kGrazingAngle));
-      }
+      const double stop = std::min(last, g - kGrazingAngle);
+      if (stop > first && !AskDirections(piece, first, stop)) return false;
       first = std::max(first, g + kGrazingAngle);
-      if (first >= last) return;
+      if (first >= last) return true;
     }
-    AskDirections(piece, first, last);
+    return AskDirections(piece, first, last);
   }
 
-  void AskDirections(const RaisedPiece& piece, double first, double last) {
+  bool AskDirections(const RaisedPiece& piece, double first, double last) {
     const DirectionRange range = DirectionRange::Of(first, last);
     CollectCandidates(piece, range);
     for (;;) {
@@ -135,8 +132,9 @@ class RaisedSearch {
       question.allowed_m = Allowed(piece.outline);
       question.floor_m = floor_m_;
       const BoxVerdict verdict = lines_.Ask(question, found_);
-      if (verdict.proven) return;
-      Tolerated(piece.outline) = std::max(verdict.excess_m, Tolerated(piece.outline) + least_room_);
+      if (verdict.proven) return true;
+      if (verdict.exhausted) return false;
+      Tolerated(piece.outline) = verdict.excess_m;
       const double lower_end = std::min(piece.a.height_m, piece.b.height_m);
       if (lower_end - Allowed(piece.outline) < floor_m_) CollectCandidates(piece, range);
     }

@@ -12,8 +12,8 @@ namespace farhorizon {
 /// How lines are sorted: by direction into `directions` equal ranges of the half turn, by offset
 /// from the middle of the plan into strips one cell wide.
 ///
-/// A line in range k is in the strips in which its offsets at the two ends of the range are; `slack`
-/// is what an offset can be beyond those in between.
+/// The lines of range k through a point are in the strips between its offsets at the two ends of
+/// the range; `slack` is what an offset in between can be beyond those.
 struct LineStrips {
   int directions = 0;
   std::int32_t count = 0;

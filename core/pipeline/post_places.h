@@ -8,7 +8,7 @@
 namespace farhorizon {
 
 /// Where the terrain's posts are in the local frame, in which decoded levels are straight, and
-/// where the ellipsoid's normal points there. To a millimetre in ten kilometres of height error.
+/// where the ellipsoid's normal points there.
 ///
 /// Errors: those of Georeference::ToGeodetic and ToEnu. Cost: O(posts); 24 bytes a post.
 Result<PostPlaces> FindPostPlaces(const Terrain& terrain, const Georeference& georeference);
