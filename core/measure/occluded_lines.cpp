@@ -144,20 +144,21 @@ OccludedLines::MiddleLine OccludedLines::MiddleOf(const LineBox& box) const {
           -std::numeric_limits<double>::infinity(), hull_->reach};
 }
 
-BoxVerdict OccludedLines::Ask(const BoxQuestion& question,
-                              const std::vector<std::int32_t>& segments) {
+void OccludedLines::Begin(const BoxQuestion& question) {
   ++boxes_;
   last_box_ = boxes_ + kMostBoxes;
   candidates_.clear();
   ends_.clear();
-  MiddleLine line = MiddleOf(question.box);
-  for (const std::int32_t i : segments) {
-    const SkylineNet::Segment& s = net_->segments[static_cast<std::size_t>(i)];
-    if (Admit(question, {net_->Point(s.a), net_->Point(s.b), s.a, s.b}, line))
-      return {.proven = true};
-  }
-  return Conclude(question, line, 0, 0);
+  question_ = question;
+  line_ = MiddleOf(question.box);
 }
+
+bool OccludedLines::Offer(std::int32_t segment) {
+  const SkylineNet::Segment& s = net_->segments[static_cast<std::size_t>(segment)];
+  return Admit(question_, {net_->Point(s.a), net_->Point(s.b), s.a, s.b}, line_);
+}
+
+BoxVerdict OccludedLines::Conclude() { return Conclude(question_, line_, 0, 0); }
 
 BoxVerdict OccludedLines::AskPart(const BoxQuestion& question, std::size_t begin, std::size_t end,
                                   int depth) {

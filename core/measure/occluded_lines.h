@@ -55,9 +55,13 @@ class OccludedLines {
  public:
   OccludedLines(const SkylineNet& net, const NetHull& hull) : net_(&net), hull_(&hull) {}
 
-  /// segments: every one of the net that is anywhere above question.floor_m and meets a line of the
-  ///   box, once; others do not matter.
-  BoxVerdict Ask(const BoxQuestion& question, const std::vector<std::int32_t>& segments);
+  /// Begins with a question.
+  void Begin(const BoxQuestion& question);
+  /// Takes a segment of the net; true where it alone proves the box, and there is no more to do.
+  bool Offer(std::int32_t segment);
+  /// The answer. Requires: every segment that is anywhere above question.floor_m and meets a line of
+  ///   the box has been offered, once; others do not matter.
+  BoxVerdict Conclude();
 
   /// Boxes looked at so far.
   [[nodiscard]] std::int64_t boxes() const { return boxes_; }
@@ -104,6 +108,8 @@ class OccludedLines {
 
   const SkylineNet* net_;
   const NetHull* hull_;
+  BoxQuestion question_;
+  MiddleLine line_{};
   std::int64_t boxes_ = 0;
   std::int64_t last_box_ = 0;         // of the present question
   std::vector<Occluder> candidates_;  // a stack: those of a half box follow those of the whole

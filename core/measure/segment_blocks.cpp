@@ -67,23 +67,24 @@ std::int32_t SegmentBlocks::RowOf(double row) const {
   return static_cast<std::int32_t>(std::clamp((row - row_) / kBlock, 0.0, rows_ - 1.0));
 }
 
-void SegmentBlocks::FindInBlock(std::int32_t column, std::int32_t row, double above_m,
-                                std::vector<std::int32_t>& found) {
+bool SegmentBlocks::VisitBlock(std::int32_t column, std::int32_t row, double above_m,
+                               const std::function<bool(std::int32_t segment)>& visit) {
   const auto block = static_cast<std::size_t>(row * columns_ + column);
-  if (highest_[block] < above_m) return;
+  if (highest_[block] < above_m) return false;
   for (std::size_t i = starts_[block]; i < starts_[block + 1]; ++i) {
     const Entry& e = entries_[i];
-    if (e.height_m < above_m) return;
+    if (e.height_m < above_m) return false;
     std::uint32_t& last = found_in_[static_cast<std::size_t>(e.segment)];
     if (last == search_) continue;
     last = search_;
-    found.push_back(e.segment);
+    if (visit(e.segment)) return true;
   }
+  return false;
 }
 
-void SegmentBlocks::Find(const LineBox& box, double above_m, std::vector<std::int32_t>& found) {
-  found.clear();
-  if (entries_.empty()) return;
+bool SegmentBlocks::Visit(const LineBox& box, double above_m,
+                          const std::function<bool(std::int32_t segment)>& visit) {
+  if (entries_.empty()) return false;
   if (++search_ == 0) {
     std::fill(found_in_.begin(), found_in_.end(), 0);
     search_ = 1;
@@ -122,9 +123,10 @@ void SegmentBlocks::Find(const LineBox& box, double above_m, std::vector<std::in
     if (high < 0 || low > across_count) continue;
     const auto j_end = static_cast<std::int32_t>(std::min(high, across_count - 1.0));
     for (auto j = static_cast<std::int32_t>(std::max(low, 0.0)); j <= j_end; ++j) {
-      FindInBlock(by_column ? i : j, by_column ? j : i, above_m, found);
+      if (VisitBlock(by_column ? i : j, by_column ? j : i, above_m, visit)) return true;
     }
   }
+  return false;
 }
 
 }  // namespace farhorizon

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "core/measure/line_box.h"
@@ -15,11 +16,12 @@ class SegmentBlocks {
   /// Requires: net outlives it. Cost: O(n log n), n the blocks that the segments reach.
   explicit SegmentBlocks(const SkylineNet& net);
 
-  /// Puts into `found`, once each, all segments with an end above `above_m` that lie in blocks
-  /// which lines of the box meet.
+  /// Calls visit(segment), once each, for the segments with an end above `above_m` that lie in
+  /// blocks which lines of the box meet, until it returns true; whether it did.
   /// Requires: the box's range of directions is below an eighth of a turn.
-  /// Cost: the blocks along the lines, and what is found.
-  void Find(const LineBox& box, double above_m, std::vector<std::int32_t>& found);
+  /// Cost: the blocks along the lines, and what is visited.
+  bool Visit(const LineBox& box, double above_m,
+             const std::function<bool(std::int32_t segment)>& visit);
 
  private:
   struct Entry {
@@ -28,8 +30,8 @@ class SegmentBlocks {
     double height_m;  // of the higher end
   };
 
-  void FindInBlock(std::int32_t column, std::int32_t row, double above_m,
-                   std::vector<std::int32_t>& found);
+  bool VisitBlock(std::int32_t column, std::int32_t row, double above_m,
+                  const std::function<bool(std::int32_t segment)>& visit);
   [[nodiscard]] std::int32_t ColumnOf(double column) const;
   [[nodiscard]] std::int32_t RowOf(double row) const;
 

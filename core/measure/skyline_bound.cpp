@@ -22,8 +22,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kRoom = 1.0 / 40;
 // The same in heights of the surface, for an error of 0.
 constexpr double kLeastRoom = 1e-7;
-// How far below a piece occluders are gathered, in allowances: the bound may be raised to that
-// before they have to be gathered again.
+// How far below a piece occluders are looked up, in allowances: more than 1, so that an error can
+// be seen that is greater than what is allowed.
 constexpr double kGathered = 1.5;
 // Boxes for each piece and segment, and at least, before the search ends with what it has.
 constexpr std::int64_t kMostBoxes = 20;
@@ -93,13 +93,6 @@ class RaisedSearch {
     }
   }
 
-  // Gathers what may occlude a piece in a range of directions, also where it is lower than needed
-  // now: the bound may be raised by that before it has to be done again.
-  void CollectCandidates(const RaisedPiece& piece, const DirectionRange& range) {
-    floor_m_ = std::min(piece.a.height_m, piece.b.height_m) - kGathered * Allowed(piece.outline);
-    blocks_.Find({piece.a, piece.b, range}, floor_m_, found_);
-  }
-
   // False where the search has come to no end.
   bool AskPiece(const RaisedPiece& piece, double first, double last) {
     if (!piece.near_outline) return AskDirections(piece, first, last);
@@ -123,20 +116,22 @@ class RaisedSearch {
   }
 
   bool AskDirections(const RaisedPiece& piece, double first, double last) {
-    const DirectionRange range = DirectionRange::Of(first, last);
-    CollectCandidates(piece, range);
+    const double lower_end = std::min(piece.a.height_m, piece.b.height_m);
+    BoxQuestion question;
+    question.box = {piece.a, piece.b, DirectionRange::Of(first, last)};
     for (;;) {
-      BoxQuestion question;
-      question.box = {piece.a, piece.b, range};
       question.tolerated_m = Tolerated(piece.outline);
       question.allowed_m = Allowed(piece.outline);
-      question.floor_m = floor_m_;
-      const BoxVerdict verdict = lines_.Ask(question, found_);
+      question.floor_m = lower_end - kGathered * question.allowed_m;
+      lines_.Begin(question);
+      if (blocks_.Visit(question.box, question.floor_m,
+                        [this](std::int32_t segment) { return lines_.Offer(segment); })) {
+        return true;
+      }
+      const BoxVerdict verdict = lines_.Conclude();
       if (verdict.proven) return true;
       if (verdict.exhausted) return false;
       Tolerated(piece.outline) = verdict.excess_m;
-      const double lower_end = std::min(piece.a.height_m, piece.b.height_m);
-      if (lower_end - Allowed(piece.outline) < floor_m_) CollectCandidates(piece, range);
     }
   }
 
@@ -148,8 +143,6 @@ class RaisedSearch {
   std::int64_t most_boxes_ = 0;
   OccludedLines lines_;
   SegmentBlocks blocks_;
-  double floor_m_ = 0;  // what is nowhere above it is not among the candidates
-  std::vector<std::int32_t> found_;
 };
 
 }  // namespace
