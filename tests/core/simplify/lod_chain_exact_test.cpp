@@ -108,8 +108,8 @@ TEST(LodChainExact, LevelZeroHasTheSkylineOfTheDemOnLandscapes) {
     ExpectExact(terrain, horizon, levels[0], 300, random, figures);
     if (HasFatalFailure()) return;
   }
-  EXPECT_GT(figures.fitted, Rounds(250));
-  EXPECT_GT(figures.removed, Rounds(10000));
+  EXPECT_GT(figures.fitted, Rounds(150));
+  EXPECT_GT(figures.removed, Rounds(7000));
 }
 
 TEST(LodChainExact, ALevelOfTrianglesIsExactWhereTheHorizonFits) {
@@ -132,7 +132,7 @@ TEST(LodChainExact, ALevelOfTrianglesIsExactWhereTheHorizonFits) {
       if (HasFatalFailure()) return;
     }
   }
-  EXPECT_GT(exact, Rounds(25));
+  EXPECT_GT(exact, Rounds(15));
 }
 
 TEST(LodChainExact, AValleyBetweenTwoRidgesIsNotFilled) {
