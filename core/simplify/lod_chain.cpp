@@ -161,7 +161,7 @@ class ChainBuilder {
   Status Simplify(double triangles, const RunControl& control) {
     const auto budget = static_cast<std::int32_t>(std::min(triangles, full_));
     Status done = collapser_.Run(budget, control.Between(0, kCollapsing), [this] { Weigh(); });
-    control.Report(Stage::kSimplify, kCollapsing);
+    if (done) control.Report(Stage::kSimplify, kCollapsing);
     const int rounds = work_.rules.exact() ? kRoundsOfExactPolish : kRoundsOfPolish;
     for (int i = 0; i < rounds; ++i) {
       if (done) done = FlipEdges(work_, control);
@@ -169,7 +169,7 @@ class ChainBuilder {
       if (done) done = FitHeights(work_, control);
     }
     if (done && !work_.rules.exact()) SideThinner(work_, collapser_).Finish(side_heights_);
-    control.Report(Stage::kSimplify, 1);
+    if (done) control.Report(Stage::kSimplify, 1);
     return done;
   }
 

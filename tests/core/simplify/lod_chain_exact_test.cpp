@@ -97,7 +97,7 @@ TEST(LodChainExact, AsFarAsTheRulesLetItOnAnySmallTerrain) {
 TEST(LodChainExact, LevelZeroHasTheSkylineOfTheDemOnLandscapes) {
   std::mt19937 random(2);
   Figures figures;
-  for (int round = 0; round < Rounds(120); ++round) {
+  for (int round = 0; round < Rounds(60); ++round) {
     const Dem dem = AnySolidLandscape(20, 48, random);
     const Terrain terrain = *Terrain::Build(dem);
     const Horizon horizon = *FindHorizon(terrain, {}, {});
@@ -108,15 +108,15 @@ TEST(LodChainExact, LevelZeroHasTheSkylineOfTheDemOnLandscapes) {
     ExpectExact(terrain, horizon, levels[0], 300, random, figures);
     if (HasFatalFailure()) return;
   }
-  EXPECT_GT(figures.fitted, Rounds(500));
-  EXPECT_GT(figures.removed, Rounds(20000));
+  EXPECT_GT(figures.fitted, Rounds(150));
+  EXPECT_GT(figures.removed, Rounds(7000));
 }
 
 TEST(LodChainExact, ALevelOfTrianglesIsExactWhereTheHorizonFits) {
   std::mt19937 random(3);
   Figures figures;
   int exact = 0;
-  for (int round = 0; round < Rounds(200); ++round) {
+  for (int round = 0; round < Rounds(100); ++round) {
     const Dem dem = AnySolidLandscape(16, 30, random);
     const Terrain terrain = *Terrain::Build(dem);
     const Horizon horizon = *FindHorizon(terrain, {}, {});
@@ -132,7 +132,7 @@ TEST(LodChainExact, ALevelOfTrianglesIsExactWhereTheHorizonFits) {
       if (HasFatalFailure()) return;
     }
   }
-  EXPECT_GT(exact, Rounds(50));
+  EXPECT_GT(exact, Rounds(15));
 }
 
 TEST(LodChainExact, AValleyBetweenTwoRidgesIsNotFilled) {

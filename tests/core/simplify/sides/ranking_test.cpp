@@ -71,8 +71,8 @@ std::vector<double> RankByDefinition(const std::vector<double>& heights) {
         heaviest = std::max(heaviest, weight(i));
       }
       const double cost =
-          heaviest * (Off(heights, left[k - 1], left[k + 1]) - Off(heights, left[k - 1], left[k]) -
-                      Off(heights, left[k], left[k + 1]));
+          heaviest * (Off(bent, left[k - 1], left[k + 1]) - Off(bent, left[k - 1], left[k]) -
+                      Off(bent, left[k], left[k + 1]));
       if (best == 0 || cost < least) {
         best = k;
         least = cost;
