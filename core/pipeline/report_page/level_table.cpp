@@ -57,8 +57,8 @@ Html LevelTable(const Report& report, std::int64_t terrain_triangles) {
       "<th scope=\"col\" class=\"number\">count</th><th scope=\"col\" class=\"number\">of all</th>"
       "<th scope=\"col\" class=\"number\">rms</th><th scope=\"col\" class=\"number\">greatest</th>"
       "<th scope=\"col\" class=\"number\">rms</th><th scope=\"col\" class=\"number\">at most</th>"
-      "<th scope=\"col\" class=\"number\">at rims</th><th scope=\"col\" class=\"number\">facets "
-      "off</th>"
+      "<th scope=\"col\" class=\"number\">at rims</th>"
+      "<th scope=\"col\" class=\"number\">facets off</th>"
       "<th scope=\"col\" class=\"number\">needles</th>"
       "</tr></thead><tbody>"_html;
   for (const LevelReport& level : report.levels) {
