@@ -14,8 +14,8 @@ using Offsets = std::array<double, LineBox::kCorners>;
 // A box after so many halvings is less than 10^-12 of a cell or of half a turn wide each way: one
 // line as far as doubles can tell, and its middle line stands for it.
 constexpr int kMostHalvings = 80;
-// Most are proven at once, nearly all of the others by some tens of boxes.
-constexpr std::int64_t kMostBoxes = 20'000;
+// Segments looked at for one question. Most take some hundred, nearly all below a hundred thousand.
+constexpr std::int64_t kMostLooks = 2'000'000;
 
 double Cross(const GridPoint& o, const GridPoint& p, const GridPoint& q) {
   return (p.column - o.column) * (q.row - o.row) - (p.row - o.row) * (q.column - o.column);
@@ -145,8 +145,7 @@ OccludedLines::MiddleLine OccludedLines::MiddleOf(const LineBox& box) const {
 }
 
 void OccludedLines::Begin(const BoxQuestion& question) {
-  ++boxes_;
-  last_box_ = boxes_ + kMostBoxes;
+  last_look_ = looks_ + kMostLooks;
   candidates_.clear();
   ends_.clear();
   question_ = question;
@@ -162,7 +161,7 @@ BoxVerdict OccludedLines::Conclude() { return Conclude(question_, line_, 0, 0); 
 
 BoxVerdict OccludedLines::AskPart(const BoxQuestion& question, std::size_t begin, std::size_t end,
                                   int depth) {
-  if (++boxes_ > last_box_) return {.proven = false, .exhausted = true};
+  if (looks_ > last_look_) return {.proven = false, .exhausted = true};
   ends_.clear();
   MiddleLine line = MiddleOf(question.box);
   BoxVerdict verdict{.proven = true};
@@ -177,6 +176,7 @@ BoxVerdict OccludedLines::AskPart(const BoxQuestion& question, std::size_t begin
 }
 
 bool OccludedLines::Admit(const BoxQuestion& question, const Occluder& o, MiddleLine& line) {
+  ++looks_;
   const LineBox& box = question.box;
   const auto side_of = [](const Offsets& of) {
     if (std::max(std::max(of[0], of[1]), std::max(of[2], of[3])) <= 0) return Side::kLeft;
@@ -219,6 +219,7 @@ bool OccludedLines::Admit(const BoxQuestion& question, const Occluder& o, Middle
 }
 
 bool OccludedLines::ProvenAtEnds(const BoxQuestion& question) {
+  looks_ += std::ssize(ends_);
   std::sort(ends_.begin(), ends_.end(), [](const LooseEnd& p, const LooseEnd& q) {
     return std::tie(p.id, p.other, p.candidate) < std::tie(q.id, q.other, q.candidate);
   });

@@ -22,7 +22,7 @@ struct NetHull {
 ///
 /// proven: the box's segment, lowered by the allowance, is on each line of the box that meets the
 ///   net's surface, and not with its outermost points alone, no higher than that surface.
-/// exhausted: it is not known, as that would have taken too many boxes.
+/// exhausted: it is not known, as that would have taken too long.
 /// excess_m: otherwise, by how much the segment is above the surface on some line of the box, at
 ///   least: more than what was tolerated.
 struct BoxVerdict {
@@ -63,8 +63,8 @@ class OccludedLines {
   ///   the box has been offered, once; others do not matter.
   BoxVerdict Conclude();
 
-  /// Boxes looked at so far.
-  [[nodiscard]] std::int64_t boxes() const { return boxes_; }
+  /// Segments looked at so far, again for each box: what the time goes with.
+  [[nodiscard]] std::int64_t looks() const { return looks_; }
 
  private:
   enum class Side : std::uint8_t { kLeft, kRight, kBoth };  // of all lines of a box, or of some
@@ -110,8 +110,8 @@ class OccludedLines {
   const NetHull* hull_;
   BoxQuestion question_;
   MiddleLine line_{};
-  std::int64_t boxes_ = 0;
-  std::int64_t last_box_ = 0;         // of the present question
+  std::int64_t looks_ = 0;
+  std::int64_t last_look_ = 0;        // for the present question
   std::vector<Occluder> candidates_;  // a stack: those of a half box follow those of the whole
   std::vector<LooseEnd> ends_;        // of the present box
 };

@@ -25,9 +25,10 @@ constexpr double kLeastRoom = 1e-7;
 // How far below a piece occluders are looked up, in allowances: more than 1, so that an error can
 // be seen that is greater than what is allowed.
 constexpr double kGathered = 1.5;
-// Boxes for each piece and segment, and at least, before the search ends with what it has.
-constexpr std::int64_t kMostBoxes = 20;
-constexpr std::int64_t kLeastBoxes = 1'000'000;
+// Looks at segments for each piece and segment, and at least, before the search ends with what it
+// has: some microseconds each. Levels of real ground take a tenth of it.
+constexpr std::int64_t kMostLooks = 500;
+constexpr std::int64_t kLeastLooks = 50'000'000;
 
 // Strips that lines through something are in.
 struct StripSpan {
@@ -46,7 +47,7 @@ class RaisedSearch {
         lines_(surface.net, surface.hull),
         blocks_(surface.net) {
     least_room_ = kLeastRoom * (1 + surface.relief_m);
-    most_boxes_ = kLeastBoxes + kMostBoxes * static_cast<std::int64_t>(surface.net.segments.size() +
+    most_looks_ = kLeastLooks + kMostLooks * static_cast<std::int64_t>(surface.net.segments.size() +
                                                                        pieces.size());
   }
 
@@ -86,7 +87,7 @@ class RaisedSearch {
       const StripSpan strips = SpanOf(piece, range);
       const double known = floor_.Least(k, strips.first, strips.last);
       if (known >= Highest(piece) - Allowed(piece.outline)) continue;
-      if (lines_.boxes() <= most_boxes_ && AskPiece(piece, k * angle, (k + 1) * angle)) continue;
+      if (lines_.looks() <= most_looks_ && AskPiece(piece, k * angle, (k + 1) * angle)) continue;
       // The bound becomes what is certain without a search.
       double& tolerated = Tolerated(piece.outline);
       tolerated = std::max(tolerated, Highest(piece) - std::max(known, surface_.lowest_m));
@@ -140,7 +141,7 @@ class RaisedSearch {
   const std::vector<RaisedPiece>& pieces_;
   RaisedBounds bounds_;
   double least_room_ = 0;
-  std::int64_t most_boxes_ = 0;
+  std::int64_t most_looks_ = 0;
   OccludedLines lines_;
   SegmentBlocks blocks_;
 };
