@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/io/edge_visibility.h"
+#include "core/io/glb_container.h"
 
 namespace farhorizon {
 
@@ -39,12 +40,6 @@ void AppendLittleEndian(std::vector<std::uint8_t>& bytes, std::uint32_t value) {
   for (unsigned shift = 0; shift < 32; shift += 8) {
     bytes.push_back(static_cast<std::uint8_t>(value >> shift));
   }
-}
-
-std::uint32_t LittleEndianAt(std::span<const std::uint8_t> bytes, std::size_t at) {
-  std::uint32_t value = 0;
-  for (unsigned i = 0; i < 4; ++i) value |= std::uint32_t{bytes[at + i]} << (8 * i);
-  return value;
 }
 
 void Pad(std::vector<std::uint8_t>& bytes, std::uint8_t with) {
@@ -131,35 +126,6 @@ Error BadGlb(const std::string& message) {
   return {ErrorCode::kUnsupportedData, "no GLB of ours: " + message, "bad-glb"};
 }
 
-struct Chunks {
-  std::span<const std::uint8_t> json;
-  std::span<const std::uint8_t> bin;
-};
-
-Result<Chunks> SplitChunks(std::span<const std::uint8_t> bytes) {
-  if (bytes.size() < kHeaderBytes || LittleEndianAt(bytes, 0) != kMagic ||
-      LittleEndianAt(bytes, 4) != 2) {
-    return BadGlb("it does not begin as glTF binary 2 does");
-  }
-  if (LittleEndianAt(bytes, 8) != bytes.size()) {
-    return BadGlb("it has " + std::to_string(bytes.size()) + " bytes, its header says " +
-                  std::to_string(LittleEndianAt(bytes, 8)));
-  }
-  std::array<std::span<const std::uint8_t>, 2> found;
-  std::size_t at = kHeaderBytes;
-  for (const auto& [index, type] : {std::pair{0U, kJsonChunk}, std::pair{1U, kBinChunk}}) {
-    if (bytes.size() - at < kChunkHeaderBytes || LittleEndianAt(bytes, at + 4) != type) {
-      return BadGlb("chunk " + std::to_string(index) + " is missing");
-    }
-    const std::size_t size = LittleEndianAt(bytes, at);
-    at += kChunkHeaderBytes;
-    if (size > bytes.size() - at) return BadGlb("chunk " + std::to_string(index) + " is cut short");
-    found[index] = bytes.subspan(at, size);
-    at += size;
-  }
-  return Chunks{found[0], found[1]};
-}
-
 }  // namespace
 
 std::array<double, 16> GltfMatrix(const QuantizationLattice& lattice) {
@@ -215,8 +181,12 @@ std::vector<std::uint8_t> WriteGlb(
 }
 
 Result<GlbContents> ReadGlb(const std::vector<std::uint8_t>& bytes) {
-  Result<Chunks> chunks = SplitChunks(bytes);
-  if (!chunks) return std::move(chunks.error());
+  Result<GlbChunks> chunks = SplitGlb(bytes);
+  if (!chunks) return BadGlb(chunks.error().message);
+  if (bytes.size() !=
+      kHeaderBytes + 2 * kChunkHeaderBytes + chunks->json.size() + chunks->bin.size()) {
+    return BadGlb("it is more than a header and two chunks");
+  }
   try {
     const Json gltf = Json::parse(chunks->json.begin(), chunks->json.end());
     const Json& primitive = gltf.at("meshes").at(0).at("primitives").at(0);

@@ -12,7 +12,7 @@ std::string MediaTypeOf(const std::string& name) {
       {".drc", "application/vnd.google.draco"},
       {".geojson", "application/geo+json"},
       {".json", "application/json"},
-      {".html", "text/html; charset=utf-8"},
+      {".html", "text/html"},
       {".fgb", "application/vnd.flatgeobuf"},
       {".gpkg", "application/geopackage+sqlite3"},
       {".svg", "image/svg+xml"},

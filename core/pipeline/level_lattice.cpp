@@ -36,7 +36,7 @@ std::vector<Enu> Rounded(const Dem& dem, const LatticeSteps& steps, const LocalM
 }  // namespace
 
 double FinestSideStep(const Georeference& georeference, double max_error_m) {
-  const double step = PowerOfTwoWithin(georeference.row_step_m() / 175);
+  const double step = std::min(PowerOfTwoWithin(georeference.row_step_m() / 175), 0.5);
   // Half a step is an eighth of the error on level ground, and as much again on a slope of 45
   // degrees.
   return max_error_m > 0 ? std::min(step, PowerOfTwoWithin(max_error_m / 4)) : step;

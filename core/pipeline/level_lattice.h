@@ -23,10 +23,11 @@ struct LatticeSteps {
 
 /// The greatest step of level 0's sides for an error that is asked for; 0: for any.
 ///
-/// Of cells that a row of posts is between 175 2^k and 350 2^k apart, metres, the step is 2^k. Two
+/// Where rows of posts are between 175 2^k and 350 2^k metres apart, the step is 2^k metres. Two
 /// tiles of a grid have the same step although the globe gives their cells sizes that differ by a
 /// percent or two: customary cells (1, 2, 3, 5, 10, 25, 30, 90 m; 1", 3") are further than that
-/// from where the step changes.
+/// from where the step changes. It is half a metre at most, half of what heights are given in over
+/// wide cells: ground does not get rougher as cells get wider.
 double FinestSideStep(const Georeference& georeference, double max_error_m);
 
 /// The steps of level `number`: sides twice as coarse from level to level, but never beyond a 16th

@@ -37,6 +37,11 @@ constexpr StageShare kTrace[] = {{Stage::kRead, 0.03},
                                  {Stage::kSweep, 0.02},
                                  {Stage::kCandidates, 0.06},
                                  {Stage::kWrite, 0.01}};
+constexpr StageShare kCompare[] = {{Stage::kRead, 0.1},
+                                   {Stage::kSweep, 0.1},
+                                   {Stage::kCandidates, 0.1},
+                                   {Stage::kDecide, 0.2},
+                                   {Stage::kMeasure, 0.5}};
 
 }  // namespace
 
@@ -54,6 +59,8 @@ std::span<const StageShare> PlanOf(Workflow workflow) {
       return kVerify;
     case Workflow::kTrace:
       return kTrace;
+    case Workflow::kCompare:
+      return kCompare;
   }
   return kBuild;
 }

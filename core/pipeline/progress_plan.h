@@ -8,11 +8,11 @@
 namespace farhorizon {
 
 /// The runs that report progress. A job is kBuild.
-enum class Workflow { kBuild, kHorizon, kKineticHorizon, kSkyline, kVerify, kTrace };
+enum class Workflow { kBuild, kHorizon, kKineticHorizon, kSkyline, kVerify, kTrace, kCompare };
 
-inline constexpr std::array kWorkflows = {Workflow::kBuild,          Workflow::kHorizon,
-                                          Workflow::kKineticHorizon, Workflow::kSkyline,
-                                          Workflow::kVerify,         Workflow::kTrace};
+inline constexpr std::array kWorkflows = {
+    Workflow::kBuild,  Workflow::kHorizon, Workflow::kKineticHorizon, Workflow::kSkyline,
+    Workflow::kVerify, Workflow::kTrace,   Workflow::kCompare};
 
 /// A stage of a run and its part of the run's time.
 struct StageShare {

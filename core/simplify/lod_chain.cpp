@@ -42,6 +42,7 @@ constexpr double kLeast = 1e-9;  // a share of which no side has a post but its 
 constexpr int kRoundsOfPolish = 2;
 // At an exact level most vertices are held, and more rounds change nothing that is seen.
 constexpr int kRoundsOfExactPolish = 1;
+constexpr double kCollapsing = 0.7;  // of a level's time
 // Of a level's triangles, at most, that its sides' posts may ask for, so that small levels are not
 // all sides.
 constexpr double kMostOfSides = 0.5;
@@ -70,6 +71,7 @@ class ChainBuilder {
       levels_.push_back(LevelOf(work_, side_heights_));
       work_.mesh.Compact();
     }
+    control.Report(Stage::kSimplify, 1);
     return std::move(levels_);
   }
 
@@ -87,11 +89,11 @@ class ChainBuilder {
 
   Status BuildBySize(std::size_t level, const RunControl& control) {
     if (level == 0) {
-      BeginExact(plan_.max_error_m, plan_.silhouette_error_m);
+      BeginExact(plan_.max_error_m, plan_.silhouette_error_m, control);
       return Simplify(ExactTriangles(), control);
     }
     const double budget = kNextLevel * Triangles();
-    BeginSoft(kSideShare * std::pow(kNextLevel, static_cast<double>(level)));
+    BeginSoft(kSideShare * std::pow(kNextLevel, static_cast<double>(level)), control);
     return Simplify(budget, control);
   }
 
@@ -106,15 +108,15 @@ class ChainBuilder {
     }
     const bool was_exact = level == 0 || levels_.back().exact;
     if (was_exact && budget >= ExactTriangles() && SidePosts::ShareOf(share) >= 1) {
-      BeginExact(std::numeric_limits<float>::infinity(), 0);
+      BeginExact(std::numeric_limits<float>::infinity(), 0, control);
       Status simplified = Simplify(budget, control);
       if (!simplified || Triangles() <= budget) return simplified;
     }
-    BeginSoft(share);
+    BeginSoft(share, control);
     return Simplify(budget, control);
   }
 
-  void BeginExact(double most_m, double rise_m) {
+  void BeginExact(double most_m, double rise_m, const RunControl& control) {
     work_.mesh.measure().SetMost(static_cast<float>(most_m));
     work_.rules.BeginExact(rise_m);
     work_.price.AllowRises(rise_m > 0);
@@ -123,10 +125,10 @@ class ChainBuilder {
           work_.mesh.IsVertex(v) && (ground_.OnSide(work_.mesh.at(v)) || !work_.IsFree(v));
     }
     Weigh();
-    ConsiderAll();
+    ConsiderAll(control);
   }
 
-  void BeginSoft(double share) {
+  void BeginSoft(double share, const RunControl& control) {
     const bool was_exact = work_.rules.exact();
     work_.mesh.measure().SetMost(std::numeric_limits<float>::infinity());
     work_.rules.BeginSoft(work_.mesh);
@@ -135,11 +137,13 @@ class ChainBuilder {
     side_heights_ = sides_.At(SidePosts::ShareOf(share));
     SideThinner thinner(work_, collapser_);
     thinner.Thin(side_heights_);
-    if (was_exact || levels_.empty()) ConsiderAll();
+    if (was_exact || levels_.empty()) ConsiderAll(control);
   }
 
-  void ConsiderAll() {
+  // Ends early where a stop is requested: the next step returns the error.
+  void ConsiderAll(const RunControl& control) {
     for (std::int32_t v = 0; v < work_.mesh.vertices(); ++v) {
+      if (v % kVerticesBetweenChecks == 0 && control.StopRequested()) return;
       if (!work_.queued[static_cast<std::size_t>(v)]) collapser_.Consider(v);
     }
   }
@@ -156,7 +160,8 @@ class ChainBuilder {
 
   Status Simplify(double triangles, const RunControl& control) {
     const auto budget = static_cast<std::int32_t>(std::min(triangles, full_));
-    Status done = collapser_.Run(budget, control, [this] { Weigh(); });
+    Status done = collapser_.Run(budget, control.Between(0, kCollapsing), [this] { Weigh(); });
+    if (done) control.Report(Stage::kSimplify, kCollapsing);
     const int rounds = work_.rules.exact() ? kRoundsOfExactPolish : kRoundsOfPolish;
     for (int i = 0; i < rounds; ++i) {
       if (done) done = FlipEdges(work_, control);
@@ -164,7 +169,7 @@ class ChainBuilder {
       if (done) done = FitHeights(work_, control);
     }
     if (done && !work_.rules.exact()) SideThinner(work_, collapser_).Finish(side_heights_);
-    control.Report(Stage::kSimplify, 1);
+    if (done) control.Report(Stage::kSimplify, 1);
     return done;
   }
 

@@ -31,11 +31,12 @@ struct LodPlan {
 
 /// One level of detail.
 ///
-/// kept: the horizon edges that are edges of this mesh in plan, by their index in horizon.edges,
-///   rising.
+/// kept: the horizon edges that are edges of this mesh in plan and of the finer ones, by their
+///   index in horizon.edges, rising.
 /// exact: the mesh has all of them at the DEM's heights, and its skyline is the DEM's.
-/// vertical_rms_m, silhouette_rms_m: as simplifying sees them, at posts in the tile's frame and over
-///   the lines that it samples. Estimates, for who has to round the mesh; core/measure measures.
+/// vertical_rms_m, silhouette_rms_m: as simplifying sees them, at posts in the tile's frame and
+///   over the lines that it samples. Estimates, for who has to round the mesh; core/measure
+///   measures.
 struct Lod {
   PostMesh mesh;
   std::vector<std::int32_t> kept;

@@ -20,6 +20,7 @@ using SelectedCommand = std::function<int()>;
 void AddBuild(CLI::App& app, SelectedCommand& selected);
 void AddHorizon(CLI::App& app, SelectedCommand& selected);
 void AddSkyline(CLI::App& app, SelectedCommand& selected);
+void AddCompare(CLI::App& app, SelectedCommand& selected);
 void AddVerify(CLI::App& app, SelectedCommand& selected);
 void AddServe(CLI::App& app, SelectedCommand& selected);
 void AddSubmit(CLI::App& app, SelectedCommand& selected);

@@ -23,6 +23,7 @@ int RunProgram(int argc, char** argv) {
   AddBuild(app, selected);
   AddHorizon(app, selected);
   AddSkyline(app, selected);
+  AddCompare(app, selected);
   AddVerify(app, selected);
   AddServe(app, selected);
   AddSubmit(app, selected);

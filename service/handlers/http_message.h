@@ -43,7 +43,8 @@ struct FileBody {
   std::int64_t bytes = 0;
 };
 
-/// What a handler answers. The server adds Date, Connection, Content-Length and the CORS fields.
+/// What a handler answers. The server adds Date, Connection, Content-Length, the CORS fields, and a
+/// Content-Security-Policy that forbids everything where there is none.
 struct HttpResponse {
   int status = 200;
   std::vector<std::pair<std::string, std::string>> headers;

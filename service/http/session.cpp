@@ -247,7 +247,11 @@ std::string Session::ResponseHead(const HttpRequest& request, const HttpResponse
   add("Date", FormatHttpDate(NowMs()));
   add("Connection", keep_alive ? "keep-alive" : "close");
   add("X-Content-Type-Options", "nosniff");
-  add("Content-Security-Policy", "default-src 'none'");
+  // A handler that has a page says what the page may do; nothing else is one.
+  const bool has_policy =
+      std::any_of(response.headers.begin(), response.headers.end(),
+                  [](const auto& field) { return field.first == "Content-Security-Policy"; });
+  if (!has_policy) add("Content-Security-Policy", "default-src 'none'");
   if (!context_.options.cors_origin.empty()) {
     add("Access-Control-Allow-Origin", context_.options.cors_origin);
     add("Access-Control-Expose-Headers",

@@ -25,8 +25,10 @@ inline double HeightAt(const PostMesh& mesh, VertexId post) {
   return mesh.heights_m[static_cast<std::size_t>(IndexOf(mesh, post))];
 }
 
-/// What is wrong with a level in itself, found from its lists alone; empty where nothing is.
-inline std::string FaultOfLevel(const Terrain& terrain, const Horizon& horizon, const Lod& level) {
+/// What is wrong with a level, found from its lists alone; empty where nothing is.
+/// finer: the horizon edges that the finer level keeps; nullptr: level 0.
+inline std::string FaultOfLevel(const Terrain& terrain, const Horizon& horizon, const Lod& level,
+                                const std::vector<std::int32_t>* finer) {
   const PostMesh& mesh = level.mesh;
   if (mesh.heights_m.size() != mesh.posts.size()) return "not every post has a height";
   if (std::adjacent_find(mesh.posts.begin(), mesh.posts.end(), std::greater_equal<>()) !=
@@ -55,7 +57,9 @@ inline std::string FaultOfLevel(const Terrain& terrain, const Horizon& horizon, 
   }
   std::vector<std::int32_t> present;
   for (std::size_t e = 0; e < horizon.edges.size(); ++e) {
-    if (sides.count(horizon.edges[e].edge) > 0) present.push_back(static_cast<std::int32_t>(e));
+    const auto index = static_cast<std::int32_t>(e);
+    if (sides.count(horizon.edges[e].edge) == 0) continue;
+    if (!finer || std::binary_search(finer->begin(), finer->end(), index)) present.push_back(index);
   }
   if (present != level.kept) return "kept are not the horizon edges that it has";
   if (!level.exact) return "";

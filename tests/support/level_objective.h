@@ -10,7 +10,8 @@ namespace farhorizon {
 
 /// The sum that simplifying makes least, from the definitions, of any mesh on a workpiece's lines:
 ///   squares over posts + weight * sum over the lines that count of (H' - H)^2,
-/// between `least` and `most`, as lines that graze an end of an edge may have one height or another.
+/// between `least` and `most`, as lines that graze an end of an edge may have one height or
+/// another.
 struct Objective {
   double least = 0;
   double most = 0;

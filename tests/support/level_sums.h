@@ -113,7 +113,8 @@ inline double SquaresOf(const HalfEdgeMesh& mesh) {
 }
 
 /// A bracket of the mesh's greatest height over a line: `least` without the edges that end within
-/// 1e-3 cells of the line, `most` with those that fail to meet it by less. -infinity: none.
+/// 1e-3 cells of the line, `most` with those that fail to meet it by less. Where an edge runs
+/// nearly along the line, floats lose what they do of its ends' distances. -infinity: none.
 struct HeightBracket {
   double least = -std::numeric_limits<double>::infinity();
   double most = -std::numeric_limits<double>::infinity();
@@ -121,6 +122,7 @@ struct HeightBracket {
 inline HeightBracket HeightOverByDefinition(const HalfEdgeMesh& mesh, const Pencils::Pencil& pencil,
                                             std::int32_t i) {
   constexpr double kBeside = 1e-3;
+  constexpr double kOfADistance = 1e-5;  // floats, small tiles
   HeightBracket found;
   const auto distance = [&](const Place& p) {
     return static_cast<double>(pencil.x) * p.x + static_cast<double>(pencil.y) * p.y -
@@ -134,10 +136,12 @@ inline HeightBracket HeightOverByDefinition(const HalfEdgeMesh& mesh, const Penc
     const double t = distance(b);
     if (std::min(s, t) > kBeside || std::max(s, t) < -kBeside) continue;
     const double share = s == t ? 0 : std::clamp(s / (s - t), 0.0, 1.0);
-    double height = static_cast<double>(a.plan) +
-                    share * (static_cast<double>(b.plan) - static_cast<double>(a.plan));
+    const double rise = static_cast<double>(b.plan) - static_cast<double>(a.plan);
+    double height = static_cast<double>(a.plan) + share * rise;
+    const double loss = kOfADistance * std::abs(rise / std::max(std::abs(s - t), kBeside));
     if (std::min(s, t) < -kBeside && std::max(s, t) > kBeside) {
-      found.least = std::max(found.least, height);
+      found.least = std::max(found.least, height - loss);
+      height += loss;
     }
     if (std::abs(s) < kBeside) height = std::max(height, static_cast<double>(a.plan));
     if (std::abs(t) < kBeside) height = std::max(height, static_cast<double>(b.plan));

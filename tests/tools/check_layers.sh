@@ -46,7 +46,10 @@ declare -A may=(
   [core/io/text_grid]="core/base"
   [core/io/raster]="core/base core/io core/io/file_kind core/io/text_grid"
   [core/io/dem]="core/base core/geometry core/terrain core/geo core/io core/io/text_grid core/io/raster"
+  # Meshes that others wrote; `compare` alone reads them.
+  [core/io/mesh_files]="core/base core/io"
   [core/pipeline]="$below_pipeline"
+  [core/pipeline/compare]="$below_pipeline core/io/mesh_files core/pipeline"
   [core/pipeline/verify]="$below_pipeline core/pipeline"
   [core/pipeline/report_page]="$below_pipeline core/pipeline"
   # What stands above the rooms of core/pipeline: the build itself.
@@ -59,7 +62,7 @@ declare -A may=(
   [service/http]="core/base service service/handlers"
   # The configuration consists of the options of the parts, so it stands above them.
   [service/config]="core/base service service/worker service/jobs service/http"
-  [service/cli]="core/base core/io core/pipeline core/pipeline/build service service/worker service/jobs service/handlers service/http core/pipeline/verify core/horizon core/horizon/search service/config"
+  [service/cli]="core/base core/io core/pipeline core/pipeline/build service service/worker service/jobs service/handlers service/http core/pipeline/verify core/pipeline/compare core/horizon core/horizon/search service/config"
   [service/main.cpp]="core/base service service/cli"
 )
 
@@ -68,12 +71,13 @@ declare -A may=(
 # so that a new dependency has to be entered here.
 foreign=(
   '(gdal|ogr|cpl_|vrt) @ ^core/io/(dem/|raster/)?[^/]+\.cpp$ ^service/jobs/[a-z_0-9]*object_store\.cpp$'
-  'draco/ @ ^core/io/[^/]+\.cpp$'
+  'draco/ @ ^core/io/(mesh_files/)?[^/]+\.cpp$'
+  'meshoptimizer\.h$ @ ^core/io/mesh_files/[^/]+\.cpp$'
   'proj(_[a-z]+)?(\.h$|/) @ ^core/geo/[^/]+\.cpp$'
   'boost/multiprecision/ @ ^core/exact/'
   'boost/ @ ^service/asio\.h$ ^service/(http|worker|cli)/'
   'sqlite3 @ ^service/jobs/[a-z_0-9]+\.cpp$'
-  'nlohmann/ @ ^core/(io|pipeline)/[^/]+\.cpp$ ^service/[a-z_0-9]+\.(h|cpp)$ ^service/(handlers|jobs|worker|config|cli)/'
+  'nlohmann/ @ ^core/(io|pipeline)/(compare/)?[^/]+\.cpp$ ^core/io/mesh_files/(gltf_json\.h|[^/]+\.cpp)$ ^service/[a-z_0-9]+\.(h|cpp)$ ^service/(handlers|jobs|worker|config|cli)/'
   'openssl/ @ ^core/io/[^/]+\.cpp$'
   'CLI/ @ ^service/(main\.cpp$|cli/)'
   # The system's own: files in core/io, processes and sockets in service.

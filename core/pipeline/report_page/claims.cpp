@@ -93,11 +93,12 @@ Html ClaimList(const Report& report, bool has_geojson) {
                  "nowhere meets higher ground. Anyone can shoot it."_html);
   }
   return list + LevelClaim(report) +
-         Item(
-             "Errors are those of the files."_html,
-             "Each level was decoded again and measured: the vertical error at every post, the "
-             "silhouette error up to a proven bound for all lines of sight but those that pass the "
-             "outline closer than rounding moves it."_html) +
+         Item("Errors are those of the files."_html,
+              "Each level was decoded again and measured: the vertical error at every post, the "
+              "silhouette error up to a proven bound for all lines of sight. Lines with a skyline "
+              "on "
+              "the outline are told apart (at rims); lines that graze the outline are left out, "
+              "where any rounding moves a skyline by any amount."_html) +
          Item("The same input and options give the same bytes,"_html,
               "whatever the number of threads, the machine's load and the build."_html) +
          "</ol>"_html;

@@ -34,8 +34,9 @@ Html RowOf(const LevelReport& level, std::int64_t terrain_triangles, std::int64_
          Cell(Grouped(level.vertices)) + Cell(Grouped(level.horizon_edges)) +
          Cell(share(level.horizon_edges, horizon_edges)) + Cell(ThreeDigits(level.vertical.rms_m)) +
          Cell(ThreeDigitsUp(level.vertical.max_m)) + Cell(ThreeDigits(level.silhouette.rms_m)) +
-         Cell(ThreeDigitsUp(level.silhouette.max_m)) +
-         Cell(ThreeDigitsUp(level.geometric_error_m)) +
+         Cell(ThreeDigitsUp(level.silhouette.max_m)) + Cell(ThreeDigitsUp(level.rim_m)) +
+         Cell(ThreeDigits(level.facet_angle_deg) + "\u00b0") +
+         Cell(PercentOf(level.needle_share, 1)) + Cell(ThreeDigitsUp(level.geometric_error_m)) +
          Cell(ThreeDigits(level.quantization_step_m)) + "</tr>"_html;
 }
 
@@ -48,19 +49,27 @@ Html LevelTable(const Report& report, std::int64_t terrain_triangles) {
       "<th scope=\"col\" rowspan=\"2\" class=\"number\">Vertices</th>"
       "<th scope=\"colgroup\" colspan=\"2\">Horizon edges kept</th>"
       "<th scope=\"colgroup\" colspan=\"2\">Vertical error</th>"
-      "<th scope=\"colgroup\" colspan=\"2\">Silhouette error</th>"
+      "<th scope=\"colgroup\" colspan=\"3\">Silhouette error</th>"
+      "<th scope=\"colgroup\" colspan=\"2\">Look when lit</th>"
       "<th scope=\"col\" rowspan=\"2\" class=\"number\">Geometric<br>error</th>"
       "<th scope=\"col\" rowspan=\"2\" class=\"number\">Rounding<br>step</th></tr><tr>"
       "<th scope=\"col\" class=\"number\">count</th><th scope=\"col\" class=\"number\">of all</th>"
       "<th scope=\"col\" class=\"number\">count</th><th scope=\"col\" class=\"number\">of all</th>"
       "<th scope=\"col\" class=\"number\">rms</th><th scope=\"col\" class=\"number\">greatest</th>"
       "<th scope=\"col\" class=\"number\">rms</th><th scope=\"col\" class=\"number\">at most</th>"
+      "<th scope=\"col\" class=\"number\">at rims</th>"
+      "<th scope=\"col\" class=\"number\">facets off</th>"
+      "<th scope=\"col\" class=\"number\">needles</th>"
       "</tr></thead><tbody>"_html;
   for (const LevelReport& level : report.levels) {
     table += RowOf(level, terrain_triangles, report.horizon_edges);
   }
-  return Scrolling("levels", "The levels, measured on the decoded meshes; errors in metres"_html,
-                   table + "</tbody>"_html);
+  return Scrolling(
+      "levels",
+      "The levels, measured on the decoded meshes; errors in metres. At rims: the greatest "
+      "error, lines with a skyline on the outline included. Facets off: the angle to "
+      "the DEM's, root mean square. Needles: triangles with an angle below 2 degrees"_html,
+      table + "</tbody>"_html);
 }
 
 Html SkylineTable(const std::vector<SkylineSet>& sets) {

@@ -72,8 +72,7 @@ Html Summary(const Report& report, std::int64_t terrain_triangles) {
       " of detail. The finest has " +
       PercentOf(static_cast<double>(finest.triangles), static_cast<double>(terrain_triangles)) +
       " of all triangles and a skyline that is off by " + ThreeDigits(finest.silhouette.rms_m) +
-      " m (root mean square), nowhere by more than " + ThreeDigitsUp(finest.silhouette.max_m) +
-      " m.");
+      " m (root mean square), by no more than " + ThreeDigitsUp(finest.silhouette.max_m) + " m.");
 }
 
 std::string HashOf(std::string_view text) {

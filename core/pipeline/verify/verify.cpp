@@ -75,6 +75,10 @@ void VerifyLevels(const LevelContext& context, const fs::path& directory, const 
         claimed.geometric_error_m >= finer_error_m,
         "lod" + std::to_string(level) + " has no smaller geometric error than a finer level");
     finer_error_m = claimed.geometric_error_m;
+    if (claimed.exact) {
+      claims.Same("lod" + std::to_string(level) + " is exact and has every horizon edge",
+                  report.horizon_edges, claimed.horizon_edges);
+    }
     if (!published) continue;
     // An edge counts as kept as long as no finer level has lost it.
     std::int64_t here = 0;

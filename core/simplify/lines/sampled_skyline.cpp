@@ -94,10 +94,19 @@ void SampledSkyline::Refresh(std::int32_t line, std::int32_t a, std::int32_t b) 
   }
 }
 
+bool SampledSkyline::KeepEdge(std::int32_t line, std::int32_t a, std::int32_t b) {
+  const float z = HeightOn(line, a, b);
+  return z > kNone && Keep(line, {z, a, b});
+}
+
 void SampledSkyline::Forget(std::int32_t a, std::int32_t b) {
   if (!known_[static_cast<std::size_t>(a)] || !known_[static_cast<std::size_t>(b)]) return;
-  pencils_.ForEachLineAcross(mesh_->at(a), mesh_->at(b),
-                             [&](std::int32_t line, float) { Refresh(line, a, b); });
+  pencils_.ForEachLineAcross(mesh_->at(a), mesh_->at(b), [&](std::int32_t line, float) {
+    const Crossing best = Best(line);
+    Refresh(line, a, b);
+    // The new best must be listed as a carrier, or the line's top would outlive it.
+    if (!IsEdge(Best(line), best.a, best.b)) Crown(line);
+  });
 }
 
 void SampledSkyline::Crown(std::int32_t line) {

@@ -59,6 +59,8 @@ class SampledSkyline {
 
   /// The upkeep while the mesh changes. Keeps a crossing among the line's highest, if it is one.
   bool Keep(std::int32_t line, const Crossing& crossing);
+  /// The same for an edge of the mesh, if it crosses the line.
+  bool KeepEdge(std::int32_t line, std::int32_t a, std::int32_t b);
   /// Brings what is kept up to date with the mesh, whose vertices go and move; leaves out the edge
   /// a, b.
   void Refresh(std::int32_t line, std::int32_t a = -1, std::int32_t b = -1);

@@ -17,8 +17,8 @@ Ground::Ground(const Terrain& terrain, const EarthDrop& drop)
   }
 }
 
-// From the post above, parallel to the ground one column on, as a cell's triangle of its other three
-// corners has it.
+// From the post above, parallel to the ground one column on, as a cell's triangle of its other
+// three corners has it.
 float Ground::Continued(std::int32_t x, std::int32_t y) const {
   if (y == 0 || !HasData(x, y - 1)) return 0;
   const float above = At(x, y - 1).frame;

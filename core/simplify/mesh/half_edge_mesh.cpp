@@ -145,7 +145,13 @@ void HalfEdgeMesh::Compact() {
     }
     squares_[moved[t]] = squares_[t];
   }
-  for (std::int32_t& h : out_) h = place(h);
+  for (std::int32_t v = 0; v < vertices(); ++v) {
+    if (!IsKnotted(v)) out_[v] = place(out_[v]);
+  }
+  // A knot's half-edge may have gone with its triangle: any of the others will do.
+  for (std::int32_t h = 0; h < 3 * count; ++h) {
+    if (IsKnotted(origin_[h])) out_[origin_[h]] = h;
+  }
   origin_.resize(3 * count);
   twin_.resize(3 * count);
   squares_.resize(count);

@@ -15,8 +15,8 @@ namespace farhorizon {
 ///
 /// Half-edge h is a side of triangle h / 3, from origin(h) to origin(Next(h)). Triangles turn from
 /// columns to rows (Turn > 0). A vertex keeps its id, the post where it began, when it is moved.
-/// Invariants: every triangle is sound, but what CutOff may leave; together they cover the terrain's domain
-/// once; twin(twin(h)) == h.
+/// Invariants: every triangle is sound, except what CutOff may leave; together they cover the
+/// terrain's domain once; twin(twin(h)) == h.
 /// A post at which fans meet without a shared edge is `knotted`: it must stay as it is.
 /// Memory: 77 bytes a post at first.
 class HalfEdgeMesh {

@@ -20,9 +20,9 @@ inline std::int64_t Turn(const Place& a, const Place& b, const Place& c) {
   return std::int64_t{b.x - a.x} * (c.y - a.y) - std::int64_t{c.x - a.x} * (b.y - a.y);
 }
 
-/// Whether triangle abc turns, and is not so thin that rounding to a lattice of a 16th of a cell, or
-/// a grid that is bent in space, could turn it over: its least altitude is a tenth of a cell and a
-/// 256th of its longest side, or more. All triangles of a grid are sound.
+/// Whether triangle abc turns, and is not so thin that rounding to a lattice of a 16th of a cell,
+/// or a grid that is bent in space, could turn it over: its least altitude is a tenth of a cell and
+/// a 256th of its longest side, or more. All triangles of a grid are sound.
 inline bool IsSound(const Place& a, const Place& b, const Place& c) {
   const std::int64_t turn = Turn(a, b, c);
   const auto squared = [](const Place& p, const Place& q) {

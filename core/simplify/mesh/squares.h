@@ -21,7 +21,8 @@ struct HeightPull {
 ///
 /// Rows and columns are half open, as in rasterising, so that triangles which tile the plan share
 /// the posts out: a triangle has its left and upper edges. What is left over, the posts on the
-/// rim's right and lower edges, belongs to the rim's edges.
+/// rim's right and lower edges, belongs to the rim's edges, but for corners of the rim whose
+/// triangles all lie above them or to their left.
 /// All in floats, square metres, in the tile's frame.
 class PostSquares {
  public:

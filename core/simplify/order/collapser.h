@@ -18,7 +18,7 @@ class Collapser {
   /// Rates vertex v and queues it.
   void Consider(std::int32_t v) { Consider(v, -1); }
   /// Collapses until no more than `budget` triangles are left, or nothing can be collapsed.
-  /// reweigh() is called after each 30 % of the triangles.
+  /// reweigh() is called after each 30 % of the triangles, and progress reported.
   template <typename Reweigh>
   Status Run(std::int32_t budget, const RunControl& control, Reweigh reweigh);
   /// Collapses v at whatever price, if it can be collapsed at all.
@@ -49,6 +49,7 @@ Status Collapser::Run(std::int32_t budget, const RunControl& control, Reweigh re
   HalfEdgeMesh& mesh = work_->mesh;
   const auto next_weighing = [&] { return static_cast<std::int32_t>(mesh.triangles() * 0.7); };
   std::int32_t next = next_weighing();
+  const std::int32_t first = mesh.triangles();
   std::int32_t turn = 0;
   while (mesh.triangles() > budget) {
     const std::int32_t bucket = work_->queue.Lowest();
@@ -68,6 +69,8 @@ Status Collapser::Run(std::int32_t budget, const RunControl& control, Reweigh re
       if (mesh.triangles() < next) {
         reweigh();
         next = next_weighing();
+        control.Report(Stage::kSimplify,
+                       static_cast<double>(first - mesh.triangles()) / (first - budget));
       }
     }
     for (; i < now_.size(); ++i) work_->queue.Add(now_[i], bucket);

@@ -14,6 +14,13 @@ namespace {
 
 constexpr float kLeastStep = 1e-3F;  // metres: what is less is left out
 
+// Whether the vertex is a corner of the outline. Its post may be in the sum of no triangle and no
+// edge of the rim (PostSquares), so nothing would hold its height.
+bool IsCorner(const VertexChange& change) {
+  const Ring& ring = change.ring();
+  return !ring.closed && Turn(ring.at(0), change.place(), ring.at(ring.count - 1)) != 0;
+}
+
 void Fit(Workpiece& work, VertexChange& change) {
   const Place from = change.place();
   const HeightPull posts = change.PullOfPosts(from);
@@ -40,7 +47,7 @@ Status FitHeights(Workpiece& work, const RunControl& control) {
       return Error{ErrorCode::kCancelled, "stopped while simplifying"};
     }
     if (!work.IsFree(v) || work.ground.OnSide(work.mesh.at(v)) || !change.Begin(v)) continue;
-    Fit(work, change);
+    if (!IsCorner(change)) Fit(work, change);
   }
   return Ok{};
 }

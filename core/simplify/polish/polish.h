@@ -13,8 +13,8 @@ Status FlipEdges(Workpiece& work, const RunControl& control);
 /// Moves vertices inside the mesh to better posts: of those around, first two steps away, then one,
 /// so by three posts at most along each axis.
 Status MoveVertices(Workpiece& work, const RunControl& control);
-/// Gives vertices inside the mesh and at the rims of holes the heights at which the sum is least,
-/// their neighbours' heights given.
+/// Gives vertices inside the mesh, and where the rims of holes run straight, the heights at which
+/// the sum is least, their neighbours' heights given.
 Status FitHeights(Workpiece& work, const RunControl& control);
 
 }  // namespace farhorizon

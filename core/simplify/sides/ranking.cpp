@@ -11,6 +11,11 @@ namespace farhorizon {
 namespace {
 
 constexpr double kNever = 2;
+// Metres: a parabola of so much a squared step is added, so that the posts of a level or an evenly
+// sloped run go evenly and not from one end; the Earth's curvature makes a long edge sag. Far below
+// what heights differ by, far above what doubles round; no number of the tile's, as both tiles of a
+// side must add the same.
+constexpr double kBend = 1e-6;
 
 // For each height the number of steps to the next higher one before or after it, the greater; to
 // beyond the end where there is none.
@@ -50,6 +55,8 @@ std::vector<double> RankRun(const std::vector<double>& heights) {
   const std::size_t n = heights.size();
   std::vector<double> gone(n, kNever);
   if (n < 3) return gone;
+  std::vector<double> bent = heights;
+  for (std::size_t i = 0; i < n; ++i) bent[i] += kBend * static_cast<double>(i * i);
   std::vector<double> weight = Reach(heights);
   for (std::size_t i = 0; i < n; ++i) {
     const auto to_end = static_cast<double>(std::max<std::size_t>(1, std::min(i, n - 1 - i)));
@@ -70,8 +77,8 @@ std::vector<double> RankRun(const std::vector<double>& heights) {
     const std::size_t q = after[i];
     const auto at = [&](std::size_t k) { return weight.begin() + static_cast<std::ptrdiff_t>(k); };
     const double heaviest = *std::max_element(at(p + 1), at(q));
-    cost[i] = heaviest * (SquaresBetween(heights, p, q) - SquaresBetween(heights, p, i) -
-                          SquaresBetween(heights, i, q));
+    cost[i] = heaviest * (SquaresBetween(bent, p, q) - SquaresBetween(bent, p, i) -
+                          SquaresBetween(bent, i, q));
     heap.emplace_back(cost[i], i);
     std::push_heap(heap.begin(), heap.end(), std::greater<>());
   };

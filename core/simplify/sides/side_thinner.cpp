@@ -59,7 +59,15 @@ void SideThinner::CutOff(std::int32_t v) {
   work_->skyline.carried().Take(v, lines);
   mesh.CutOff(v);
   for (const std::int32_t line : lines) {
+    // What v carried has the new sides instead, which may all be lower.
     work_->skyline.Refresh(line);
+    for (const std::int32_t spoke : spokes) {
+      if (!mesh.Stands(spoke / 3)) continue;
+      const std::int32_t h = spoke - spoke % 3;
+      for (std::int32_t k = h; k < h + 3; ++k) {
+        work_->skyline.KeepEdge(line, mesh.origin(k), mesh.origin(HalfEdgeMesh::Next(k)));
+      }
+    }
     work_->skyline.Crown(line);
   }
   // Each of the triangles filled what one of v's had; their sides are all that is new.

@@ -157,7 +157,8 @@ std::vector<std::int32_t> LevelRules::KeptIn(const HalfEdgeMesh& mesh) const {
     if (!mesh.Stands(h / 3) || mesh.twin(h) > h) continue;
     const Place& p = mesh.at(mesh.origin(h));
     const Place& q = mesh.at(mesh.origin(HalfEdgeMesh::Next(h)));
-    if (Has(p, q, 0)) edges.push_back(MakeEdge(ground_->PostAt(p), ground_->PostAt(q)));
+    if (Has(p, q, 0) && !Has(p, q, 1))
+      edges.push_back(MakeEdge(ground_->PostAt(p), ground_->PostAt(q)));
   }
   std::sort(edges.begin(), edges.end());
   std::vector<std::int32_t> kept;

@@ -48,7 +48,8 @@ class LevelRules {
   /// A place's height as the rules and the level's mesh have it, metres: the post's own, or the
   /// nearest step of the guard's scale.
   [[nodiscard]] double HeightM(const Place& place) const;
-  /// The horizon edges that are edges of `mesh`, by their index, rising.
+  /// The horizon edges that are edges of `mesh`, by their index, rising; without those that the
+  /// finer level does not have, which HalfEdgeMesh::CutOff may have made again.
   [[nodiscard]] std::vector<std::int32_t> KeptIn(const HalfEdgeMesh& mesh) const;
 
  private:

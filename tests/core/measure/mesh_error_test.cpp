@@ -122,7 +122,7 @@ TEST(MeshError, IncludesTheEffectOfMovedVertices) {
 
 TEST(MeshError, IsNowhereBelowTheErrorOnALine) {
   std::mt19937 random(7);
-  for (int round = 0; round < Rounds(400); ++round) {
+  for (int round = 0; round < Rounds(120); ++round) {
     const auto columns = static_cast<std::int32_t>(2 + random() % 10);
     const auto rows = static_cast<std::int32_t>(2 + random() % 10);
     // Noise, steps, cliffs, ramps.
@@ -148,7 +148,7 @@ TEST(MeshError, IsNowhereBelowTheErrorOnALine) {
 
 TEST(MeshError, IsNowhereBelowTheErrorOnALineBesideHoles) {
   std::mt19937 random(11);
-  for (int round = 0; round < Rounds(100); ++round) {
+  for (int round = 0; round < Rounds(40); ++round) {
     const Dem dem = WithHoles(FractalDem(3, static_cast<std::uint32_t>(round), 60), 3,
                               static_cast<std::uint32_t>(round));
     Result<Terrain> terrain = Terrain::Build(dem);

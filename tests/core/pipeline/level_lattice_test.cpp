@@ -3,9 +3,12 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "core/horizon/find_horizon.h"
 #include "core/io/draco_mesh.h"
 #include "core/pipeline/mesh_orientation.h"
 #include "tests/support/drawn_dem.h"
@@ -39,6 +42,11 @@ TEST(FinestSideStep, IsOneForCellsThatDifferByAPercentOrTwo) {
     EXPECT_EQ(FinestStep(0.98 * cell_m), step) << cell_m;
     EXPECT_EQ(FinestStep(1.02 * cell_m), step) << cell_m;
   }
+}
+
+TEST(FinestSideStep, IsHalfAMetreAtMost) {
+  EXPECT_EQ(FinestStep(170), 0.5);
+  EXPECT_EQ(FinestStep(1000), 0.5);
 }
 
 TEST(FinestSideStep, FollowsAnErrorThatIsAskedFor) {
@@ -127,6 +135,67 @@ TEST(RoundToLattice, SidesOfNeighboursDecodeToTheSamePlaces) {
   };
   EXPECT_EQ(decoded(west, west_lattice, 16), decoded(east, east_lattice, 0));
   EXPECT_EQ(decoded(west, west_lattice, 16).size(), 17U);
+}
+
+// The vertices of column `column` of each level of a tile, decoded: row and place, in a frame in
+// which the tile's first column is at `east_m`.
+std::vector<std::map<std::int32_t, std::array<double, 3>>> ColumnOfLevels(const Placed& tile,
+                                                                          std::int32_t column,
+                                                                          double east_m) {
+  constexpr double kCell = 30.0127;
+  const Horizon horizon = *FindHorizon(tile.terrain, {}, {});
+  LodPlan plan;
+  plan.max_error_m = 4;
+  std::vector<std::map<std::int32_t, std::array<double, 3>>> levels;
+  const std::vector<Lod> chain = *BuildLodChain(tile.terrain, horizon, plan, {});
+  for (const Lod& lod : chain) {
+    LocalMesh mesh;
+    std::map<VertexId, std::uint32_t> index;
+    for (std::size_t i = 0; i < lod.mesh.posts.size(); ++i) {
+      const VertexId v = lod.mesh.posts[i];
+      index[v] = static_cast<std::uint32_t>(i);
+      mesh.positions.push_back(
+          {east_m + tile.dem.Column(v) * kCell, -tile.dem.Row(v) * kCell, lod.mesh.heights_m[i]});
+      mesh.posts.push_back(static_cast<std::uint32_t>(v));
+      mesh.normals.push_back({0, 0, 1});
+    }
+    for (const Triangle& t : lod.mesh.triangles) {
+      mesh.triangles.push_back({index[t[0]], index[t[1]], index[t[2]]});
+    }
+    LatticeSteps steps = StepsOfLevel(FinestSideStep(*tile.georeference, 0), *tile.georeference,
+                                      lod, static_cast<int>(levels.size()));
+    const QuantizationLattice lattice = *RoundToLattice(tile.dem, SomeFrame(), steps, mesh);
+    const LocalMesh back = DecodeDraco(*EncodeDraco(mesh, lattice))->mesh;
+    auto& by_row = levels.emplace_back();
+    for (std::size_t i = 0; i < back.posts.size(); ++i) {
+      const auto post = static_cast<VertexId>(back.posts[i]);
+      const Enu& p = back.positions[i];
+      if (tile.dem.Column(post) == column) by_row[tile.dem.Row(post)] = {p.east, p.north, p.up};
+    }
+  }
+  return levels;
+}
+
+TEST(RoundToLattice, TilesCutFromOneDemMeetAtEveryLevel) {
+  // The one's ground is ten times as rough as the other's, but for the column that they share.
+  const Dem whole = FractalDem(6, 50);
+  const auto cut = [&whole](std::int32_t first, double roughness) {
+    return DemOf(65, 65, [&](int c, int r) {
+      const int column = std::abs(c + first - 64);  // of the whole, mirrored at the shared column
+      const double height = whole.heights[static_cast<std::size_t>(r * 65 + 64 - column)];
+      return static_cast<std::int32_t>(column == 0 ? height : height * roughness);
+    });
+  };
+  const Placed west(cut(0, 1), 30);
+  const Placed east(cut(64, 0.1), 30);
+  const auto one = ColumnOfLevels(west, 64, -64 * 30.0127);
+  const auto other = ColumnOfLevels(east, 0, 0);
+  const std::size_t common = std::min(one.size(), other.size());
+  ASSERT_GE(common, 2U);
+  for (std::size_t level = 0; level < common; ++level) {
+    EXPECT_EQ(one[level], other[level]) << "level " << level;
+    EXPECT_GE(one[level].size(), 2U);
+  }
 }
 
 TEST(RoundToLattice, StepsGrowWhereTheBitsDoNotReach) {

@@ -1,6 +1,6 @@
 // Two tiles that are made apart agree on the side that they share.
 #include <algorithm>
-#include <cmath>
+#include <map>
 #include <set>
 #include <vector>
 
@@ -108,21 +108,21 @@ Dem RoughWhole(std::int32_t side, std::mt19937& random) {
 TEST(LodChainSides, TwoNeighboursAgreeOnPostsAndHeightsByTriangles) {
   std::mt19937 random(1);
   Agreement agreement;
-  for (int round = 0; round < Rounds(120); ++round) {
+  for (int round = 0; round < Rounds(40); ++round) {
     const Dem whole = RoughWhole(2 * (8 + static_cast<std::int32_t>(random() % 14)) + 1, random);
     SCOPED_TRACE(round);
     ExpectOneSide(whole, round % 2 == 0, ByTriangles(whole), agreement);
     if (HasFatalFailure()) return;
   }
-  EXPECT_GT(agreement.levels, Rounds(700));
-  EXPECT_GT(agreement.fitted, Rounds(1000));
+  EXPECT_GT(agreement.levels, Rounds(230));
+  EXPECT_GT(agreement.fitted, Rounds(200));
   EXPECT_LT(agreement.kept, agreement.posts * 3 / 4);
 }
 
 TEST(LodChainSides, TwoNeighboursAgreeOnPostsAndHeightsBySize) {
   std::mt19937 random(2);
   Agreement agreement;
-  for (int round = 0; round < Rounds(8); ++round) {
+  for (int round = 0; round < Rounds(3); ++round) {
     const Dem whole = RoughWhole(121, random);
     LodPlan plan;
     plan.max_error_m = 2;
@@ -131,14 +131,14 @@ TEST(LodChainSides, TwoNeighboursAgreeOnPostsAndHeightsBySize) {
     ExpectOneSide(whole, round % 2 == 0, plan, agreement);
     if (HasFatalFailure()) return;
   }
-  EXPECT_GT(agreement.levels, Rounds(16));
-  EXPECT_GT(agreement.fitted, Rounds(100));
+  EXPECT_GT(agreement.levels, Rounds(3));
+  EXPECT_GT(agreement.fitted, Rounds(10));
 }
 
 TEST(LodChainSides, HolesAcrossTheSideMakeNoDifference) {
   std::mt19937 random(3);
   Agreement agreement;
-  for (int round = 0; round < Rounds(120); ++round) {
+  for (int round = 0; round < Rounds(40); ++round) {
     const std::int32_t side = 2 * (8 + static_cast<std::int32_t>(random() % 14)) + 1;
     Dem whole = RoughWhole(side, random);
     const bool by_row = round % 2 == 0;
@@ -157,16 +157,79 @@ TEST(LodChainSides, HolesAcrossTheSideMakeNoDifference) {
     ExpectOneSide(whole, by_row, ByTriangles(whole), agreement);
     if (HasFatalFailure()) return;
   }
-  EXPECT_GT(agreement.levels, Rounds(700));
+  EXPECT_GT(agreement.levels, Rounds(230));
 }
 
-// Posts of a level's sides that should have gone: those between whose neighbours along the side the
-// outline runs straight, that are in one fan, and that the neighbour tile, which has the same side
-// but is flat behind it, does not have.
+// Rows, or columns, of a tile's line at which its outline turns, or fans meet, or that it lacks.
+std::set<std::int32_t> CornersOn(const Tile& tile, std::int32_t line, bool by_row) {
+  std::map<VertexId, std::vector<Edge>> at;
+  for (const Edge& edge : OutlineOf(tile.terrain.Triangles())) {
+    at[edge.a].push_back(edge);
+    at[edge.b].push_back(edge);
+  }
+  std::set<std::int32_t> corners;
+  for (VertexId v = 0; v < tile.terrain.post_count(); ++v) {
+    if (!tile.terrain.IsVertex(v) && (by_row ? tile.dem.Row(v) : tile.dem.Column(v)) == line) {
+      corners.insert(by_row ? tile.dem.Column(v) : tile.dem.Row(v));
+    }
+  }
+  for (const auto& [v, edges] : at) {
+    const auto on = [&](VertexId u) {
+      return (by_row ? tile.dem.Row(u) : tile.dem.Column(u)) == line;
+    };
+    if (!on(v)) continue;
+    bool straight = edges.size() == 2;
+    for (const Edge& edge : edges) straight = straight && on(edge.a) && on(edge.b);
+    if (!straight) corners.insert(by_row ? tile.dem.Column(v) : tile.dem.Row(v));
+  }
+  return corners;
+}
+
+TEST(LodChainSides, AHoleBesideTheSideAddsNothingButItsOwnCorners) {
+  std::mt19937 random(5);
+  std::int64_t added = 0;
+  std::int64_t shared = 0;
+  for (int round = 0; round < Rounds(40); ++round) {
+    const std::int32_t side = 2 * (8 + static_cast<std::int32_t>(random() % 10)) + 1;
+    Dem whole = RoughWhole(side, random);
+    const bool by_row = round % 2 == 0;
+    const std::int32_t middle = side / 2;
+    for (int hole = 0; hole < 2; ++hole) {  // one beside the shared line on either side of it
+      const auto from = static_cast<std::int32_t>(2 + random() % static_cast<unsigned>(side - 5));
+      const std::int32_t x = hole == 0 ? middle - 1 : middle + 1;
+      for (std::int32_t k = from; k < from + 1 + round % 3; ++k) {
+        whole.heights[static_cast<std::size_t>(by_row ? x * side + k : k * side + x)] = kNoHeight;
+      }
+    }
+    const LodPlan plan = ByTriangles(whole);
+    const Tile west(Crop(whole, 0, middle + 1, by_row), plan);
+    const Tile east(Crop(whole, middle, middle + 1, by_row), plan);
+    const std::set<std::int32_t> west_corners = CornersOn(west, middle, by_row);
+    const std::set<std::int32_t> east_corners = CornersOn(east, 0, by_row);
+    for (std::size_t i = 0; i < plan.triangles.size(); ++i) {
+      const auto without = [&](std::vector<SidePost> posts) {
+        const auto all = posts.size();
+        std::erase_if(posts, [&](const SidePost& post) {
+          return west_corners.count(post.place) + east_corners.count(post.place) > 0;
+        });
+        added += static_cast<std::int64_t>(all - posts.size());
+        return posts;
+      };
+      const std::vector<SidePost> posts = without(west.On(i, middle, by_row));
+      ASSERT_EQ(posts, without(east.On(i, 0, by_row))) << "level " << i << "\n" << DrawAscii(whole);
+      shared += std::ssize(posts);
+    }
+  }
+  EXPECT_GT(added, Rounds(100));
+  EXPECT_GT(shared, Rounds(700));
+}
+
+// A post that should go cannot be collapsed where its ring would turn over. A tile with the same
+// side that is level behind it hardly has such posts: it must not have others.
 TEST(LodChainSides, NoPostOfASideIsStuck) {
   std::mt19937 random(4);
   std::int64_t levels = 0;
-  for (int round = 0; round < Rounds(1500); ++round) {
+  for (int round = 0; round < Rounds(1000); ++round) {
     const std::int32_t side = 2 * (3 + static_cast<std::int32_t>(random() % 6)) + 1;
     const Dem whole = RoughWhole(side, random);
     const LodPlan plan = ByTriangles(whole);
@@ -184,7 +247,7 @@ TEST(LodChainSides, NoPostOfASideIsStuck) {
       ++levels;
     }
   }
-  EXPECT_EQ(levels, Rounds(1500) * 7);
+  EXPECT_EQ(levels, Rounds(1000) * 7);
 }
 
 }  // namespace

@@ -51,6 +51,8 @@ double Off(const std::vector<double>& z, std::size_t from, std::size_t to) {
 // The order by definition: all posts that are left are rated anew for each that goes.
 std::vector<double> RankByDefinition(const std::vector<double>& heights) {
   const std::size_t n = heights.size();
+  std::vector<double> bent = heights;
+  for (std::size_t i = 0; i < n; ++i) bent[i] += 1e-6 * static_cast<double>(i * i);
   std::vector<double> gone(n, 2);
   std::vector<std::size_t> left(n);
   std::iota(left.begin(), left.end(), std::size_t{0});
@@ -69,8 +71,8 @@ std::vector<double> RankByDefinition(const std::vector<double>& heights) {
         heaviest = std::max(heaviest, weight(i));
       }
       const double cost =
-          heaviest * (Off(heights, left[k - 1], left[k + 1]) - Off(heights, left[k - 1], left[k]) -
-                      Off(heights, left[k], left[k + 1]));
+          heaviest * (Off(bent, left[k - 1], left[k + 1]) - Off(bent, left[k - 1], left[k]) -
+                      Off(bent, left[k], left[k + 1]));
       if (best == 0 || cost < least) {
         best = k;
         least = cost;
@@ -102,6 +104,21 @@ TEST(RankRun, TheEndsStayAndTheOthersGoOneByOne) {
     for (std::size_t i = 0; i + 2 < n; ++i) {
       ASSERT_EQ(gone[i], static_cast<double>(i + 1) / static_cast<double>(n - 1));
     }
+  }
+}
+
+TEST(RankRun, PostsOfALevelRunGoEvenly) {
+  // A long edge sags on the curved Earth; of equal posts none may go just for its number.
+  const std::vector<double> gone = RankRun(std::vector<double>(101, 5));
+  for (const double share : {0.5, 0.25, 0.1}) {
+    std::size_t widest = 0;
+    std::size_t last = 0;
+    for (std::size_t i = 0; i < gone.size(); ++i) {
+      if (gone[i] <= 1 - share) continue;
+      widest = std::max(widest, i - last);
+      last = i;
+    }
+    EXPECT_LE(static_cast<double>(widest), 2.5 / share) << share;
   }
 }
 

@@ -1,0 +1,71 @@
+// Numbers of the glTF 2.0 specification: a header of 12 bytes (magic, version, length), then chunks
+// of 8 bytes (length, type) and their content.
+#include "core/io/glb_container.h"
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <utility>
+
+namespace farhorizon {
+
+namespace {
+
+constexpr std::uint32_t kMagic = 0x46546C67;
+constexpr std::uint32_t kJsonChunk = 0x4E4F534A;
+constexpr std::uint32_t kBinChunk = 0x004E4942;
+constexpr std::size_t kHeaderBytes = 12;
+constexpr std::size_t kChunkHeaderBytes = 8;
+
+std::uint32_t LittleEndianAt(std::span<const std::uint8_t> bytes, std::size_t at) {
+  std::uint32_t value = 0;
+  for (unsigned i = 0; i < 4; ++i) value |= std::uint32_t{bytes[at + i]} << (8 * i);
+  return value;
+}
+
+Error BadGlb(const std::string& message) {
+  return {ErrorCode::kUnsupportedData, message, "bad-glb"};
+}
+
+// Takes a chunk of `type` off the front of `rest`.
+Result<std::span<const std::uint8_t>> TakeChunk(std::span<const std::uint8_t>& rest,
+                                                std::uint32_t type, const char* name) {
+  if (rest.size() < kChunkHeaderBytes || LittleEndianAt(rest, 4) != type) {
+    return BadGlb(std::string("its chunk ") + name + " is missing");
+  }
+  const std::size_t size = LittleEndianAt(rest, 0);
+  rest = rest.subspan(kChunkHeaderBytes);
+  if (size > rest.size()) return BadGlb(std::string("its chunk ") + name + " is cut short");
+  const std::span<const std::uint8_t> chunk = rest.first(size);
+  rest = rest.subspan(size);
+  return chunk;
+}
+
+}  // namespace
+
+bool IsGlb(std::span<const std::uint8_t> bytes) {
+  return bytes.size() >= kHeaderBytes && LittleEndianAt(bytes, 0) == kMagic;
+}
+
+Result<GlbChunks> SplitGlb(std::span<const std::uint8_t> bytes) {
+  if (!IsGlb(bytes) || LittleEndianAt(bytes, 4) != 2) {
+    return BadGlb("it does not begin as glTF binary 2 does");
+  }
+  const std::size_t length = LittleEndianAt(bytes, 8);
+  if (length < kHeaderBytes || length > bytes.size()) {
+    return BadGlb("it has " + std::to_string(bytes.size()) + " bytes, its header says " +
+                  std::to_string(length));
+  }
+  std::span<const std::uint8_t> rest = bytes.subspan(kHeaderBytes, length - kHeaderBytes);
+  GlbChunks chunks;
+  Result<std::span<const std::uint8_t>> json = TakeChunk(rest, kJsonChunk, "JSON");
+  if (!json) return std::move(json.error());
+  chunks.json = *json;
+  if (rest.empty()) return chunks;
+  Result<std::span<const std::uint8_t>> bin = TakeChunk(rest, kBinChunk, "BIN");
+  if (!bin) return std::move(bin.error());
+  chunks.bin = *bin;
+  return chunks;
+}
+
+}  // namespace farhorizon
