@@ -161,7 +161,7 @@ BoxVerdict OccludedLines::Conclude() { return Conclude(question_, line_, 0, 0); 
 
 BoxVerdict OccludedLines::AskPart(const BoxQuestion& question, std::size_t begin, std::size_t end,
                                   int depth) {
-  if (looks_ > last_look_) return {.proven = false, .exhausted = true};
+  if (++looks_ > last_look_) return {.proven = false, .exhausted = true};
   ends_.clear();
   MiddleLine line = MiddleOf(question.box);
   BoxVerdict verdict{.proven = true};

@@ -59,8 +59,8 @@ class OccludedLines {
   void Begin(const BoxQuestion& question);
   /// Takes a segment of the net; true where it alone proves the box, and there is no more to do.
   bool Offer(std::int32_t segment);
-  /// The answer. Requires: every segment that is above question.floor_m anywhere and meets a line of
-  ///   the box has been offered, once; others do not matter.
+  /// The answer. Requires: every segment that is above question.floor_m anywhere and meets a line
+  ///   of the box has been offered, once; others do not matter.
   BoxVerdict Conclude();
 
   /// Segments looked at so far, again for each box: what the time goes with.
