@@ -132,7 +132,9 @@ TEST(PostErrors, AreThoseOfTheTriangleThatTheVerticalMeets) {
     }
     EXPECT_GE(errors.vertical.max_m, most * (1 - 1e-6)) << "round " << round;
     EXPECT_LE(errors.vertical.rms_m, errors.vertical.max_m);
-    if (step < 0.001) EXPECT_NEAR(errors.vertical.max_m, most, 0.02 * most + 1);
+    if (step < 0.001) {
+      EXPECT_NEAR(errors.vertical.max_m, most, 0.02 * most + 1);
+    }
   }
 }
 
