@@ -106,13 +106,13 @@ class ServiceE2e : public testing::Test {
 TEST_F(ServiceE2e, AJobLeavesTheBytesThatBuildLeaves) {
   SpillFile(folder_ / "small.asc", SmallGrid());
   const std::string dem = (folder_ / "small.asc").string();
-  ASSERT_EQ(Run({"build", dem, "-o", (folder_ / "built").string(), "--crs", "EPSG:4326", "--levels",
-                 "2"}),
+  ASSERT_EQ(Run({"build", dem, "-o", (folder_ / "built").string(), "--crs", "EPSG:4326",
+                 "--triangles", "700,300"}),
             0)
       << SlurpFile(folder_ / "stderr");
   Start();
   ASSERT_EQ(Run({"submit", dem, "--url", "http://127.0.0.1:" + std::to_string(port_), "-o",
-                 (folder_ / "sent").string(), "--crs", "EPSG:4326", "--levels", "2"}),
+                 (folder_ / "sent").string(), "--crs", "EPSG:4326", "--triangles", "700,300"}),
             0)
       << SlurpFile(folder_ / "stderr");
   // The grid says nothing of the unit of its heights. The service names the parameter that would,

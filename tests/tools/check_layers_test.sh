@@ -53,7 +53,7 @@ expect 1 '<ogrsf_frmts.h> may not be included here' core/geo/crs.cpp '<ogrsf_frm
 expect 1 '<proj.h> may not be included here' core/io/dem/read_dem.cpp '<proj.h>'
 expect 1 '<draco/mesh/mesh.h> may not be included here' core/pipeline/build.cpp '<draco/mesh/mesh.h>'
 expect 1 '<meshoptimizer.h> may not be included here' core/io/glb.cpp '<meshoptimizer.h>'
-expect 1 'core/pipeline may not include core/io/mesh_files' core/pipeline/build.cpp '"core/io/mesh_files/read_mesh.h"'
+expect 1 'core/pipeline may not include core/io/mesh_files' core/pipeline/report.cpp '"core/io/mesh_files/read_mesh.h"'
 expect 1 '<boost/asio.hpp> may not be included here' service/handlers/jobs.cpp '<boost/asio.hpp>'
 expect 1 '<nlohmann/json.hpp> may not be included here' core/pipeline/build.h '<nlohmann/json.hpp>'
 expect 1 '<sqlite3.h> may not be included here' service/http/router.cpp '<sqlite3.h>'

@@ -149,7 +149,8 @@ Tally TallyOf(Kind kind, bool polished, std::uint32_t seed) {
   std::mt19937 random(seed);
   Tally tally;
   const int tries = kind == Kind::kMove ? 150 : 12;  // most are refused
-  for (int round = 0; round < Rounds(500); ++round) {
+  // Not a tenth under the sanitizers: what is rare has to come up.
+  for (int round = 0; round < std::max(Rounds(500), 200); ++round) {
     Bench on(AnySmallDem(kind == Kind::kMove ? 12 : 9, random), random);
     if (polished) on.MakeLevel();
     for (int k = 0; k < tries; ++k) {
