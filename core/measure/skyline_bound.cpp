@@ -28,7 +28,7 @@ constexpr double kGathered = 1.5;
 // Looks at segments for each piece and segment, and at least, before the search ends with what it
 // has: some microseconds each. Levels of real ground take a tenth of it.
 constexpr std::int64_t kMostLooks = 500;
-constexpr std::int64_t kLeastLooks = 1'000'000;
+constexpr std::int64_t kLeastLooks = 50'000'000;
 
 // Strips that lines through something are in.
 struct StripSpan {
