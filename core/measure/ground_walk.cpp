@@ -131,6 +131,11 @@ class Walker {
         result_.dem_raised.push_back({PointAt(e.a), PointAt(e.b), false, index_.inner()[i] == 0});
       }
     }
+    for (const float at : rise) {
+      if (std::isfinite(at)) {
+        result_.common_m = std::max(result_.common_m, static_cast<double>(std::abs(at)));
+      }
+    }
     result_.sunk_m = std::move(sunk_);
     return std::move(result_);
   }
@@ -141,35 +146,44 @@ class Walker {
   }
 
   // The ground below a piece that lies in one triangle; nullopt where there is none, or the cell
-  // has fewer than four posts.
-  [[nodiscard]] std::optional<Ground> GroundBelow(const GridPoint& p, const GridPoint& q) const {
+  // has fewer than four posts. extend: of a cell of three posts their plane, all over the cell.
+  [[nodiscard]] std::optional<Ground> GroundBelow(const GridPoint& p, const GridPoint& q,
+                                                  bool extend) const {
     const double x = (p.column + q.column) / 2;
     const double y = (p.row + q.row) / 2;
     if (!(x >= 0) || !(y >= 0) || x > dem_.columns - 1 || y > dem_.rows - 1) return std::nullopt;
     const auto column = std::min(static_cast<std::int32_t>(x), dem_.columns - 2);
     const auto row = std::min(static_cast<std::int32_t>(y), dem_.rows - 2);
     const VertexId nw = row * dem_.columns + column;
-    const std::array<std::int32_t, 4> z = {
-        dem_.heights[static_cast<std::size_t>(nw)], dem_.heights[static_cast<std::size_t>(nw) + 1],
-        dem_.heights[static_cast<std::size_t>(nw + dem_.columns)],
-        dem_.heights[static_cast<std::size_t>(nw + dem_.columns) + 1]};
-    if (z[0] == kNoHeight || z[1] == kNoHeight || z[2] == kNoHeight || z[3] == kNoHeight) {
-      return std::nullopt;
+    std::array<std::int64_t, 4> z = {dem_.heights[static_cast<std::size_t>(nw)],
+                                     dem_.heights[static_cast<std::size_t>(nw) + 1],
+                                     dem_.heights[static_cast<std::size_t>(nw + dem_.columns)],
+                                     dem_.heights[static_cast<std::size_t>(nw + dem_.columns) + 1]};
+    const auto missing = std::count(z.begin(), z.end(), std::int64_t{kNoHeight});
+    if (missing > (extend ? 1 : 0)) return std::nullopt;
+    for (std::size_t k = 0; k < 4; ++k) {
+      // Of corners 0 to 3, by rows, 3 - k is opposite to k.
+      if (z[k] == kNoHeight) z[k] = z[k ^ 1U] + z[k ^ 2U] - z[3 - k];
     }
     const bool upper = x - column > y - row;
     const double by_column =
-        upper ? static_cast<double>(z[1]) - z[0] : static_cast<double>(z[3]) - z[2];
+        upper ? static_cast<double>(z[1] - z[0]) : static_cast<double>(z[3] - z[2]);
     const double by_row =
-        upper ? static_cast<double>(z[3]) - z[1] : static_cast<double>(z[2]) - z[0];
+        upper ? static_cast<double>(z[3] - z[1]) : static_cast<double>(z[2] - z[0]);
     const auto height = [&](const GridPoint& g) {
-      return dem_.height_offset_m +
-             (z[0] + by_column * (g.column - column) + by_row * (g.row - row)) * dem_.quantum_m;
+      return dem_.height_offset_m + (static_cast<double>(z[0]) + by_column * (g.column - column) +
+                                     by_row * (g.row - row)) *
+                                        dem_.quantum_m;
     };
     return Ground{height(p), height(q), nw};
   }
 
   void WalkPiece(const GridPoint& p, const GridPoint& q, bool ridge, bool outline) {
-    const std::optional<Ground> ground = GroundBelow(p, q);
+    const std::optional<Ground> ground = GroundBelow(p, q, false);
+    if (const std::optional<Ground> plane = GroundBelow(p, q, true)) {
+      result_.common_m = std::max(
+          {result_.common_m, std::abs(p.height_m - plane->from), std::abs(q.height_m - plane->to)});
+    }
     if (ground) {
       const double most = std::max(p.height_m - ground->from, q.height_m - ground->to);
       result_.most_m =

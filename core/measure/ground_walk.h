@@ -55,11 +55,14 @@ struct RaisedPiece {
 ///   has none of it below.
 /// most_m: the greatest difference of heights met, metres; infinity where a piece has no ground
 ///   below.
+/// common_m: at least the greatest difference over the part of the plan that both surfaces have,
+///   metres: it is attained at a post or where a side of the mesh crosses the grid.
 struct GroundWalk {
   std::vector<RaisedPiece> mesh_raised;
   std::vector<RaisedPiece> dem_raised;
   std::vector<double> sunk_m;
   double most_m = 0;
+  double common_m = 0;
 };
 
 /// rise: as PostErrors has it. allowed_m: infinity where sunk_m is all that is wanted.

@@ -199,7 +199,11 @@ Result<MeshError> MeshMeasurer::Measure(const PlacedMesh& mesh, const RunControl
   if (!floor) return std::move(floor.error());
   Result<RaisedBounds> below = BoundRaised(surface, *floor, walk.dem_raised, *above, control);
   if (!below) return std::move(below.error());
-  error.silhouette.max_m = std::min(std::max(above->inner_m, below->inner_m), walk.most_m);
+  // Where the search was cut short: on lines whose skyline is where both surfaces are, neither is
+  // further above the other than they are apart. Errors at posts are floats.
+  constexpr double kOfFloats = 1 + 1e-6;
+  error.silhouette.max_m =
+      std::min({std::max(above->inner_m, below->inner_m), walk.most_m, walk.common_m * kOfFloats});
   error.rim_m = std::max({above->outline_m, below->outline_m, error.silhouette.max_m});
   control.Report(Stage::kMeasure, 1);
   return error;
