@@ -95,18 +95,26 @@ Status WriteFeatures(const std::vector<HorizonFeature>& features, const BuildOpt
   return Ok{};
 }
 
-Result<WrittenLevels> WriteLevels(const LevelContext& context, const std::vector<LevelPlan>& plans,
+// What level i was asked for: by size, every further level two fifths of the triangles of the one
+// before it.
+LevelAsked AskedOf(const LevelPlan& plan, const std::vector<Lod>& chain, std::size_t i) {
+  if (!plan.lods.triangles.empty()) return {.triangles = plan.lods.triangles[i]};
+  if (i > 0) return {.triangles = std::ssize(chain[i - 1].mesh.triangles) * 2 / 5};
+  return {.vertical_m = plan.max_error_m, .silhouette_m = plan.lods.silhouette_error_m};
+}
+
+Result<WrittenLevels> WriteLevels(const LevelContext& context, const LevelPlan& plan,
                                   const std::vector<Lod>& chain, const BuildOptions& options,
                                   ArtifactWriter& writer) {
   WrittenLevels written = {{}, MeshRegion(context.georeference)};
   std::vector<LevelReport>& reports = written.reports;
   for (std::size_t i = 0; i < chain.size(); ++i) {
     const RunControl control = LevelControl(context.control, i, chain.size());
-    Result<LevelArtifact> level = EncodeLevel(context.With(control), chain[i], static_cast<int>(i),
-                                              plans[i].lattice, plans[i].silhouette_error_m);
+    const int number = static_cast<int>(i);
+    Result<LevelArtifact> level =
+        EncodeLevel(context.With(control), chain[i], number, LatticeStep(plan, number));
     if (!level) return std::move(level.error());
-    level->report.asked_vertical_m = plans[i].max_error_m;
-    level->report.asked_silhouette_m = plans[i].silhouette_error_m;
+    level->report.asked = AskedOf(plan, chain, i);
     const std::string name = "lod" + std::to_string(i);
     if (Asks(options, "3dtiles")) {
       Status added = writer.Add(name + ".glb", AsText(level->glb));
@@ -140,16 +148,15 @@ Status BuildArtifacts(const fs::path& dem, const fs::path& directory, const Buil
   control.Report(Stage::kRead, 0);
   Result<std::unique_ptr<TerrainInput>> input = TerrainInput::Open(dem, options, control);
   if (!input) return std::move(input.error());
-  Result<std::vector<LevelPlan>> plans = PlanLevels(**input, options);
-  if (!plans) return std::move(plans.error());
+  Result<LevelPlan> plan = PlanLevels(**input, options);
+  if (!plan) return std::move(plan.error());
   control.Report(Stage::kRead, 1);
 
   Result<Horizon> horizon = FindHorizon((*input)->terrain(), HorizonOptionsOf(options), control);
   if (!horizon) return std::move(horizon.error());
 
-  std::vector<LevelBudget> budgets;
-  for (const LevelPlan& plan : *plans) budgets.push_back(plan.budget);
-  Result<std::vector<Lod>> chain = BuildLodChain((*input)->terrain(), *horizon, budgets, control);
+  Result<std::vector<Lod>> chain =
+      BuildLodChain((*input)->terrain(), *horizon, plan->lods, control);
   if (!chain) return std::move(chain.error());
 
   control.Report(Stage::kEncode, 0);
@@ -160,7 +167,7 @@ Status BuildArtifacts(const fs::path& dem, const fs::path& directory, const Buil
   if (!opened) return opened;
   const LevelContext context{(*input)->terrain(), *horizon, (*input)->georeference(), *normals,
                              control};
-  Result<WrittenLevels> levels = WriteLevels(context, *plans, *chain, options, writer);
+  Result<WrittenLevels> levels = WriteLevels(context, *plan, *chain, options, writer);
   if (!levels) return std::move(levels.error());
   if (Asks(options, "3dtiles")) {
     Status tileset = WriteTilesetFor(**input, *levels, writer);

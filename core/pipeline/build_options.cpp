@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <sstream>
 #include <utility>
 
@@ -15,6 +16,10 @@ namespace {
 
 // Each of these is compared with every post of the DEM.
 constexpr std::size_t kMostNodataValues = 16;
+constexpr int kMostLevels = 12;
+// A triangulation has two triangles or more; no raster that is read has more than this.
+constexpr std::int64_t kFewestTriangles = 2;
+constexpr std::int64_t kMostTriangles = 1'000'000'000;
 
 // A parameter as it is given.
 struct Given {
@@ -79,6 +84,15 @@ Status ReadNodata(const Given& given, std::vector<double>& nodata) {
   return Ok{};
 }
 
+// Levels in any order: the one of the most triangles is level 0.
+Status ReadTriangles(const Given& given, std::vector<std::int64_t>& triangles) {
+  std::optional<std::vector<std::int64_t>> numbers = WholeNumbersIn(given.value);
+  if (!numbers) return given.Expected("a whole number, or several with commas between");
+  std::ranges::sort(*numbers, std::greater<>());
+  triangles = *std::move(numbers);
+  return Ok{};
+}
+
 struct Parameter {
   std::string_view name;
   Status (*read)(const Given& given, BuildOptions& options);
@@ -96,6 +110,10 @@ constexpr std::array kParameters = {
     Parameter{"silhouetteError",
               [](const Given& given, Options& options) {
                 return ReadMetres(given, options.silhouette_error_m);
+              }},
+    Parameter{"triangles",
+              [](const Given& given, Options& options) {
+                return ReadTriangles(given, options.triangles);
               }},
     Parameter{"formats",
               [](const Given& given, Options& options) -> Status {
@@ -141,10 +159,44 @@ Error NoSuchParameter(const std::string& name) {
           "unknown-parameter"};
 }
 
+// Levels are asked for by their triangles, or by what the others say.
+Status CheckOneWayToAsk(const std::map<std::string, std::string>& parameters) {
+  if (!parameters.contains("triangles")) return Ok{};
+  for (const char* name : {"levels", "maxError", "silhouetteError"}) {
+    if (!parameters.contains(name)) continue;
+    return Error{ErrorCode::kInvalidArgument,
+                 "--triangles and " + FlagOf(name) +
+                     " are both given; --triangles takes the place of --levels, --max-error and "
+                     "--silhouette-error: leave one out",
+                 "invalid-parameter"};
+  }
+  return Ok{};
+}
+
+// Requires: `triangles` do not rise.
+Status CheckTriangles(const std::vector<std::int64_t>& triangles) {
+  std::string text;
+  for (const std::int64_t count : triangles) {
+    text.append(text.empty() ? "" : ",").append(std::to_string(count));
+  }
+  const Given given{"triangles", text};
+  if (triangles.size() > static_cast<std::size_t>(kMostLevels)) {
+    return given.Expected("at most " + std::to_string(kMostLevels) + " levels");
+  }
+  const bool within = std::ranges::all_of(triangles, [](std::int64_t count) {
+    return count >= kFewestTriangles && count <= kMostTriangles;
+  });
+  if (!within) return given.Expected("numbers from 2 to 1000000000");
+  if (std::ranges::adjacent_find(triangles) != triangles.end()) {
+    return given.Expected("a number for each level, no two alike");
+  }
+  return Ok{};
+}
+
 }  // namespace
 
 Status CheckOptions(const BuildOptions& options) {
-  if (options.levels < 1 || options.levels > 12) {
+  if (options.levels < 1 || options.levels > kMostLevels) {
     return Given{"levels", std::to_string(options.levels)}.Expected("1 to 12");
   }
   if (options.max_error_m && !(*options.max_error_m > 0 && *options.max_error_m <= 1e5)) {
@@ -155,6 +207,7 @@ Status CheckOptions(const BuildOptions& options) {
     return Given{"silhouetteError", Text(options.silhouette_error_m)}.Expected(
         "0 to 100000 metres");
   }
+  if (Status triangles = CheckTriangles(options.triangles); !triangles) return triangles;
   if (options.work_budget && *options.work_budget < 1) {
     return Given{"workBudget", std::to_string(*options.work_budget)}.Expected("1 or more");
   }
@@ -201,6 +254,7 @@ Result<BuildOptions> ParseOptions(const std::map<std::string, std::string>& para
     Status read = known->read({known->name, value}, options);
     if (!read) return std::move(read.error());
   }
+  if (Status one = CheckOneWayToAsk(parameters); !one) return std::move(one.error());
   Status checked = CheckOptions(options);
   if (!checked) return std::move(checked.error());
   return options;

@@ -14,9 +14,12 @@ namespace farhorizon {
 
 /// Options of `farhorizon build` and of a job. The defaults are those of proto/openapi.yaml.
 struct BuildOptions {
-  int levels = 5;
-  std::optional<double> max_error_m;  ///< of level 0; unset: an eighth of the cell size
+  int levels = 5;                     ///< at most
+  std::optional<double> max_error_m;  ///< of level 0; unset: as LevelPlan has it
   double silhouette_error_m = 0;      ///< of level 0
+  /// For each level the most triangles that it may have, falling, instead of the three above; empty
+  /// where those say what the levels are.
+  std::vector<std::int64_t> triangles;
   std::vector<std::string> formats = {"3dtiles", "drc", "geojson"};
   std::optional<std::string> crs;
   std::optional<std::string> vertical_datum;
@@ -42,9 +45,9 @@ std::string FlagOf(std::string_view parameter);
 
 /// Reads options from a job's parameters, by name, and checks them. Values are text: whole numbers
 /// may be written 3.0 or 3e0; the several values of `nodata` are separated by commas, each a
-/// number, inf, -inf or nan.
-/// Errors: kInvalidArgument, kind "unknown-parameter" or "invalid-parameter"; those of
-///   CheckOptions.
+/// number, inf, -inf or nan, those of `triangles` likewise, each a whole number, in any order.
+/// Errors: kInvalidArgument, kind "unknown-parameter" or "invalid-parameter", the latter also where
+///   `triangles` comes with a parameter that it takes the place of; those of CheckOptions.
 Result<BuildOptions> ParseOptions(const std::map<std::string, std::string>& parameters);
 
 /// The options of FindHorizon for a build.

@@ -66,36 +66,11 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> KeptInDecoded(const Horizon
 
 }  // namespace
 
-Result<QuantizationLattice> LatticeFor(const Terrain& terrain, const Georeference& georeference,
-                                       double wanted_step_m) {
-  // All posts count, not those at the border alone: a projected grid bulges, and heights are
-  // inside. `reach` is the two corners of the box around the posts so far.
-  std::vector<Enu> reach;
-  std::vector<VertexId> row;
-  for (VertexId v = 0; v < terrain.post_count(); ++v) {
-    if (terrain.dem().HasData(v)) row.push_back(v);
-    if (terrain.dem().Column(v) + 1 < terrain.dem().columns || row.empty()) continue;
-    Result<std::vector<Enu>> points = georeference.ToEnu(row);
-    if (!points) return std::move(points.error());
-    reach.insert(reach.end(), points->begin(), points->end());
-    Enu least = reach.front();
-    Enu most = reach.front();
-    for (const Enu& p : reach) {
-      least = {std::min(least.east, p.east), std::min(least.north, p.north),
-               std::min(least.up, p.up)};
-      most = {std::max(most.east, p.east), std::max(most.north, p.north), std::max(most.up, p.up)};
-    }
-    reach = {least, most};
-    row.clear();
-  }
-  return ChooseLattice(reach, wanted_step_m);
-}
-
 // The share of Stage::kMeasure that MeasureMeshError takes; the rest is MeasureGeometricError's.
 constexpr double kMeshErrorShare = 0.95;
 
 Result<LevelReport> MeasureLevel(const LevelContext& context, const LocalMesh& decoded, int level,
-                                 double step_m, double asked_m) {
+                                 double step_m) {
   const VertexId post_count = context.terrain.post_count();
   GridMesh grid;
   std::vector<VertexId> posts;
@@ -117,7 +92,7 @@ Result<LevelReport> MeasureLevel(const LevelContext& context, const LocalMesh& d
                               static_cast<std::int32_t>(t[keeps ? 1 : 2]),
                               static_cast<std::int32_t>(t[keeps ? 2 : 1])});
   }
-  Result<MeshError> error = MeasureMeshError(context.terrain, context.horizon, grid, posts, asked_m,
+  Result<MeshError> error = MeasureMeshError(context.terrain, context.horizon, grid, posts, step_m,
                                              context.control.Between(0, kMeshErrorShare));
   if (!error) return std::move(error.error());
   Result<double> geometric = MeasureGeometricError(context.terrain, context.georeference, decoded);
@@ -135,10 +110,11 @@ Result<LevelReport> MeasureLevel(const LevelContext& context, const LocalMesh& d
 }
 
 Result<LevelArtifact> EncodeLevel(const LevelContext& context, const Lod& lod, int level,
-                                  const QuantizationLattice& lattice, double asked_m) {
+                                  double step_m) {
   context.control.Report(Stage::kEncode, 0);
   Result<LocalMesh> local = ToLocal(context, lod.mesh);
   if (!local) return std::move(local.error());
+  const QuantizationLattice lattice = ChooseLattice(local->positions, step_m);
   LevelArtifact artifact;
   Result<std::vector<std::uint8_t>> drc = EncodeDraco(*local, lattice);
   if (!drc) return std::move(drc.error());
@@ -148,11 +124,12 @@ Result<LevelArtifact> EncodeLevel(const LevelContext& context, const Lod& lod, i
   artifact.glb =
       WriteGlb(artifact.drc, *decoded, KeptInDecoded(context.horizon, lod, decoded->mesh));
   context.control.Report(Stage::kEncode, 1);
-  Result<LevelReport> report = MeasureLevel(context, decoded->mesh, level, lattice.step_m, asked_m);
+  Result<LevelReport> report = MeasureLevel(context, decoded->mesh, level, lattice.step_m);
   if (!report) {
     return std::move(report.error()).WithContext("level " + std::to_string(level));
   }
   artifact.report = *std::move(report);
+  artifact.report.exact = lod.exact;
   artifact.report.horizon_edges = static_cast<std::int64_t>(lod.kept.size());
   artifact.report.glb_bytes = static_cast<std::int64_t>(artifact.glb.size());
   artifact.report.drc_bytes = static_cast<std::int64_t>(artifact.drc.size());

@@ -43,25 +43,20 @@ struct LevelArtifact {
   std::vector<std::uint8_t> drc;
   std::vector<std::uint8_t> glb;
   LocalMesh mesh;      ///< what both decode to
-  LevelReport report;  ///< all but asked_vertical_m and asked_silhouette_m
+  LevelReport report;  ///< all but `asked`
 };
 
-/// ChooseLattice for the positions of all of the terrain's posts.
-/// Errors: those of Georeference::ToEnu. Cost: O(posts); a row of posts at a time in memory.
-Result<QuantizationLattice> LatticeFor(const Terrain& terrain, const Georeference& georeference,
-                                       double wanted_step_m);
-
 /// Encodes one level and measures it on the decoded mesh.
-/// asked_m: its silhouette error, as MeasureMeshError has it.
+/// step_m: its lattice's, at most, where 16 bits reach over the level.
 /// Errors: those of Georeference::ToEnu, EncodeDraco and MeasureLevel.
 Result<LevelArtifact> EncodeLevel(const LevelContext& context, const Lod& lod, int level,
-                                  const QuantizationLattice& lattice, double asked_m);
+                                  double step_m);
 
-/// The three errors and the counts of a decoded mesh; horizon_edges, bytes and what was asked are
-/// left to the caller.
+/// The three errors and the counts of a decoded mesh; exact, horizon_edges, bytes and what was
+/// asked are left to the caller.
 /// Errors: kUnsupportedData where a vertex names no post, or the mesh has a hole or a flipped
 ///   triangle; kCancelled; those of Georeference::ToGrid.
 Result<LevelReport> MeasureLevel(const LevelContext& context, const LocalMesh& decoded, int level,
-                                 double step_m, double asked_m);
+                                 double step_m);
 
 }  // namespace farhorizon

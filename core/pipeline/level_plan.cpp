@@ -1,6 +1,6 @@
-// Divides each level's errors between the lattice and the simplifier: the simplifier gets the error
-// less what rounding can do to heights, and at least half of it. The encoded level is within the
-// error asked for wherever rounding takes no more than the other half.
+// Divides the error of level 0 between the lattice and the simplifier: the simplifier gets the
+// error less what rounding can do to heights, and at least half of it. The encoded level is within
+// the error asked for wherever rounding takes no more than the other half.
 #include "core/pipeline/level_plan.h"
 
 #include <algorithm>
@@ -8,13 +8,38 @@
 #include <string>
 #include <utility>
 
-#include "core/pipeline/level_artifact.h"
+#include "core/io/quantization_lattice.h"
+#include "core/terrain/height_range.h"
 
 namespace farhorizon {
 
 namespace {
 
 constexpr double kEarthRadiusM = 6371000;  // mean; any value within a percent serves
+
+// The corners of the box around all posts, in the local frame. All count, not those at the border
+// alone: a projected grid bulges, and heights are inside.
+Result<std::vector<Enu>> ReachOf(const Terrain& terrain, const Georeference& georeference) {
+  std::vector<Enu> reach;
+  std::vector<VertexId> row;
+  for (VertexId v = 0; v < terrain.post_count(); ++v) {
+    if (terrain.dem().HasData(v)) row.push_back(v);
+    if (terrain.dem().Column(v) + 1 < terrain.dem().columns || row.empty()) continue;
+    Result<std::vector<Enu>> points = georeference.ToEnu(row);
+    if (!points) return points;
+    reach.insert(reach.end(), points->begin(), points->end());
+    Enu least = reach.front();
+    Enu most = reach.front();
+    for (const Enu& p : reach) {
+      least = {std::min(least.east, p.east), std::min(least.north, p.north),
+               std::min(least.up, p.up)};
+      most = {std::max(most.east, p.east), std::max(most.north, p.north), std::max(most.up, p.up)};
+    }
+    reach = {least, most};
+    row.clear();
+  }
+  return reach;
+}
 
 // The sum of the terrain's steepest slopes along rows and along columns, metres up per metre.
 double SteepestSlopes(const TerrainInput& input) {
@@ -45,48 +70,36 @@ std::string Metres(double value) {
 
 }  // namespace
 
-Result<std::vector<LevelPlan>> PlanLevels(const TerrainInput& input, const BuildOptions& options) {
-  const double cell_m =
-      std::sqrt(input.georeference().column_step_m() * input.georeference().row_step_m());
-  const double slopes = SteepestSlopes(input);
-  std::vector<LevelPlan> plans;
-  double max_error_m = options.max_error_m.value_or(cell_m / 8);
-  for (int level = 0; level < options.levels; ++level, max_error_m *= 2) {
-    LevelPlan plan;
-    plan.max_error_m = max_error_m;
-    plan.silhouette_error_m = level == 0 ? options.silhouette_error_m
-                                         : std::max(options.silhouette_error_m, max_error_m / 8);
-    // A 16th of max_error_m / 8, the silhouette error of levels above 0.
-    Result<QuantizationLattice> lattice =
-        LatticeFor(input.terrain(), input.georeference(), max_error_m / 128);
-    if (!lattice) return std::move(lattice.error());
-    plan.lattice = *lattice;
-    const double step_m = plan.lattice.step_m;
-    const double lost = HeightLost(step_m, slopes);
-    if (lost >= max_error_m && options.max_error_m) {
-      return Error{ErrorCode::kInvalidArgument,
-                   "a vertical error of " + Metres(max_error_m) +
-                       " is finer than positions in 16 bits, which are " + Metres(step_m) +
-                       " apart over this DEM; ask for " + Metres(std::ceil(2 * lost)) + " or more",
-                   "max-error-too-small"};
-    }
-    plan.budget.vertical_error_m = std::max(max_error_m - lost, max_error_m / 2);
-    plan.budget.silhouette_error_m =
-        level == 0 ? plan.silhouette_error_m
-                   : std::max(plan.silhouette_error_m - lost, plan.silhouette_error_m / 2);
-    // An edge of length l sinks l^2 / (8 R) below the curved earth: a quarter of the error at this
-    // length, in the longer of both steps.
-    plan.budget.longest_edge =
-        std::sqrt(8 * kEarthRadiusM * max_error_m / 4) /
-        std::max(input.georeference().column_step_m(), input.georeference().row_step_m());
-    // Rounding moves each end of a side by at most sqrt(2) / 2 steps in plan. Twice the altitude at
-    // which two such moves could flip a triangle, in the shorter of both steps.
-    plan.budget.least_altitude =
-        2 * std::sqrt(2.0) * step_m /
-        std::min(input.georeference().column_step_m(), input.georeference().row_step_m());
-    plans.push_back(plan);
+Result<LevelPlan> PlanLevels(const TerrainInput& input, const BuildOptions& options) {
+  const double column_m = input.georeference().column_step_m();
+  const double row_m = input.georeference().row_step_m();
+  LevelPlan plan;
+  plan.lods.column_bend = column_m * column_m / (2 * kEarthRadiusM);
+  plan.lods.row_bend = row_m * row_m / (2 * kEarthRadiusM);
+  const double cell_m = std::sqrt(column_m * row_m);
+  plan.finest_step_m = cell_m / 1024;
+  Result<std::vector<Enu>> reach = ReachOf(input.terrain(), input.georeference());
+  if (!reach) return std::move(reach.error());
+  const double step_m = ChooseLattice(*reach, plan.finest_step_m).step_m;
+  plan.lods.triangles = options.triangles;
+  if (!options.triangles.empty()) return plan;
+
+  const double lost = HeightLost(step_m, SteepestSlopes(input));
+  const auto& [least_m, greatest_m] = input.report().heights_m;
+  const double default_m = std::max(
+      {std::min(cell_m / 8, (greatest_m - least_m) / 64), input.dem().quantum_m, 2 * lost});
+  plan.max_error_m = options.max_error_m.value_or(default_m);
+  if (lost >= plan.max_error_m) {
+    return Error{ErrorCode::kInvalidArgument,
+                 "a vertical error of " + Metres(plan.max_error_m) +
+                     " is finer than positions in 16 bits, which are " + Metres(step_m) +
+                     " apart over this DEM; ask for " + Metres(std::ceil(2 * lost)) + " or more",
+                 "max-error-too-small"};
   }
-  return plans;
+  plan.lods.levels = options.levels;
+  plan.lods.max_error_m = std::max(plan.max_error_m - lost, plan.max_error_m / 2);
+  plan.lods.silhouette_error_m = options.silhouette_error_m;
+  return plan;
 }
 
 }  // namespace farhorizon

@@ -24,6 +24,24 @@ std::optional<Number> Read(std::string_view text) {
   return number;
 }
 
+// The numbers of a list, each as `read` finds it.
+template <typename Number>
+std::optional<std::vector<Number>> ReadList(std::string_view text,
+                                            std::optional<Number> (*read)(std::string_view)) {
+  std::vector<Number> numbers;
+  for (std::size_t start = 0; start <= text.size();) {
+    const std::size_t end = std::min(text.find(',', start), text.size());
+    std::string_view part = text.substr(start, end - start);
+    while (!part.empty() && part.front() == ' ') part.remove_prefix(1);
+    while (!part.empty() && part.back() == ' ') part.remove_suffix(1);
+    const std::optional<Number> number = read(part);
+    if (!number) return std::nullopt;
+    numbers.push_back(*number);
+    start = end + 1;
+  }
+  return numbers;
+}
+
 }  // namespace
 
 std::optional<double> NumberIn(std::string_view text) { return Read<double>(text); }
@@ -37,18 +55,11 @@ std::optional<std::int64_t> WholeNumberIn(std::string_view text) {
 }
 
 std::optional<std::vector<double>> NumbersIn(std::string_view text) {
-  std::vector<double> numbers;
-  for (std::size_t start = 0; start <= text.size();) {
-    const std::size_t end = std::min(text.find(',', start), text.size());
-    std::string_view part = text.substr(start, end - start);
-    while (!part.empty() && part.front() == ' ') part.remove_prefix(1);
-    while (!part.empty() && part.back() == ' ') part.remove_suffix(1);
-    const std::optional<double> number = NumberIn(part);
-    if (!number) return std::nullopt;
-    numbers.push_back(*number);
-    start = end + 1;
-  }
-  return numbers;
+  return ReadList<double>(text, NumberIn);
+}
+
+std::optional<std::vector<std::int64_t>> WholeNumbersIn(std::string_view text) {
+  return ReadList<std::int64_t>(text, WholeNumberIn);
 }
 
 }  // namespace farhorizon

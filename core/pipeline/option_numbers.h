@@ -18,4 +18,7 @@ std::optional<std::int64_t> WholeNumberIn(std::string_view text);
 /// The numbers of a list with commas and perhaps blanks between; nullopt if one is none.
 std::optional<std::vector<double>> NumbersIn(std::string_view text);
 
+/// Likewise, of whole numbers as WholeNumberIn reads them.
+std::optional<std::vector<std::int64_t>> WholeNumbersIn(std::string_view text);
+
 }  // namespace farhorizon

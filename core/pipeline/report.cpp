@@ -107,29 +107,45 @@ void ReadHorizon(const Json& json, Report& report) {
   predicates.at("tied").get_to(s.predicates.tied);
 }
 
+Json ToJson(const LevelAsked& asked) {
+  if (asked.triangles > 0) return {{"triangles", asked.triangles}};
+  return {{"vertical_m", asked.vertical_m}, {"silhouette_m", asked.silhouette_m}};
+}
+
+LevelAsked ReadAsked(const Json& json) {
+  LevelAsked asked;
+  if (json.contains("triangles")) {
+    json.at("triangles").get_to(asked.triangles);
+  } else {
+    json.at("vertical_m").get_to(asked.vertical_m);
+    json.at("silhouette_m").get_to(asked.silhouette_m);
+  }
+  return asked;
+}
+
 Json ToJson(const LevelReport& level) {
-  return {
-      {"level", level.level},
-      {"triangles", level.triangles},
-      {"vertices", level.vertices},
-      {"horizon_edges", level.horizon_edges},
-      {"asked_m", {{"vertical", level.asked_vertical_m}, {"silhouette", level.asked_silhouette_m}}},
-      {"vertical_error_m", ToJson(level.vertical)},
-      {"silhouette_error_m", ToJson(level.silhouette)},
-      {"geometric_error_m", level.geometric_error_m},
-      {"quantization_step_m", level.quantization_step_m},
-      {"glb_bytes", level.glb_bytes},
-      {"drc_bytes", level.drc_bytes}};
+  return {{"level", level.level},
+          {"exact", level.exact},
+          {"triangles", level.triangles},
+          {"vertices", level.vertices},
+          {"horizon_edges", level.horizon_edges},
+          {"asked", ToJson(level.asked)},
+          {"vertical_error_m", ToJson(level.vertical)},
+          {"silhouette_error_m", ToJson(level.silhouette)},
+          {"geometric_error_m", level.geometric_error_m},
+          {"quantization_step_m", level.quantization_step_m},
+          {"glb_bytes", level.glb_bytes},
+          {"drc_bytes", level.drc_bytes}};
 }
 
 LevelReport ReadLevel(const Json& json) {
   LevelReport level;
   json.at("level").get_to(level.level);
+  json.at("exact").get_to(level.exact);
   json.at("triangles").get_to(level.triangles);
   json.at("vertices").get_to(level.vertices);
   json.at("horizon_edges").get_to(level.horizon_edges);
-  json.at("asked_m").at("vertical").get_to(level.asked_vertical_m);
-  json.at("asked_m").at("silhouette").get_to(level.asked_silhouette_m);
+  level.asked = ReadAsked(json.at("asked"));
   level.vertical = ReadMeasure(json.at("vertical_error_m"));
   level.silhouette = ReadMeasure(json.at("silhouette_error_m"));
   json.at("geometric_error_m").get_to(level.geometric_error_m);

@@ -25,18 +25,25 @@ struct DemReport {
   std::string sha256;
 };
 
+/// What a level was asked for: at most so many triangles, or, where `triangles` is 0, to be off by
+/// no more than vertical_m at a post and silhouette_m at a line.
+struct LevelAsked {
+  std::int64_t triangles = 0;
+  double vertical_m = 0;
+  double silhouette_m = 0;
+};
+
 /// One level, measured on its decoded mesh: a member of `levels` of report.json.
 ///
-/// asked_vertical_m, asked_silhouette_m: the errors that the level was allowed. The search for the
-/// certified silhouette error began at the latter. glb_bytes, drc_bytes: 0 where there is no such
-/// file.
+/// exact: before vertices were rounded to be encoded, its skyline was the DEM's. glb_bytes,
+/// drc_bytes: 0 where there is no such file.
 struct LevelReport {
   int level = 0;
+  bool exact = false;
   std::int64_t triangles = 0;
   std::int64_t vertices = 0;
   std::int64_t horizon_edges = 0;
-  double asked_vertical_m = 0;
-  double asked_silhouette_m = 0;
+  LevelAsked asked;
   ErrorMeasure vertical;
   ErrorMeasure silhouette;
   double geometric_error_m = 0;

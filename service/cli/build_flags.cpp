@@ -49,12 +49,16 @@ Result<BuildOptions> BuildFlags::Options() const {
 
 void AddBuildFlags(CLI::App& command, BuildFlags& flags) {
   Add(command, flags, "levels", "N",
-      "number of levels of detail, 1 to 12; level 0 is the finest (5)");
+      "number of levels of detail, 1 to 12; level 0 is the finest, each further one has 2/5 of the "
+      "triangles of the one before; fewer where the next would have less than 500 (5)");
   Add(command, flags, "maxError", "M",
-      "vertical error that level 0 may have, metres; each further level may have twice the one "
-      "before (an eighth of the cell size)");
+      "vertical error that level 0 may have at a post, metres (the lesser of an eighth of the cell "
+      "size and a 64th of the relief, but what the heights and the encoding can tell)");
   Add(command, flags, "silhouetteError", "M",
       "silhouette error that level 0 may have, metres; 0 keeps every horizon edge (0)");
+  AddList(command, flags, "triangles", "A,B,...",
+          "instead of the three above: a level for each number, with at most that many triangles; "
+          "its skyline is exact where every horizon edge fits in");
   Add(command, flags, "formats", "a,b,...",
       "of 3dtiles, drc, geojson, flatgeobuf (3dtiles,drc,geojson)");
   AddReadFlags(command, flags);

@@ -63,7 +63,7 @@ void TakeFilename(SubmissionHead& head) {
 Result<SubmissionHead> ReadSubmissionHead(const HttpRequest& request) {
   Result<std::optional<std::string>> key = ReadIdempotencyKey(request);
   if (!key) return std::move(key.error());
-  std::optional<Parameters> query = DecodeQuery(request.query, {"formats", "nodata"});
+  std::optional<Parameters> query = DecodeQuery(request.query, {"formats", "nodata", "triangles"});
   if (!query) {
     return Error{
         ErrorCode::kInvalidArgument,

@@ -50,14 +50,12 @@ AssumptionHandler SendAssumptions() {
   };
 }
 
-// What a build does before its long work. The plan of level 0, which puts every post on the globe,
-// refuses whatever those of further levels would.
-Status Probe(const WorkerTask& task, BuildOptions options, const RunControl& control) {
-  options.levels = 1;
+// What a build does before its long work. The plan puts every post on the globe.
+Status Probe(const WorkerTask& task, const BuildOptions& options, const RunControl& control) {
   Result<std::unique_ptr<TerrainInput>> input = TerrainInput::Open(task.input, options, control);
   if (!input) return std::move(input.error());
-  Result<std::vector<LevelPlan>> plans = PlanLevels(**input, options);
-  if (!plans) return std::move(plans.error());
+  Result<LevelPlan> plan = PlanLevels(**input, options);
+  if (!plan) return std::move(plan.error());
   return Ok{};
 }
 
@@ -69,7 +67,7 @@ Status Run(bool probe_only, StageTimer& timer) {
   options->max_posts = task->max_posts;
   options->threads = task->threads;
   RunControl control{.on_assumption = SendAssumptions()};
-  if (probe_only) return Probe(*task, *std::move(options), control);
+  if (probe_only) return Probe(*task, *options, control);
   control.progress = timer.Listen(SendProgress());
   return BuildArtifacts(task->input, task->output, *options, control);
 }

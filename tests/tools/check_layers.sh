@@ -28,7 +28,15 @@ declare -A may=(
   [core/horizon/search]="$below_horizon core/horizon core/horizon/visibility core/horizon/sweep core/horizon/kinetic"
   # Is a segment occluded by the DEM? What makes levels and what measures them ask alike.
   [core/horizon/guard]="$below_horizon core/horizon core/horizon/visibility"
-  [core/simplify]="$below_horizon core/horizon core/horizon/guard core/horizon/visibility"
+  # The rooms of core/simplify, each above the one before; its root has the chain's order.
+  [core/simplify/mesh]="$below_horizon"
+  [core/simplify/lines]="$below_horizon core/horizon core/simplify/mesh"
+  [core/simplify/prices]="$below_horizon core/horizon core/simplify/mesh core/simplify/lines"
+  [core/simplify/work]="$below_horizon core/horizon core/horizon/guard core/horizon/visibility core/simplify/mesh core/simplify/lines core/simplify/prices"
+  [core/simplify/order]="$below_horizon core/simplify/mesh core/simplify/prices core/simplify/work"
+  [core/simplify/polish]="$below_horizon core/simplify/mesh core/simplify/prices core/simplify/work"
+  [core/simplify/sides]="$below_horizon core/simplify/mesh core/simplify/work core/simplify/order"
+  [core/simplify]="$below_horizon core/horizon core/simplify/mesh core/simplify/work core/simplify/order core/simplify/polish core/simplify/sides"
   # Both errors of any mesh: knows nothing of how a mesh was made.
   [core/measure]="$below_horizon core/horizon core/horizon/guard core/horizon/visibility"
   [core/geo]="core/base"

@@ -23,16 +23,10 @@ namespace {
 
 class Walk {
  public:
-  Walk(const Terrain& terrain, const HullMergeTree& hulls, const FinerHeights& scale, VertexId p,
-       VertexId q, std::int32_t steps)
-      : terrain_(terrain),
-        hulls_(hulls),
-        scale_(scale),
-        p_(scale.Scale(terrain.Point(p))),
-        q_(scale.Scale(terrain.Point(q))) {
+  Walk(const Terrain& terrain, const HullMergeTree& hulls, const FinerHeights& scale,
+       const Segment& scaled)
+      : terrain_(terrain), hulls_(hulls), scale_(scale), p_(scaled.a), q_(scaled.b) {
     if (p_.x > q_.x) std::swap(p_, q_);
-    p_.z -= steps;
-    q_.z -= steps;
   }
 
   [[nodiscard]] bool IsBelow() const {
@@ -144,8 +138,8 @@ class Walk {
 }  // namespace
 
 bool GroundCovers(const Terrain& terrain, const HullMergeTree& hulls, const FinerHeights& scale,
-                  VertexId p, VertexId q, std::int32_t steps) {
-  return Walk(terrain, hulls, scale, p, q, steps).IsBelow();
+                  const Segment& scaled) {
+  return Walk(terrain, hulls, scale, scaled).IsBelow();
 }
 
 }  // namespace farhorizon

@@ -27,14 +27,33 @@ SkylineGuard::SkylineGuard(const Terrain& terrain, const Horizon& horizon)
 }
 
 bool SkylineGuard::IsOccluded(VertexId p, VertexId q, std::int32_t steps_lower) const {
-  const Point3i at_p = terrain_->Point(p);
-  const Point3i at_q = terrain_->Point(q);
+  return IsOccluded(
+      Lowered({scale_.Scale(terrain_->Point(p)), scale_.Scale(terrain_->Point(q))}, steps_lower));
+}
+
+bool SkylineGuard::IsSurelyOccluded(const Segment& scaled) const {
+  const auto post = [this](const Point3i& point) {
+    return point.y * terrain_->dem().columns + point.x;
+  };
   // Whole quanta only, rounded towards the safe side: what hides the higher hides the lower.
-  const std::int32_t whole = steps_lower >> scale_.bits;
-  if (hulls_->Occludes(p, q, std::max(at_p.z, at_q.z) - whole)) return true;
-  if (GroundCovers(*terrain_, *hulls_, scale_, p, q, steps_lower)) return true;
-  const Segment segment = Lowered({scale_.Scale(at_p), scale_.Scale(at_q)}, steps_lower);
-  return !occluders_.FindLineOfSight({.segment = segment, .ties = Ties::kBlock}).witness;
+  const std::int32_t most = std::max(scaled.a.z, scaled.b.z);
+  const std::int32_t height = scale_.zero - (-most >> scale_.bits);
+  return hulls_->Occludes(post(scaled.a), post(scaled.b), height) ||
+         GroundCovers(*terrain_, *hulls_, scale_, scaled);
+}
+
+bool SkylineGuard::IsOccluded(const Segment& scaled, std::vector<OccluderId>& likely) const {
+  if (IsSurelyOccluded(scaled)) return true;
+  Visibility found = occluders_.FindLineOfSight({.segment = scaled,
+                                                 .ties = Ties::kBlock,
+                                                 .hints = {.likely = likely},
+                                                 .want_occluders = true});
+  if (found.witness) return false;
+  std::sort(found.occluders.begin(), found.occluders.end());
+  found.occluders.erase(std::unique(found.occluders.begin(), found.occluders.end()),
+                        found.occluders.end());
+  likely = std::move(found.occluders);
+  return true;
 }
 
 }  // namespace farhorizon

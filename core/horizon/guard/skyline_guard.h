@@ -22,6 +22,18 @@ class SkylineGuard {
   /// Whether the edge p, q, lowered by so many steps of scale(), is occluded. Exact.
   /// Cost: constant for most edges; for the others about the occluders that are visible from them.
   [[nodiscard]] bool IsOccluded(VertexId p, VertexId q, std::int32_t steps_lower) const;
+  /// True only if a segment between two posts at any heights, in steps of scale(), is occluded.
+  /// False: not known. Cost: the cells that it crosses.
+  [[nodiscard]] bool IsSurelyOccluded(const Segment& scaled) const;
+  /// Whether such a segment is occluded. Exact.
+  /// likely: members of the guard's set that are tried first. Where a search has proven the answer
+  /// it leaves there those that occlude the segment: they will occlude most of what is near. The
+  /// answer does not depend on it.
+  [[nodiscard]] bool IsOccluded(const Segment& scaled, std::vector<OccluderId>& likely) const;
+  [[nodiscard]] bool IsOccluded(const Segment& scaled) const {
+    std::vector<OccluderId> likely;
+    return IsOccluded(scaled, likely);
+  }
 
   [[nodiscard]] const FinerHeights& scale() const { return scale_; }
 

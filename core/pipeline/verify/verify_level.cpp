@@ -145,8 +145,8 @@ std::vector<Edge> VerifyLevel(const LevelContext& context, const std::filesystem
               decoded->lattice.step_m);
   claims.Add(AllTurnLeft(mesh, context.georeference.frame()),
              name + ": no triangle is flipped or without area");
-  Result<LevelReport> found = MeasureLevel(context, mesh, claimed.level,
-                                           claimed.quantization_step_m, claimed.asked_silhouette_m);
+  Result<LevelReport> found =
+      MeasureLevel(context, mesh, claimed.level, claimed.quantization_step_m);
   claims.Add(found.has_value(),
              name + " covers the DEM without cracks" + (found ? "" : ": " + found.error().message));
   if (!found) return {};

@@ -64,6 +64,27 @@ TEST(ParseOptions, TakesWholeNumbersHoweverTheyAreWritten) {
   }
 }
 
+TEST(ParseOptions, TakesTrianglesInAnyOrder) {
+  for (const char* text : {"9000,3000,2", "2,9000,3000", "3e3, 9000.0 ,2"}) {
+    Result<BuildOptions> options = ParseOptions({{"triangles", text}});
+    ASSERT_TRUE(options) << text << ": " << options.error().message;
+    EXPECT_EQ(options->triangles, (std::vector<std::int64_t>{9000, 3000, 2})) << text;
+  }
+  EXPECT_TRUE(ParseOptions({{"triangles", "12,11,10,9,8,7,6,5,4,3,2,1000000000"}}));
+}
+
+TEST(ParseOptions, TrianglesTakeThePlaceOfThreeOthers) {
+  for (const char* other : {"levels", "maxError", "silhouetteError"}) {
+    Result<BuildOptions> options = ParseOptions({{"triangles", "500"}, {other, "1"}});
+    ASSERT_FALSE(options) << other;
+    EXPECT_EQ(options.error().kind, "invalid-parameter");
+    for (const char* flag : {"--triangles", "--levels", "--max-error", "--silhouette-error"}) {
+      EXPECT_NE(options.error().message.find(flag), std::string::npos) << options.error().message;
+    }
+  }
+  EXPECT_TRUE(ParseOptions({{"triangles", "500"}, {"formats", "drc"}}));
+}
+
 TEST(FlagOf, WritesAParameterAsTheCommandLineDoes) {
   EXPECT_EQ(FlagOf("crs"), "--crs");
   EXPECT_EQ(FlagOf("silhouetteError"), "--silhouette-error");
@@ -102,7 +123,13 @@ INSTANTIATE_TEST_SUITE_P(
                     BadParameter{"heightUnit", ""}, BadParameter{"heightUnit", "feet"},
                     BadParameter{"heightUnit", "M"}, BadParameter{"crs", ""},
                     BadParameter{"verticalDatum", ""}, BadParameter{"datumOperation", ""},
-                    BadParameter{"approximate", "1"}));
+                    BadParameter{"approximate", "1"}, BadParameter{"triangles", ""},
+                    BadParameter{"triangles", "1"}, BadParameter{"triangles", "500,0"},
+                    BadParameter{"triangles", "-500"}, BadParameter{"triangles", "1e9,1000000001"},
+                    BadParameter{"triangles", "500,500"}, BadParameter{"triangles", "500,5e2"},
+                    BadParameter{"triangles", "500,"}, BadParameter{"triangles", "0.5"},
+                    BadParameter{"triangles", "half"},
+                    BadParameter{"triangles", "2,3,4,5,6,7,8,9,10,11,12,13,14"}));
 
 TEST(ParseOptions, RefusesTextsWithANul) {
   for (const char* name : {"crs", "verticalDatum", "datumOperation"}) {

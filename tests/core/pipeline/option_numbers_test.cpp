@@ -42,5 +42,12 @@ TEST(NumbersIn, SplitsAtCommas) {
   }
 }
 
+TEST(WholeNumbersIn, SplitsAtCommas) {
+  EXPECT_EQ(WholeNumbersIn("5000, 1e3,2.0"), (std::vector<std::int64_t>{5000, 1000, 2}));
+  for (const char* text : {"", "1,", "1,2.5", "1,nan", "1;2"}) {
+    EXPECT_FALSE(WholeNumbersIn(text)) << text;
+  }
+}
+
 }  // namespace
 }  // namespace farhorizon

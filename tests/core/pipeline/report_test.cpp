@@ -16,8 +16,23 @@ Report SomeReport() {
   report.statistics.predicates = {1, 2, 3};
   report.statistics.undecided = 9;
   report.statistics.work_budget = 1'000'000'000'000;
-  report.levels.push_back(
-      {0, 10, 11, 12, 2.5, 0.5, {1.5, 0.5}, {0.25, 0.125}, 3.5, 0.0625, 1000, 900});
+  LevelReport finest;
+  finest.exact = true;
+  finest.triangles = 10;
+  finest.vertices = 11;
+  finest.horizon_edges = 12;
+  finest.asked = {.vertical_m = 2.5, .silhouette_m = 0.5};
+  finest.vertical = {1.5, 0.5};
+  finest.silhouette = {0.25, 0.125};
+  finest.geometric_error_m = 3.5;
+  finest.quantization_step_m = 0.0625;
+  finest.glb_bytes = 1000;
+  finest.drc_bytes = 900;
+  LevelReport coarser = finest;
+  coarser.level = 1;
+  coarser.exact = false;
+  coarser.asked = {.triangles = 4};
+  report.levels = {finest, coarser};
   return report;
 }
 
@@ -27,6 +42,11 @@ TEST(Report, ReadsBackWhatItWrote) {
   ASSERT_TRUE(read);
   EXPECT_EQ(WriteReport(*read), text);
   EXPECT_EQ(read->levels.front().silhouette.max_m, 0.25);
+  EXPECT_TRUE(read->levels[0].exact);
+  EXPECT_EQ(read->levels[0].asked.triangles, 0);
+  EXPECT_EQ(read->levels[0].asked.vertical_m, 2.5);
+  EXPECT_FALSE(read->levels[1].exact);
+  EXPECT_EQ(read->levels[1].asked.triangles, 4);
   EXPECT_EQ(read->dem.heights_rounded, true);
   EXPECT_EQ(read->statistics.undecided, 9);
   EXPECT_EQ(read->statistics.work_budget, 1'000'000'000'000);

@@ -60,6 +60,16 @@ TEST(BuildFlags, TakeNoDataMoreThanOnce) {
   EXPECT_THROW(Parsed("a.tif --nodata"), CLI::ParseError);
 }
 
+TEST(BuildFlags, TakeTrianglesAsAListOrOneByOne) {
+  for (const char* line : {"--triangles 9000,500 a.tif", "a.tif --triangles=9000 --triangles=500",
+                           "--triangles 9000 a.tif --triangles 500"}) {
+    const DemArguments arguments = Parsed(line);
+    EXPECT_EQ(arguments.path, "a.tif") << line;
+    EXPECT_EQ(arguments.flags.parameters, (Parameters{{"triangles", "9000,500"}})) << line;
+  }
+  EXPECT_FALSE(Parsed("a.tif --triangles 500 --levels 3").flags.Options());
+}
+
 TEST(BuildFlags, BecomeTheOptionsOfABuild) {
   Result<BuildOptions> options =
       Parsed("a.tif --levels 3 --crs EPSG:32611 --threads 2").flags.Options();

@@ -18,11 +18,13 @@ TEST(ParametersOfJson, JoinsListsAndKeepsScalars) {
 }
 
 TEST(ParametersOfJson, KeepsEveryElementOfAList) {
-  const Result<Parameters> parameters =
-      ParametersOfJson(R"({"nodata": [-9999, "-inf", ""], "levels": 3.0, "formats": []})");
+  const Result<Parameters> parameters = ParametersOfJson(
+      R"({"nodata": [-9999, "-inf", ""], "levels": 3.0, "formats": [], "triangles": [9, 5.0]})");
   ASSERT_TRUE(parameters);
-  EXPECT_EQ(*parameters,
-            (Parameters{{"formats", ""}, {"levels", "3.0"}, {"nodata", "-9999,-inf,"}}));
+  EXPECT_EQ(
+      *parameters,
+      (Parameters{
+          {"formats", ""}, {"levels", "3.0"}, {"nodata", "-9999,-inf,"}, {"triangles", "9,5.0"}}));
 }
 
 TEST(ParametersOfJson, RefusesOtherShapes) {
