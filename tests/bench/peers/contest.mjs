@@ -41,8 +41,8 @@ function doubts(levels) {
   return levels.flatMap(({said, silhouette_max_m: seen}, level) => {
     const bound = said.silhouette_error_m.max;
     return seen <= bound + 1e-4 ? [] :
-        [`farhorizon, level ${level}: a silhouette error of ${seen.toFixed(4)} m off the outline, where ` +
-         `report.json says at most ${bound} m`];
+        [`farhorizon, level ${level}: a silhouette error of ${seen.toFixed(4)} m off the outline, ` +
+         `where report.json says at most ${bound} m`];
   });
 }
 
