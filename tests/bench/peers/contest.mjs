@@ -41,28 +41,34 @@ function doubts(levels) {
   return levels.flatMap(({said, silhouette_max_m: seen}, level) => {
     const bound = said.silhouette_error_m.max;
     return seen <= bound + 1e-4 ? [] :
-        [`farhorizon, level ${level}: a silhouette error of ${seen} m off the outline, where ` +
-         `report.json says at most ${bound} m`];
+        [`farhorizon, level ${level}: a silhouette error of ${seen.toFixed(4)} m off the outline, ` +
+         `where report.json says at most ${bound} m`];
   });
 }
 
-/** Falling, each once, and none at all. */
+/** Falling, each once, none of nothing. */
 const sizesOf = numbers => [...new Set(numbers)].filter(Boolean).sort((a, b) => b - a);
 
 /**
- * One DEM's contest: {name, about, sizes, ours, notes, entries: [{tool, name, best, asked,
+ * One DEM's contest: {name, about, columns, sizes, ours, notes, entries: [{tool, name, best, asked,
  * triangles, ...}]}.
  */
 async function contestOf(file, bySize) {
   const dem = await Dem.open(file, options);
   const entries = [], notes = [];
-  let sizes = sizesOf(shares.map(share => Math.round(dem.about.triangles * share / 100)));
+  // What the columns of the summary are: shares, or levels.
+  let columns = shares.map(
+    share => ({label: `${share} %`, size: Math.round(dem.about.triangles * share / 100)}));
+  let sizes = sizesOf(columns.map(column => column.size));
   let ours;
   try {
     ours = await ourLevels(options.farhorizon, dem, bySize ? sizes : undefined);
     const judged = await dem.judge(ours.levels.map(level => level.file), {keep: false});
     judged.forEach((result, i) => Object.assign(ours.levels[i], result));
-    if (!bySize) sizes = sizesOf(ours.levels.map(level => level.triangles));
+    if (!bySize) {
+      columns = ours.levels.map(({triangles}, i) => ({label: `level ${i}`, size: triangles}));
+      sizes = sizesOf(columns.map(column => column.size));
+    }
     notes.push(...doubts(ours.levels));
     if (sizes.length !== ours.levels.length && bySize)
       throw new Error(`farhorizon made ${ours.levels.length} levels for ${sizes.length} sizes`);
@@ -80,7 +86,7 @@ async function contestOf(file, bySize) {
     meshes.forEach((mesh, i) => entries.push(
       {tool: tool.id, name: tool.name, best: tool.best, ...mesh, ...judged[i]}));
   }
-  return {name: dem.name, about: dem.about, sizes, ours, entries, notes};
+  return {name: dem.name, about: dem.about, columns, sizes, ours, entries, notes};
 }
 
 const bySize = !options['default-levels'] && await takesTriangles(options.farhorizon);

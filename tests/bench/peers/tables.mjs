@@ -5,6 +5,7 @@ import {tools} from './tools.mjs';
 export function number(value) {
   if (value === undefined) return '–';
   if (value === 0) return '0';
+  if (value < 5e-5) return '<0.0001';
   if (value >= 100) return Math.round(value).toLocaleString('en');
   return value.toFixed(Math.min(4, Math.max(0, 2 - Math.floor(Math.log10(value)))));
 }
@@ -38,21 +39,17 @@ export function against(contest, ours) {
 /** Two digits: more would be noise. */
 export const gainText = value => value >= 9.95 ? value.toFixed(0) : value.toFixed(1);
 
-/** Of each DEM a row: gain and vertical at each share. */
+/** Of each DEM a row: gain and vertical at each share, or of each level. */
 function summary(contests) {
-  const columns = Math.max(...contests.map(contest => contest.sizes.length));
   const judged = contests.filter(contest => contest.ours);
   if (!judged.length) return '';
-  const sameShares = contests.every(contest => contest.sizes.every((size, i) =>
-    percent(shareOf(contest, size)) === percent(shareOf(contests[0], contests[0].sizes[i]))));
-  const head = ['DEM', ...Array.from({length: columns}, (_, i) =>
-    sameShares ? percent(shareOf(contests[0], contests[0].sizes[i])) : `level ${i}`)];
-  const rows = judged.map(contest => [contest.name, ...head.slice(1).map((_, i) => {
-    const size = contest.sizes[i];
+  const labels = [...new Set(judged.flatMap(({columns}) => columns.map(column => column.label)))];
+  const rows = judged.map(contest => [contest.name, ...labels.map(label => {
+    const size = contest.columns.find(column => column.label === label)?.size;
     const ours = contest.entries.find(e => e.tool === 'farhorizon' && e.asked === size);
     const ratios = ours && against(contest, ours);
     if (!ratios) return '–';
-    const share = sameShares ? '' : `${percent(shareOf(contest, size))}: `;
+    const share = label.endsWith('%') ? '' : `${percent(shareOf(contest, size))}: `;
     return `${share}${gainText(ratios.gain)} / ${ratios.vertical.toFixed(2)}`;
   })]);
   return `## farhorizon against the best of the others
@@ -60,7 +57,7 @@ function summary(contests) {
 Gain / vertical, each error against the best of the others by itself: how many times lower the
 silhouette rms is, and the vertical rms as a multiple of theirs.
 
-${table([head, ...rows])}`;
+${table([['DEM', ...labels], ...rows])}`;
 }
 
 /** Each tool's errors at each size. */
@@ -108,16 +105,17 @@ function looks(contest) {
 }
 
 function times(contest) {
-  const ours = contest.ours && `farhorizon ${number(contest.ours.seconds)} for all ` +
-      `${contest.ours.levels.length} levels with horizon, proof and files, of it ` +
-      `${number(contest.ours.stages.simplify)} simplifying, ${number(contest.ours.peak)} MiB; `;
+  const {seconds, levels, stages, peak} = contest.ours ?? {};
+  const ours = contest.ours ? `farhorizon ${number(seconds)} for ${levels.length} levels with ` +
+      `horizon, proof and files, of it ${number(stages.simplify)} simplifying, ` +
+      `${number(peak)} MiB; ` : '';
   const others = tools.flatMap(tool => {
-    const seconds = contest.entries.filter(e => e.tool === tool.id).map(e => e.seconds);
-    if (!seconds.length) return [];
-    const low = number(Math.min(...seconds)), high = number(Math.max(...seconds));
+    const took = contest.entries.filter(e => e.tool === tool.id).map(e => e.seconds);
+    if (!took.length) return [];
+    const low = number(Math.min(...took)), high = number(Math.max(...took));
     return `${tool.name} ${low === high ? low : `${low} to ${high}`}`;
   });
-  return `Seconds of one core: ${ours ?? ''}the others for one mesh, meshing alone: ` +
+  return `Seconds of one core: ${ours}the others for one mesh, meshing alone: ` +
          `${others.join(', ')}.`;
 }
 
