@@ -26,11 +26,6 @@ SkylineGuard::SkylineGuard(const Terrain& terrain, const Horizon& horizon)
   }
 }
 
-bool SkylineGuard::IsOccluded(VertexId p, VertexId q, std::int32_t steps_lower) const {
-  return IsOccluded(
-      Lowered({scale_.Scale(terrain_->Point(p)), scale_.Scale(terrain_->Point(q))}, steps_lower));
-}
-
 bool SkylineGuard::IsSurelyOccluded(const Segment& scaled) const {
   const auto post = [this](const Point3i& point) {
     return point.y * terrain_->dem().columns + point.x;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cstdint>
+#include <vector>
 
 #include "core/geometry/finer_heights.h"
 #include "core/horizon/horizon.h"
@@ -19,9 +19,6 @@ class SkylineGuard {
   /// Requires: both outlive the guard.
   SkylineGuard(const Terrain& terrain, const Horizon& horizon);
 
-  /// Whether the edge p, q, lowered by so many steps of scale(), is occluded. Exact.
-  /// Cost: constant for most edges; for the others about the occluders that are visible from them.
-  [[nodiscard]] bool IsOccluded(VertexId p, VertexId q, std::int32_t steps_lower) const;
   /// True only if a segment between two posts at any heights, in steps of scale(), is occluded.
   /// False: not known. Cost: the cells that it crosses.
   [[nodiscard]] bool IsSurelyOccluded(const Segment& scaled) const;
@@ -30,10 +27,6 @@ class SkylineGuard {
   /// it leaves there those that occlude the segment: they will occlude most of what is near. The
   /// answer does not depend on it.
   [[nodiscard]] bool IsOccluded(const Segment& scaled, std::vector<OccluderId>& likely) const;
-  [[nodiscard]] bool IsOccluded(const Segment& scaled) const {
-    std::vector<OccluderId> likely;
-    return IsOccluded(scaled, likely);
-  }
 
   [[nodiscard]] const FinerHeights& scale() const { return scale_; }
 

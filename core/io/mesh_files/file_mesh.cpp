@@ -1,3 +1,5 @@
+// What all readers do once they have points and faces: check what triangles name, and tidy the mesh
+// before anything measures it.
 #include "core/io/mesh_files/file_mesh.h"
 
 #include <algorithm>

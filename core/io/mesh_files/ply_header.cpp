@@ -1,3 +1,5 @@
+// A PLY's header is text, line by line, whatever its data are. What it promises is checked here, so
+// that readers of the data can rely on it.
 #include "core/io/mesh_files/ply_header.h"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// The format of a file and the reader that it goes to. First bytes come before the ending of the
+// name, which others choose.
 #include "core/io/mesh_files/read_mesh.h"
 
 #include <algorithm>
