@@ -28,10 +28,10 @@ struct BudgetedWork {
   using Attempt = std::function<Done(std::span<const std::size_t> items, std::int64_t limit)>;
 
   std::size_t count = 0;  ///< the items are 0 to count - 1
-  Attempt attempt;
+  Attempt attempt = {};
   Stage stage = Stage::kDecide;  ///< reports to this one
   /// For errors: what is being done, as in "finding lines of sight of 12 edges".
-  std::string what;
+  std::string what = {};
   /// Where the budget is short: the share of what is left that this work may take. Later stages
   /// share the rest.
   double share = 1;
