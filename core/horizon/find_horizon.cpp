@@ -115,7 +115,8 @@ Result<Horizon> FindHorizon(const Terrain& terrain, const HorizonOptions& option
   horizon.statistics.work_budget = budget.limit();
   control.Report(Stage::kDecide, 0);
   CandidateDecider decider(terrain, candidates);
-  Status decided = decider.Decide(options.threads, budget, control);
+  Status decided = decider.Decide(
+      {.threads = options.threads, .budget_share = options.budget_share}, budget, control);
   if (!decided) return std::move(decided.error());
   horizon.statistics.predicates = decider.counts();
   horizon.statistics.undecided = decider.undecided();

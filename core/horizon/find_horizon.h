@@ -27,6 +27,9 @@ struct HorizonOptions {
   /// marked; the edges are a superset of the horizon edges with the same skyline. Where the budget
   /// suffices, no difference.
   bool approximate = false;
+  /// Where the budget is approximate and short: the share of what is left of it that deciding edges
+  /// may take. The rest is for what is said of them.
+  double budget_share = 1;
 };
 
 /// 2000 decisions for each edge of the terrain, at least 10^9 in all: some eighty times what the
