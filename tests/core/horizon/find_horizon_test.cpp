@@ -251,7 +251,7 @@ TEST(FindHorizon, KeepsAMarkedSupersetWhereItMayBeApproximate) {
   // With less work on candidates, too, more of the terrain's edges are left to be decided.
   std::int64_t least_undecided = exact.statistics.terrain_edges;
   std::int64_t candidates = 0;
-  for (const std::int64_t divisor : {1000, 30, 3}) {
+  for (const std::int64_t divisor : {1000, 30, 2}) {
     const std::int64_t budget = exact.statistics.predicates.Sum() / divisor;
     Result<Horizon> some = FindHorizon(terrain, {.work_budget = budget, .approximate = true}, {});
     ASSERT_TRUE(some);
