@@ -47,10 +47,13 @@ void AddBuildFlags(Command& command, BuildFlags& flags) {
       "vertical error that level 0 may have at a post, metres (the lesser of an eighth of the cell "
       "size and a 64th of the relief, but what the heights and the encoding can tell)");
   Add(command, flags, "silhouetteError", "M",
-      "silhouette error that level 0 may have, metres; 0 keeps every horizon edge (0)");
-  AddList(command, flags, "triangles", "A,B,...",
-          "instead of the three above: a level for each number, with at most that many triangles; "
-          "its skyline is exact where every horizon edge fits in");
+      "by how much level 0 may rise above the skyline, metres; it keeps every horizon edge in "
+      "either "
+      "case (0)");
+  AddList(
+      command, flags, "triangles", "A,B,...",
+      "instead of the three above: a level for each number, with at most that many triangles, in "
+      "any order; exact where every horizon edge fits in");
   Add(command, flags, "formats", "a,b,...",
       "of 3dtiles, drc, geojson, flatgeobuf (3dtiles,drc,geojson)");
   AddReadFlags(command, flags);
