@@ -4,13 +4,12 @@
 #include <type_traits>
 #include <utility>
 
-#include <CLI/CLI.hpp>
-
 #include "core/base/result.h"
 #include "core/base/run_control.h"
 #include "core/pipeline/build.h"
 #include "core/pipeline/progress_plan.h"
 #include "service/cli/build_flags.h"
+#include "service/cli/command_line.h"
 #include "service/cli/reporter.h"
 #include "service/cli/signals.h"
 
@@ -29,9 +28,9 @@ struct DemArguments {
 };
 
 /// Adds the positional argument DEM. Requires: `arguments` outlives the parse.
-void AddDem(CLI::App& command, DemArguments& arguments, const char* help = kDemFormats);
+void AddDem(Command& command, DemArguments& arguments, const char* help = kDemFormats);
 /// Adds --threads and --progress. Requires: as above.
-void AddRunFlags(CLI::App& command, DemArguments& arguments);
+void AddRunFlags(Command& command, DemArguments& arguments);
 
 /// A command while it works: its options, progress, and a stop token for SIGINT and SIGTERM.
 struct DemRun {

@@ -43,32 +43,30 @@ int Run(const HorizonArguments& arguments) {
 
 }  // namespace
 
-void AddHorizon(CLI::App& app, SelectedCommand& selected) {
+void AddHorizon(Command& program, SelectedCommand& selected) {
   const auto arguments = std::make_shared<HorizonArguments>();
-  CLI::App* command = app.add_subcommand("horizon", "Write only the horizon edges of a DEM");
-  AddDem(*command, arguments->dem);
-  command
-      ->add_option("-o,--output", arguments->file,
-                   "file to write; its ending tells the format: .geojson, .fgb, .gpkg; with "
-                   "--trace-level .svg")
-      ->required()
-      ->type_name("FILE");
-  command
-      ->add_option(
-          "--engine", arguments->engine,
-          "algorithm that finds the edges: adaptive, kinetic, or auto, which is adaptive; all "
-          "find the same ones")
-      ->check(CLI::IsMember({"adaptive", "kinetic", "auto"}).description(""))
-      ->type_name("ENGINE");
-  command
-      ->add_option("--trace-level", arguments->trace_level_m,
-                   "instead of the edges, draw the sweep at the height of Z metres: contours, "
-                   "hulls, bitangents, candidates")
-      ->type_name("Z");
-  AddReadFlags(*command, arguments->dem.flags);
-  AddWorkFlags(*command, arguments->dem.flags);
-  AddRunFlags(*command, arguments->dem);
-  command->callback([arguments, &selected] { selected = [arguments] { return Run(*arguments); }; });
+  Command command = program.AddCommand("horizon", "Write only the horizon edges of a DEM");
+  AddDem(command, arguments->dem);
+  command.Add({.names = "-o,--output",
+               .type = "FILE",
+               .help = "file to write; its ending tells the format: .geojson, .fgb, .gpkg; with "
+                       "--trace-level .svg",
+               .required = true},
+              arguments->file);
+  command.AddChoice({.names = "--engine",
+                     .type = "ENGINE",
+                     .help = "algorithm that finds the edges: adaptive, kinetic, or auto, which is "
+                             "adaptive; all find the same ones"},
+                    arguments->engine, {"adaptive", "kinetic", "auto"});
+  command.Add({.names = "--trace-level",
+               .type = "Z",
+               .help = "instead of the edges, draw the sweep at the height of Z metres: contours, "
+                       "hulls, bitangents, candidates"},
+              arguments->trace_level_m);
+  AddReadFlags(command, arguments->dem.flags);
+  AddWorkFlags(command, arguments->dem.flags);
+  AddRunFlags(command, arguments->dem);
+  command.Select(selected, [arguments] { return Run(*arguments); });
 }
 
 }  // namespace farhorizon

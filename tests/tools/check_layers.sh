@@ -79,7 +79,7 @@ foreign=(
   'sqlite3 @ ^service/jobs/[a-z_0-9]+\.cpp$'
   'nlohmann/ @ ^core/(io|pipeline)/(compare/)?[^/]+\.cpp$ ^core/io/mesh_files/(gltf_json\.h|[^/]+\.cpp)$ ^service/[a-z_0-9]+\.(h|cpp)$ ^service/(handlers|jobs|worker|config|cli)/'
   'openssl/ @ ^core/io/[^/]+\.cpp$'
-  'CLI/ @ ^service/(main\.cpp$|cli/)'
+  'CLI/ @ ^service/cli/(command_line|run)\.cpp$'
   # The system's own: files in core/io, processes and sockets in service.
   '((sys|netinet|arpa|linux)/)?[a-z_0-9]+\.h$ @ ^core/io/[^/]+\.cpp$ ^service/'
 )
