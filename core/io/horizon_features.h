@@ -20,6 +20,9 @@ inline constexpr double kSpanStep = 1e-7;
 /// The greatest amount by which a published skyline drop is too small, metres.
 inline constexpr double kSkylineDropStep = 5e-4;
 
+/// Whether a measure has a value: kNotAfforded where the work budget ran out before it was found.
+enum class Known { kYes, kNotAsked, kNotAfforded };
+
 /// In which directions and where an edge is on the horizon, and how much the edge matters there, as
 /// it is published.
 ///
@@ -33,12 +36,15 @@ inline constexpr double kSkylineDropStep = 5e-4;
 ///   convex region measure its perimeter [Crofton1868]. True to a millionth of itself.
 /// skyline_drop_m: how much lower the skyline would be without the edge, on the line of sight where
 ///   that is most (skyline_drop.h): the truth, or up to kSkylineDropStep less.
+/// sights: whether all but the skyline drop have values. drop: whether that has one.
 struct EdgeMeasures {
   std::vector<std::array<double, 2>> azimuths = {};
   std::vector<std::array<double, 2>> spans = {};
   double angular_share = 0;
   double line_measure_m = 0;
   double skyline_drop_m = 0;
+  Known sights = Known::kYes;
+  Known drop = Known::kYes;
 };
 
 /// One horizon edge as it is published, from post a to post b, both [column, row].
@@ -62,7 +68,8 @@ struct HorizonFeature {
 /// MultiLineString of two. Measures of lines are printed to 10^-9, skyline drops to 10^-3.
 ///
 /// Where some edges are undecided, the collection has `approximate` and their number as
-/// `undecided`, and each of them has `undecided` instead of measures and witness.
+/// `undecided`, and each of them has `undecided` instead of measures and witness. A measure that
+/// the work budget did not suffice for is null; one that was not asked for is left out.
 /// Witnesses are printed without loss: t as the shortest text of its double, directions as
 /// integers. Directions are below 2^53, which every JSON reader keeps, except where cliffs of 2^26
 /// quanta and more differ by single quanta. There a few are up to 2^62; a reader that takes all

@@ -16,12 +16,17 @@ struct HorizonArguments {
   DemArguments dem;
   std::string file;
   std::string engine = "auto";
+  std::string weights = "full";
   std::optional<double> trace_level_m;
 };
 
 Engine EngineOf(const std::string& name) {
   // "auto" is the adaptive engine, which is the faster one on large terrain.
   return name == "kinetic" ? Engine::kKinetic : Engine::kAdaptive;
+}
+
+Weights WeightsOf(const std::string& name) {
+  return name == "none" ? Weights::kNone : name == "fast" ? Weights::kFast : Weights::kFull;
 }
 
 Workflow WorkflowOf(const HorizonArguments& arguments) {
@@ -36,8 +41,11 @@ int Run(const HorizonArguments& arguments) {
     return arguments.trace_level_m
                ? WriteSweepPicture(dem, arguments.file, *arguments.trace_level_m, run.options,
                                    run.control)
-               : WriteHorizonEdges(dem, arguments.file, run.options, run.control,
-                                   EngineOf(arguments.engine));
+               : WriteHorizonEdges(dem, arguments.file,
+                                   {.build = run.options,
+                                    .engine = EngineOf(arguments.engine),
+                                    .weights = WeightsOf(arguments.weights)},
+                                   run.control);
   }));
 }
 
@@ -58,6 +66,11 @@ void AddHorizon(Command& program, SelectedCommand& selected) {
                      .help = "algorithm that finds the edges: adaptive, kinetic, or auto, which is "
                              "adaptive; all find the same ones"},
                     arguments->engine, {"adaptive", "kinetic", "auto"});
+  command.AddChoice({.names = "--weights",
+                     .type = "W",
+                     .help = "what is said of each edge beside its witness: none; fast, all that "
+                             "follows from its lines of sight; full, its skyline drop, too (full)"},
+                    arguments->weights, {"none", "fast", "full"});
   command.Add({.names = "--trace-level",
                .type = "Z",
                .help = "instead of the edges, draw the sweep at the height of Z metres: contours, "
@@ -66,6 +79,7 @@ void AddHorizon(Command& program, SelectedCommand& selected) {
   AddReadFlags(command, arguments->dem.flags);
   AddWorkFlags(command, arguments->dem.flags);
   AddRunFlags(command, arguments->dem);
+  AddTimings(command, arguments->dem, "write seconds by stage, as JSON");
   command.Select(selected, [arguments] { return Run(*arguments); });
 }
 

@@ -22,14 +22,19 @@
 #include <vector>
 
 #include "core/horizon/visibility/point_query.h"
+#include "core/horizon/work_budget.h"
 #include "core/terrain/height_range.h"
 
 namespace farhorizon {
 
 class SkylineDrops::LoweredEdge {
  public:
-  LoweredEdge(const SkylineDrops& all, std::size_t i)
-      : all_(all), i_(static_cast<std::int32_t>(i)), edge_(all.horizon_.edges[i].edge) {
+  // limit: of decisions.
+  LoweredEdge(const SkylineDrops& all, std::size_t i, std::int64_t limit)
+      : all_(all),
+        i_(static_cast<std::int32_t>(i)),
+        edge_(all.horizon_.edges[i].edge),
+        limit_(limit) {
     const Horizon& horizon = all.horizon_;
     for (const Segment& segment : horizon.virtual_occluders.Of(i)) AddVirtualOccluder(segment);
     const Terrain::Faces faces = all.terrain_.FacesOf(edge_);
@@ -40,11 +45,14 @@ class SkylineDrops::LoweredEdge {
     }
   }
 
-  // The greatest depth at which the edge is visible, in steps.
+  [[nodiscard]] std::int64_t spent() const { return spent_; }
+
+  // The greatest depth at which the edge is visible, in steps. Has no meaning where the limit is
+  // spent.
   std::int32_t FindDepth() {
     std::deque<OccludedRange> open = {
         {QuadraticRoot::At(Dyadic{0, 0}), QuadraticRoot::At(Dyadic{1, 0})}};
-    while (!open.empty()) {
+    while (!open.empty() && spent_ < limit_) {
       const OccludedRange range = open.front();
       open.pop_front();
       const std::optional<WideDyadic> t = Between(range.from, range.to);
@@ -69,14 +77,17 @@ class SkylineDrops::LoweredEdge {
 
   // Lowers the edge until its point at t is occluded, and returns a range around t that is so then.
   OccludedRange LowerAt(const WideDyadic& t) {
-    for (;;) {
+    while (spent_ < limit_) {
       const Segment own{all_.terrain_.Point(edge_.a), all_.terrain_.Point(edge_.b)};
       const VisibilityQuery query{
           .segment = Lowered(all_.Scaled(own), depth_ + 1),
           .except = i_,
-          .hints = {.virtual_occluders = virtual_occluders_, .likely = likely_}};
+          .hints = {.virtual_occluders = virtual_occluders_, .likely = likely_},
+          .decision_limit = limit_ - spent_};
       PointQuery points(all_.skyline_, query);
       const PointAnswer point = points.AnswerAt(t);
+      spent_ += points.counts().Sum();
+      if (point.gave_up) break;
       if (!point.witness) {
         // What occludes one point is likely to occlude the next.
         likely_ = points.occluders();
@@ -84,12 +95,17 @@ class SkylineDrops::LoweredEdge {
       }
       LowerAlong(point.witness->t, point.free_direction);
     }
+    spent_ = std::max(spent_, limit_);
+    return {};
   }
 
   // Requires: no occluder known so far rises above the edge, one step lower, on the line through t.
   // Adds an occluder that does so, or lowers the edge by the clearance.
   void LowerAlong(double t, const std::array<double, 2>& direction) {
     const Terrain& terrain = all_.terrain_;
+    // A walk passes about a block of posts, as long as a decision, for so many columns and rows.
+    constexpr std::int64_t kBlock = 8;
+    spent_ += (terrain.dem().columns + terrain.dem().rows) / kBlock;
     const Point3i a = terrain.Point(edge_.a);
     const Point3i b = terrain.Point(edge_.b);
     const std::optional<HighestEdge> other = all_.lines_.HighestEdgeOver(
@@ -111,6 +127,8 @@ class SkylineDrops::LoweredEdge {
   std::vector<Segment> virtual_occluders_;
   std::vector<std::int32_t> likely_;
   std::int32_t depth_ = 0;  // at which the edge is visible
+  std::int64_t limit_;      // of decisions
+  std::int64_t spent_ = 0;
 };
 
 SkylineDrops::SkylineDrops(const Terrain& terrain, const Horizon& horizon, double tolerance)
@@ -128,9 +146,14 @@ Segment SkylineDrops::Scaled(const Segment& segment) const {
   return {heights_.Scale(segment.a), heights_.Scale(segment.b)};
 }
 
-double SkylineDrops::Of(std::size_t i) const {
-  if (horizon_.edges[i].undecided) return 0;
-  return heights_.Quanta(LoweredEdge(*this, i).FindDepth());
+double SkylineDrops::Of(std::size_t i) const { return Find(i, WorkBudget::kMost).quanta.value(); }
+
+SkylineDrops::Drop SkylineDrops::Find(std::size_t i, std::int64_t limit) const {
+  if (horizon_.edges[i].undecided) return {.quanta = 0};
+  LoweredEdge edge(*this, i, limit);
+  const std::int32_t depth = edge.FindDepth();
+  if (edge.spent() >= limit) return {.quanta = std::nullopt, .spent = edge.spent()};
+  return {.quanta = heights_.Quanta(depth), .spent = edge.spent()};
 }
 
 }  // namespace farhorizon
