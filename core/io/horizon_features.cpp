@@ -18,6 +18,12 @@ constexpr int kMeasureDecimals = 9;
 // A skyline drop is known to half a millimetre (kSkylineDropStep).
 constexpr int kSkylineDropDecimals = 3;
 
+std::string WitnessText(const Witness& witness) {
+  if (!witness.exact) return R"(,"witness":null,"too_narrow":true)";
+  return R"(,"witness":{"t":)" + Exact(witness.t) + R"(,"direction":)" +
+         Pair(witness.dc, witness.dr) + "}";
+}
+
 std::string FeatureText(const HorizonFeature& feature) {
   std::string text = R"({"type":"Feature","geometry":)" + LineGeometry(feature.from, feature.to);
   text += R"(,"properties":{"a":)" + Pair(feature.a[0], feature.a[1]);
@@ -31,8 +37,7 @@ std::string FeatureText(const HorizonFeature& feature) {
     text += R"(,"line_measure_m":)" + Rounded(feature.measures.line_measure_m, kMeasureDecimals);
     text +=
         R"(,"skyline_drop_m":)" + Rounded(feature.measures.skyline_drop_m, kSkylineDropDecimals);
-    text += R"(,"witness":{"t":)" + Exact(feature.witness.t);
-    text += R"(,"direction":)" + Pair(feature.witness.dc, feature.witness.dr) + "}";
+    text += WitnessText(feature.witness);
   }
   if (feature.level_kept) text += R"(,"level_kept":)" + std::to_string(*feature.level_kept);
   return text + "}}";
@@ -53,6 +58,18 @@ std::array<Geodetic, 2> ReadLine(const Json& geometry) {
   return {ReadPosition(lines.at(0).at(0)), ReadPosition(lines.at(1).at(1))};
 }
 
+Witness ReadWitness(const Json& properties) {
+  Witness result;
+  result.exact = !properties.value("too_narrow", false);
+  if (!result.exact) return result;
+  const Json& witness = properties.at("witness");
+  result.t = witness.at("t").get<double>();
+  const auto direction = witness.at("direction").get<std::array<std::int64_t, 2>>();
+  result.dc = direction[0];
+  result.dr = direction[1];
+  return result;
+}
+
 HorizonFeature ReadFeature(const Json& feature) {
   const std::array<Geodetic, 2> line = ReadLine(feature.at("geometry"));
   const Json& properties = feature.at("properties");
@@ -68,11 +85,7 @@ HorizonFeature ReadFeature(const Json& feature) {
     result.measures.angular_share = properties.at("angular_share").get<double>();
     result.measures.line_measure_m = properties.at("line_measure_m").get<double>();
     result.measures.skyline_drop_m = properties.at("skyline_drop_m").get<double>();
-    const Json& witness = properties.at("witness");
-    result.witness.t = witness.at("t").get<double>();
-    const auto direction = witness.at("direction").get<std::array<std::int64_t, 2>>();
-    result.witness.dc = direction[0];
-    result.witness.dr = direction[1];
+    result.witness = ReadWitness(properties);
   }
   if (properties.contains("level_kept")) {
     result.level_kept = properties.at("level_kept").get<int>();
