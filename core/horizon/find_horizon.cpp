@@ -28,15 +28,6 @@ std::string TooNarrowWarning(std::int64_t edges) {
          "cliffs whose heights differ by too little; they have none";
 }
 
-Error OverBudget(std::int64_t budget, std::size_t candidates) {
-  return {ErrorCode::kResourceExhausted,
-          "deciding " + std::to_string(candidates) +
-              " candidate edges takes more than the work budget of " + std::to_string(budget) +
-              " decisions: white noise and forests of spikes are hard without end; keep what stays "
-              "undecided (approximate), raise the work budget, or smooth the heights",
-          "work-budget"};
-}
-
 std::string ApproximationWarning(const Horizon& horizon) {
   return "approximate: the work budget of " + std::to_string(horizon.statistics.work_budget) +
          " decisions leaves " + std::to_string(horizon.statistics.undecided) + " of " +
@@ -79,40 +70,50 @@ std::int64_t DefaultWorkBudget(std::int64_t terrain_edges) {
   return std::max(kLeast, kPerEdge * terrain_edges);
 }
 
+WorkBudget WorkBudgetOf(const Terrain& terrain, const HorizonOptions& options) {
+  // The option counts the kinetic engine's own steps.
+  const std::optional<std::int64_t> given =
+      options.engine == Engine::kKinetic ? std::nullopt : options.work_budget;
+  return WorkBudget(given ? *given : DefaultWorkBudget(terrain.CountEdges()), options.approximate);
+}
+
 Result<Horizon> FindHorizon(const Terrain& terrain, const HorizonOptions& options,
                             const RunControl& control) {
-  Result<HullSweep> sweep = SweepHulls(terrain, options.threads, control);
-  if (!sweep) return std::move(sweep.error());
-  Result<Candidates> candidates = FindCandidates(terrain, *sweep, options.threads, control);
-  if (!candidates) return std::move(candidates.error());
+  WorkBudget budget = WorkBudgetOf(terrain, options);
+  return FindHorizon(terrain, options, budget, control);
+}
+
+Result<Horizon> FindHorizon(const Terrain& terrain, const HorizonOptions& options,
+                            WorkBudget& budget, const RunControl& control) {
   Horizon horizon;
-  horizon.statistics = sweep->statistics;
-  horizon.statistics.candidates = static_cast<std::int64_t>(candidates->edges.size());
-  horizon.hulls = std::move(sweep->hulls);
+  Candidates candidates;
+  {
+    Result<HullSweep> sweep = SweepHulls(terrain, options.threads, control);
+    if (!sweep) return std::move(sweep.error());
+    Result<Candidates> found = FindCandidates(terrain, *sweep, options.threads, budget, control);
+    if (!found) return std::move(found.error());
+    candidates = *std::move(found);
+    horizon.statistics = sweep->statistics;
+    horizon.hulls = std::move(sweep->hulls);
+  }
+  horizon.statistics.candidates = std::ssize(candidates.edges);
   const bool kinetic = options.engine == Engine::kKinetic;
-  std::int64_t budget = DefaultWorkBudget(horizon.statistics.terrain_edges);
   if (kinetic) {
     Result<EventCounts> events =
-        KeepKineticEdges(terrain, *candidates, control, options.work_budget);
+        KeepKineticEdges(terrain, candidates, control, options.work_budget);
     if (!events) return std::move(events.error());
     SetCounts(horizon.statistics, *events);
-  } else {
-    budget = options.work_budget.value_or(budget);
   }
-  horizon.statistics.work_budget = budget;
+  horizon.statistics.work_budget = budget.limit();
   control.Report(Stage::kDecide, 0);
-  CandidateDecider decider(terrain, *candidates, control);
-  bool completed = decider.DecideAll(options.threads, budget, options.approximate ? 0.5 : 1);
-  if (completed && decider.undecided() > 0) {
-    if (!options.approximate) return OverBudget(budget, candidates->edges.size());
-    completed = decider.DecideSome(options.threads, budget);
-  }
-  if (!completed) return Error{ErrorCode::kCancelled, "stopped while deciding horizon edges"};
+  CandidateDecider decider(terrain, candidates);
+  Status decided = decider.Decide(options.threads, budget, control);
+  if (!decided) return std::move(decided.error());
   horizon.statistics.predicates = decider.counts();
   horizon.statistics.undecided = decider.undecided();
   decider.AppendEdges(horizon);
   if (decider.undecided() > 0) control.Warn(ApproximationWarning(horizon));
-  Check(!kinetic || horizon.edges.size() == candidates->edges.size(),
+  Check(!kinetic || horizon.edges.size() == candidates.edges.size(),
         "every edge of the kinetic engine has a line of sight");
   std::int64_t too_narrow = 0;
   for (const HorizonEdge& e : horizon.edges) {
@@ -121,7 +122,6 @@ Result<Horizon> FindHorizon(const Terrain& terrain, const HorizonOptions& option
           "a line of sight over the kinetic engine's edges is one over the terrain");
   }
   if (too_narrow > 0) control.Warn(TooNarrowWarning(too_narrow));
-  control.Report(Stage::kDecide, 1);
   return horizon;
 }
 

@@ -152,7 +152,9 @@ Status BuildArtifacts(const fs::path& dem, const fs::path& directory, const Buil
   if (!plan) return std::move(plan.error());
   control.Report(Stage::kRead, 1);
 
-  Result<Horizon> horizon = FindHorizon((*input)->terrain(), HorizonOptionsOf(options), control);
+  const HorizonOptions horizon_options = HorizonOptionsOf(options);
+  WorkBudget budget = WorkBudgetOf((*input)->terrain(), horizon_options);
+  Result<Horizon> horizon = FindHorizon((*input)->terrain(), horizon_options, budget, control);
   if (!horizon) return std::move(horizon.error());
 
   Result<std::vector<Lod>> chain =
@@ -180,7 +182,8 @@ Status BuildArtifacts(const fs::path& dem, const fs::path& directory, const Buil
     if (!tileset) return tileset;
   }
   Result<std::vector<HorizonFeature>> features =
-      BuildFeatures(**input, *horizon, LevelsKept(*horizon, *chain), options.threads, control);
+      BuildFeatures(**input, *horizon, LevelsKept(*horizon, *chain),
+                    {.budget = budget, .threads = options.threads}, control);
   if (!features) return std::move(features.error());
   control.Report(Stage::kWrite, 0);
   Status written = WriteFeatures(*features, options, writer);

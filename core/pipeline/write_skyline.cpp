@@ -142,10 +142,12 @@ Result<SkylineOfDirection> Find(const TerrainInput& input, double azimuth,
   const std::array<double, 2> middle = {(dem.columns - 1) / 2.0, (dem.rows - 1) / 2.0};
   Result<std::vector<GroundStep>> step = input.georeference().StepsAt({middle});
   if (!step) return std::move(step.error());
-  Result<Horizon> horizon = FindHorizon(input.terrain(), HorizonOptionsOf(options), control);
+  const HorizonOptions horizon_options = HorizonOptionsOf(options);
+  WorkBudget budget = WorkBudgetOf(input.terrain(), horizon_options);
+  Result<Horizon> horizon = FindHorizon(input.terrain(), horizon_options, budget, control);
   if (!horizon) return std::move(horizon.error());
   Result<std::vector<LinesOfSight>> sights =
-      FindLinesOfSight(input.terrain(), *horizon, options.threads, control);
+      FindLinesOfSight(input.terrain(), *horizon, options.threads, budget, control);
   if (!sights) return std::move(sights.error());
   control.Report(Stage::kWrite, 0);
   const ViewDirection view = DirectionOf(azimuth, step->front());

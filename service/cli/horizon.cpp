@@ -16,12 +16,17 @@ struct HorizonArguments {
   DemArguments dem;
   std::string file;
   std::string engine = "auto";
+  std::string weights = "full";
   std::optional<double> trace_level_m;
 };
 
 Engine EngineOf(const std::string& name) {
   // "auto" is the adaptive engine, which is the faster one on large terrain.
   return name == "kinetic" ? Engine::kKinetic : Engine::kAdaptive;
+}
+
+Weights WeightsOf(const std::string& name) {
+  return name == "none" ? Weights::kNone : name == "fast" ? Weights::kFast : Weights::kFull;
 }
 
 Workflow WorkflowOf(const HorizonArguments& arguments) {
@@ -36,8 +41,11 @@ int Run(const HorizonArguments& arguments) {
     return arguments.trace_level_m
                ? WriteSweepPicture(dem, arguments.file, *arguments.trace_level_m, run.options,
                                    run.control)
-               : WriteHorizonEdges(dem, arguments.file, run.options, run.control,
-                                   EngineOf(arguments.engine));
+               : WriteHorizonEdges(dem, arguments.file,
+                                   {.build = run.options,
+                                    .engine = EngineOf(arguments.engine),
+                                    .weights = WeightsOf(arguments.weights)},
+                                   run.control);
   }));
 }
 
@@ -61,6 +69,13 @@ void AddHorizon(CLI::App& app, SelectedCommand& selected) {
       ->check(CLI::IsMember({"adaptive", "kinetic", "auto"}).description(""))
       ->type_name("ENGINE");
   command
+      ->add_option(
+          "--weights", arguments->weights,
+          "what is said of each edge beside its witness: none; fast, all that follows from "
+          "its lines of sight; full, its skyline drop, too (full)")
+      ->check(CLI::IsMember({"none", "fast", "full"}).description(""))
+      ->type_name("W");
+  command
       ->add_option("--trace-level", arguments->trace_level_m,
                    "instead of the edges, draw the sweep at the height of Z metres: contours, "
                    "hulls, bitangents, candidates")
@@ -68,6 +83,7 @@ void AddHorizon(CLI::App& app, SelectedCommand& selected) {
   AddReadFlags(*command, arguments->dem.flags);
   AddWorkFlags(*command, arguments->dem.flags);
   AddRunFlags(*command, arguments->dem);
+  AddTimings(*command, arguments->dem, "write seconds by stage, as JSON");
   command->callback([arguments, &selected] { selected = [arguments] { return Run(*arguments); }; });
 }
 

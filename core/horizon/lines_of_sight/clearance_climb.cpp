@@ -60,6 +60,9 @@ void ClearanceClimb::Add(Edge edge) {
 }
 
 double ClearanceClimb::ClearanceOver(const Line& line) {
+  // A line query passes about a block of posts, as long as a decision, for so many columns and rows.
+  constexpr std::int64_t kBlock = 8;
+  work_ += (terrain_.dem().columns + terrain_.dem().rows) / kBlock + 1;
   const double known = ClearanceOverObstacles(line);
   const double own = start_.z + line.t * climb_;
   const std::optional<HighestEdge> other =

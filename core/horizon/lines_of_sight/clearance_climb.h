@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -31,6 +32,9 @@ class ClearanceClimb {
   /// tolerance: in quanta. relative: the share of the clearance that is tolerated, too.
   /// Cost: some ten line queries.
   double ClimbFrom(const Line& from, double tolerance, double relative);
+
+  /// The work of all climbs so far, in decisions (core/horizon/work_budget.h).
+  [[nodiscard]] std::int64_t work() const { return work_; }
 
   /// All edges that were the highest over a line that was asked about, in the order in which they
   /// were found first.
@@ -77,6 +81,7 @@ class ClearanceClimb {
   double run_y_;
   double climb_;
   double slack_;
+  std::int64_t work_ = 0;
   std::vector<Edge> edges_;
   std::vector<Obstacle> obstacles_;  ///< edges_, in step
 };

@@ -30,22 +30,29 @@
 
 #include "core/horizon/lines_of_sight/clearance_climb.h"
 #include "core/horizon/visibility/point_query.h"
+#include "core/horizon/work_budget.h"
 #include "core/terrain/height_range.h"
 
 namespace farhorizon {
 
 class SkylineDrops::LoweredEdge {
  public:
-  LoweredEdge(const SkylineDrops& all, std::size_t i)
+  // limit: of decisions.
+  LoweredEdge(const SkylineDrops& all, std::size_t i, std::int64_t limit)
       : all_(all),
         i_(static_cast<std::int32_t>(i)),
         edge_(all.horizon_.edges[i].edge),
-        climb_(all.terrain_, all.lines_, edge_) {
+        climb_(all.terrain_, all.lines_, edge_),
+        limit_(limit) {
     for (const Segment& segment : all.horizon_.virtual_occluders.Of(i)) AddVirtualOccluder(segment);
     AddObstacles();
   }
 
-  // The greatest depth at which the edge is known to be visible, in quanta.
+  // Decisions, of the climbs' line queries too.
+  [[nodiscard]] std::int64_t spent() const { return spent_ + climb_.work(); }
+
+  // The greatest depth at which the edge is known to be visible, in quanta. Has no meaning where the
+  // limit is spent.
   double FindDepth() {
     const Witness& witness = all_.horizon_.edges[static_cast<std::size_t>(i_)].witness;
     // A witness that is not exact is rounded: near a line of sight all the same.
@@ -53,7 +60,7 @@ class SkylineDrops::LoweredEdge {
                                       static_cast<double>(witness.dr)));
     std::deque<OccludedRange> open = {
         {QuadraticRoot::At(Dyadic{0, 0}), QuadraticRoot::At(Dyadic{1, 0})}};
-    while (!open.empty()) {
+    while (!open.empty() && spent() < limit_) {
       const OccludedRange range = open.front();
       open.pop_front();
       const std::optional<WideDyadic> t = Between(range.from, range.to);
@@ -107,15 +114,18 @@ class SkylineDrops::LoweredEdge {
 
   // Lowers the edge until its point at t is occluded, and returns a range around t that is so then.
   OccludedRange LowerAt(const WideDyadic& t) {
-    for (;;) {
+    while (spent() < limit_) {
       const Segment own{all_.terrain_.Point(edge_.a), all_.terrain_.Point(edge_.b)};
       const std::int32_t steps = StepsOfProof();
       const VisibilityQuery query{
           .segment = Lowered(all_.Scaled(own), steps),
           .except = i_,
-          .hints = {.virtual_occluders = virtual_occluders_, .likely = likely_}};
+          .hints = {.virtual_occluders = virtual_occluders_, .likely = likely_},
+          .decision_limit = limit_ - spent()};
       PointQuery points(all_.skyline_, query);
       const PointAnswer point = points.AnswerAt(t);
+      spent_ += points.counts().Sum();
+      if (point.gave_up) break;
       if (!point.witness) {
         // What occludes one point is likely to occlude the next.
         likely_ = points.occluders();
@@ -128,6 +138,8 @@ class SkylineDrops::LoweredEdge {
       // of the proof the edge is visible.
       if (!deeper && climb_.obstacles().size() == known) depth_ = all_.heights_.Quanta(steps);
     }
+    spent_ = std::max(spent_, limit_);
+    return {};
   }
 
   const SkylineDrops& all_;
@@ -137,7 +149,9 @@ class SkylineDrops::LoweredEdge {
   std::size_t obstacles_added_ = 0;
   std::vector<Segment> virtual_occluders_;
   std::vector<std::int32_t> likely_;
-  double depth_ = 0;  // at which the edge is visible, or occluded by ties only
+  double depth_ = 0;    // at which the edge is visible, or occluded by ties only
+  std::int64_t limit_;  // of decisions
+  std::int64_t spent_ = 0;
 };
 
 SkylineDrops::SkylineDrops(const Terrain& terrain, const Horizon& horizon, double tolerance)
@@ -156,9 +170,14 @@ Segment SkylineDrops::Scaled(const Segment& segment) const {
   return {heights_.Scale(segment.a), heights_.Scale(segment.b)};
 }
 
-double SkylineDrops::Of(std::size_t i) const {
-  if (horizon_.edges[i].undecided) return 0;
-  return LoweredEdge(*this, i).FindDepth();
+double SkylineDrops::Of(std::size_t i) const { return Find(i, WorkBudget::kMost).quanta.value(); }
+
+SkylineDrops::Drop SkylineDrops::Find(std::size_t i, std::int64_t limit) const {
+  if (horizon_.edges[i].undecided) return {.quanta = 0};
+  LoweredEdge edge(*this, i, limit);
+  const double depth = edge.FindDepth();
+  if (edge.spent() >= limit) return {.quanta = std::nullopt, .spent = edge.spent()};
+  return {.quanta = depth, .spent = edge.spent()};
 }
 
 }  // namespace farhorizon

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 
 #include "core/geometry/finer_heights.h"
 #include "core/horizon/horizon.h"
@@ -28,6 +30,14 @@ class SkylineDrops {
   /// Cost: some ten line queries and ten visibility queries, less than FindLinesOfSight's for one
   /// edge.
   [[nodiscard]] double Of(std::size_t i) const;
+
+  /// The same within some decisions (work_budget.h), and those that it took. `quanta` is empty
+  /// where they did not suffice.
+  struct Drop {
+    std::optional<double> quanta = std::nullopt;
+    std::int64_t spent = 0;
+  };
+  [[nodiscard]] Drop Find(std::size_t i, std::int64_t limit) const;
 
   static constexpr double kRelativeTolerance = 0x1p-10;
 

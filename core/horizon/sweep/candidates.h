@@ -8,6 +8,7 @@
 #include "core/base/run_control.h"
 #include "core/geometry/segment.h"
 #include "core/horizon/sweep/hull_sweep.h"
+#include "core/horizon/work_budget.h"
 #include "core/terrain/terrain.h"
 
 namespace farhorizon {
@@ -37,10 +38,11 @@ struct Candidates {
 /// (theorem 5), and the hulls at the height of their upper end do not occlude all directions
 /// (theorem 6; edge_occlusion.h).
 ///
-/// The changes of the sweep are replayed, from each checkpoint to the next by one thread. The same
-/// for any number of threads. Errors: kCancelled.
-/// Cost: O(n) and, for each edge that the first two culls leave, the number of hulls.
+/// The same for any number of threads. Errors: kCancelled.
+/// Cost: O(n) and, for each edge that the first two culls leave, the hulls that it takes to occlude
+/// all directions. All of it together takes an eighth of what is left of the budget
+/// at most: where many edges are left, each is compared with fewer hulls, and more stay candidates.
 Result<Candidates> FindCandidates(const Terrain& terrain, const HullSweep& sweep, int threads,
-                                  const RunControl& control);
+                                  WorkBudget& budget, const RunControl& control);
 
 }  // namespace farhorizon

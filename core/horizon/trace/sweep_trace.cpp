@@ -26,7 +26,8 @@ Result<SweepTrace> TraceSweep(const Terrain& terrain, std::int32_t height,
   if (!run) return std::move(run.error());
   Result<HullSweep> hulls = SweepHulls(terrain, 1, control);
   if (!hulls) return std::move(hulls.error());
-  Result<Candidates> culled = FindCandidates(terrain, *hulls, 1, control);
+  WorkBudget any(WorkBudget::kMost);
+  Result<Candidates> culled = FindCandidates(terrain, *hulls, 1, any, control);
   if (!culled) return std::move(culled.error());
   SweepTrace trace;
   trace.height = height;

@@ -143,12 +143,12 @@ void VerifyTileset(const TerrainInput& input, const fs::path& directory, const R
   claims.Add(off < 1e-6, "tileset.json places the local frame where the DEM is");
 }
 
-// With the report's budget, which alone decides what is left undecided.
-Result<Horizon> FindAsClaimed(const TerrainInput& input, const Report& report, int threads,
-                              const RunControl& control) {
-  HorizonOptions options{.threads = threads, .approximate = report.statistics.undecided > 0};
+// The report's budget alone decides what is left open: where it suffices, it makes no difference
+// that it may be approximate.
+HorizonOptions OptionsAsClaimed(const Report& report, int threads) {
+  HorizonOptions options{.threads = threads, .approximate = true};
   if (report.statistics.work_budget > 0) options.work_budget = report.statistics.work_budget;
-  return FindHorizon(input.terrain(), options, control);
+  return options;
 }
 
 // True where the report says that some level has bytes of this kind: the format was asked for.
@@ -177,7 +177,9 @@ Result<std::vector<ClaimCheck>> VerifyArtifacts(const fs::path& dem, const fs::p
   if (report->dem.columns != (*input)->dem().columns || report->dem.rows != (*input)->dem().rows) {
     return std::move(claims).Take();
   }
-  Result<Horizon> horizon = FindAsClaimed(**input, *report, options.threads, control);
+  const HorizonOptions claimed = OptionsAsClaimed(*report, options.threads);
+  WorkBudget budget = WorkBudgetOf((*input)->terrain(), claimed);
+  Result<Horizon> horizon = FindHorizon((*input)->terrain(), claimed, budget, control);
   if (!horizon) return std::move(horizon.error());
   claims.Same("undecided edges", report->statistics.undecided, horizon->statistics.undecided);
   claims.Same("terrain edges", report->statistics.terrain_edges, (*input)->terrain().CountEdges());
@@ -197,8 +199,8 @@ Result<std::vector<ClaimCheck>> VerifyArtifacts(const fs::path& dem, const fs::p
     VerifySet(published->edges, *horizon, claims);
     claims.Same("horizon.geojson edges that are undecided", report->statistics.undecided,
                 published->undecided);
-    Result<std::vector<ClaimCheck>> edges =
-        VerifyEdges(**input, *horizon, *features, options.threads, control);
+    Result<std::vector<ClaimCheck>> edges = VerifyEdges(
+        **input, *horizon, *features, {.budget = budget, .threads = options.threads}, control);
     if (!edges) return std::move(edges.error());
     claims.Append(*std::move(edges));
   } else {  // no edge's lines of sight are there to be compared

@@ -13,7 +13,6 @@
 #include <utility>
 
 #include "core/horizon/lines/grid_line_query.h"
-#include "core/pipeline/edge_measures.h"
 #include "core/pipeline/verify/claims.h"
 #include "core/pipeline/verify/published_set.h"
 #include "core/pipeline/verify/random_line.h"
@@ -44,7 +43,8 @@ double SkylineDropMargin(double drop_m) {
 // Measures of another build may round to the next step; half a step more is for the text.
 bool Same(const EdgeMeasures& claimed, const EdgeMeasures& found) {
   constexpr double kRelative = 1e-6;
-  return Close(claimed.azimuths, found.azimuths, 1.5 * kAzimuthStep) &&
+  return claimed.sights == found.sights && claimed.drop == found.drop &&
+         Close(claimed.azimuths, found.azimuths, 1.5 * kAzimuthStep) &&
          Close(claimed.spans, found.spans, 1.5 * kSpanStep) &&
          Close(claimed.angular_share, found.angular_share, kRelative) &&
          Close(claimed.line_measure_m, found.line_measure_m,
@@ -79,14 +79,15 @@ LineCounts CountLines(const Terrain& terrain, const Horizon& horizon, const Publ
   for (int i = 0; i < kRandomLines; ++i) {
     const PlanLine line = RandomLine(terrain.dem(), random);
     const std::optional<PublishedSet::EdgePoint> highest = set.HighestOver(line);
-    if (!highest || features[highest->edge].undecided) continue;
+    if (!highest) continue;
     const EdgeMeasures& claimed = features[highest->edge].measures;
     double azimuth = steps[highest->edge].ToAzimuth(line.dc, line.dr);
     if (azimuth < 0) azimuth += 180;
     const bool inside = (IsIn(claimed.azimuths, azimuth, kAzimuthMargin) ||
                          IsIn(claimed.azimuths, azimuth + 180, kAzimuthMargin)) &&
                         IsIn(claimed.spans, highest->t, kSpanMargin);
-    counts.outside += inside ? 0 : 1;
+    counts.outside += inside || claimed.sights != Known::kYes ? 0 : 1;
+    if (claimed.drop != Known::kYes) continue;
     const Edge edge = horizon.edges[highest->edge].edge;
     const std::optional<HighestEdge> other =
         ground.HighestEdgeOver(edge, {line.x / 2.0, line.y / 2.0, 1.0 * line.dc, 1.0 * line.dr});
@@ -133,7 +134,7 @@ VisibilityCounts CountVisibility(const PublishedSet& set,
   const std::size_t stride = std::max<std::size_t>(features.size() / kMostEdgesTried, 1);
   for (std::size_t i = 0; i < features.size(); i += stride) {
     const std::vector<Interval>& azimuths = features[i].measures.azimuths;
-    if (azimuths.empty()) continue;  // undecided, or counted as different
+    if (azimuths.empty()) continue;  // not afforded, or counted as different
     const auto share = [&](const Interval& interval) {
       return set.VisibleShare(i,
                               steps[i].ToGrid(interval[0] + kWithin * (interval[1] - interval[0])));
@@ -149,7 +150,8 @@ VisibilityCounts CountVisibility(const PublishedSet& set,
 
 Result<std::vector<ClaimCheck>> VerifyEdges(const TerrainInput& input, const Horizon& horizon,
                                             const std::vector<HorizonFeature>& features,
-                                            int threads, const RunControl& control) {
+                                            const MeasureOptions& measuring,
+                                            const RunControl& control) {
   Claims claims;
   const Terrain& terrain = input.terrain();
   const Dem& dem = terrain.dem();
@@ -162,7 +164,7 @@ Result<std::vector<ClaimCheck>> VerifyEdges(const TerrainInput& input, const Hor
   claims.Add(in_order, "horizon.geojson has the horizon edges by rising posts, each once");
   if (!in_order) return std::move(claims).Take();
   Result<std::vector<EdgeMeasures>> found =
-      MeasureEdges(terrain, horizon, input.georeference(), threads, control);
+      MeasureEdges(terrain, horizon, input.georeference(), measuring, control);
   if (!found) return std::move(found.error());
   control.Report(Stage::kVerify, kVerifiedBeforeSights);
   std::vector<std::array<double, 2>> middles;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <random>
 #include <vector>
 
@@ -36,10 +35,10 @@ Dem CliffDem(std::int32_t columns, std::int32_t rows, const CliffHeights& height
 
 // What FindHorizon decides, whether or not all witnesses are exact.
 Horizon DecideAll(const Terrain& terrain) {
-  const Candidates candidates = *FindCandidates(terrain, *SweepHulls(terrain, 1, {}), 1, {});
-  const RunControl control;
-  CandidateDecider decider(terrain, candidates, control);
-  decider.DecideAll(1, std::numeric_limits<std::int64_t>::max());
+  WorkBudget any(WorkBudget::kMost);
+  const Candidates candidates = *FindCandidates(terrain, *SweepHulls(terrain, 1, {}), 1, any, {});
+  CandidateDecider decider(terrain, candidates);
+  EXPECT_TRUE(decider.Decide(1, any, {}));
   Horizon horizon;
   decider.AppendEdges(horizon);
   return horizon;
