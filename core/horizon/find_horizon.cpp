@@ -22,18 +22,10 @@ namespace farhorizon {
 
 namespace {
 
-Error TooNarrow(const Terrain& terrain, Edge edge) {
-  const auto post = [&terrain](VertexId v) {
-    const Point3i p = terrain.Point(v);
-    return "(" + std::to_string(p.x) + ", " + std::to_string(p.y) + ") of height " +
-           std::to_string(p.z);
-  };
-  return {ErrorCode::kUnsupportedData,
-          "the edge from post " + post(edge.a) + " to post " + post(edge.b) +
-              " quanta is on the horizon through a gap too narrow for the witness to be written: "
-              "cliffs of this height differ by too little; round the heights to a coarser unit, or "
-              "mark spikes as nodata",
-          "sight-too-narrow"};
+std::string TooNarrowWarning(std::int64_t edges) {
+  return std::to_string(edges) +
+         " edges are on the horizon through gaps too narrow for a witness to be written, between "
+         "cliffs whose heights differ by too little; they have none";
 }
 
 std::string ApproximationWarning(const Horizon& horizon) {
@@ -123,11 +115,13 @@ Result<Horizon> FindHorizon(const Terrain& terrain, const HorizonOptions& option
   if (decider.undecided() > 0) control.Warn(ApproximationWarning(horizon));
   Check(!kinetic || horizon.edges.size() == candidates.edges.size(),
         "every edge of the kinetic engine has a line of sight");
+  std::int64_t too_narrow = 0;
   for (const HorizonEdge& e : horizon.edges) {
-    if (!e.witness.exact) return TooNarrow(terrain, e.edge);
-    Check(!kinetic || e.undecided || WitnessHolds(terrain, e.edge, e.witness),
+    too_narrow += e.witness.exact ? 0 : 1;
+    Check(!kinetic || e.undecided || !e.witness.exact || WitnessHolds(terrain, e.edge, e.witness),
           "a line of sight over the kinetic engine's edges is one over the terrain");
   }
+  if (too_narrow > 0) control.Warn(TooNarrowWarning(too_narrow));
   return horizon;
 }
 
