@@ -74,7 +74,7 @@ void SetCounts(HorizonStatistics& statistics, const EventCounts& events) {
   statistics.minima = events.minimum;
   statistics.merges = events.merge;
   statistics.hull_changes = events.hull;
-  statistics.bitangents = events.bitangent;
+  statistics.bitangents = events.cover + events.separation;
   statistics.clusters_max = events.clusters_max;
   statistics.queue_max = events.queue_max;
 }

@@ -14,7 +14,8 @@ namespace farhorizon::kinetic {
 enum class CertificateKind : std::uint8_t {
   kHull,      ///< a corner turns left strictly; id: PointId
   kInterior,  ///< an interior point is in its triangle; id: PointId
-  kTangent,   ///< two neighbours at a corner are in order; id: 2 * HalfTangentId + 0 or 1
+  kTangent,   ///< a tangent separates two hulls; id: TangentId
+  kCover,     ///< hulls occlude all lines that touch a hull at a corner; id: PointId
 };
 
 /// The failure of a certificate. It is stale if the certificate was scheduled or cancelled since.
@@ -60,7 +61,7 @@ class CertificateQueue {
   Certificate& At(CertificateKind kind, std::int32_t id);
   void Cancel(Certificate& certificate);
 
-  std::array<std::vector<Certificate>, 3> certificates_;  // by kind, then by id
+  std::array<std::vector<Certificate>, 4> certificates_;  // by kind, then by id
   std::priority_queue<Event, std::vector<Event>, Later> events_;
   std::int64_t pending_ = 0;
 };

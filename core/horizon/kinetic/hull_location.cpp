@@ -6,9 +6,9 @@
 
 namespace farhorizon::kinetic {
 
-std::optional<std::array<PointId, 3>> TriangleAround(const KineticHulls& hulls, ClusterId c,
+std::optional<std::array<PointId, 3>> TriangleAround(const KineticHulls& hulls,
+                                                     std::span<const PointId> ring,
                                                      const MovingPoint& p) {
-  const std::vector<PointId>& ring = hulls.hull(c).corners;
   const auto side = [&](PointId a, PointId b) {
     return OrientAfter(hulls.point(a).path, hulls.point(b).path, p, hulls.now());
   };
@@ -25,20 +25,23 @@ std::optional<std::array<PointId, 3>> TriangleAround(const KineticHulls& hulls, 
   return std::array{ring[0], ring[low], ring[high]};
 }
 
-ClusterId ClusterContaining(const KineticHulls& hulls, std::int64_t x, std::int64_t y) {
+bool SurelyInsideAt(const KineticHulls& hulls, ClusterId c, std::int64_t x, std::int64_t y,
+                    std::int64_t s) {
+  const std::vector<PointId>& ring = hulls.corners(c);
+  if (ring.size() < 3) return false;
   const MovingPoint p = MovingPoint::Standing(x, y);
-  for (const ClusterId c : hulls.clusters()) {
-    const std::vector<PointId>& ring = hulls.hull(c).corners;
-    if (ring.empty()) continue;
-    std::size_t i = 0;
-    while (i < ring.size() &&
-           OrientAt(hulls.point(ring[i]).path, hulls.point(ring[(i + 1) % ring.size()]).path, p,
-                    hulls.now().s) >= 0) {
-      ++i;
-    }
-    if (i == ring.size()) return c;
+  const auto side = [&](std::size_t i, std::size_t k) {
+    return OrientAt(hulls.path(ring[i]), hulls.path(ring[k]), p, s);
+  };
+  if (side(0, 1) < 0 || side(0, ring.size() - 1) > 0) return false;
+  std::size_t low = 1;
+  std::size_t high = ring.size() - 1;
+  while (high - low > 1) {
+    const std::size_t middle = (low + high) / 2;
+    (side(0, middle) >= 0 ? low : high) = middle;
   }
-  return -1;
+  // The corners may be in line or meet at s: only a triangle with the point inside is a proof.
+  return side(0, low) > 0 && side(low, high) > 0 && side(high, 0) > 0;
 }
 
 namespace {
@@ -106,14 +109,6 @@ bool HullsIntersect(const KineticHulls& hulls, ClusterId a, ClusterId b) {
   return BoxesIntersect(hulls, a, b, now.lo, now.hi - now.lo) &&
          RingsIntersect(hulls.hull(a).corners, hulls.hull(b).corners,
                         [&](PointId p, PointId q, PointId r) { return hulls.Orient(p, q, r); });
-}
-
-bool HullsIntersectAt(const KineticHulls& hulls, ClusterId a, ClusterId b, std::int64_t s) {
-  return BoxesIntersect(hulls, a, b, static_cast<double>(s), 0) &&
-         RingsIntersect(
-             hulls.hull(a).corners, hulls.hull(b).corners, [&](PointId p, PointId q, PointId r) {
-               return OrientAt(hulls.point(p).path, hulls.point(q).path, hulls.point(r).path, s);
-             });
 }
 
 }  // namespace farhorizon::kinetic

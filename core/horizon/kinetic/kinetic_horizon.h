@@ -20,10 +20,9 @@ struct EventCounts {
   std::int64_t merge = 0;      ///< hulls that became part of another: at saddles and by collision
   std::int64_t hull = 0;       ///< corners in line, and interior points that came out
   std::int64_t inside = 0;     ///< interior points that got another triangle of their hull
-  std::int64_t bitangent = 0;  ///< failed certificates of bitangents, all kinds
-  /// The same by the kinds of figure 3.1: two active scene bitangents, active and inactive, active
-  /// and hull, inactive and hull.
-  std::array<std::int64_t, 4> by_kind{};
+  std::int64_t cover = 0;       ///< failed covers: corners that were asked about anew
+  std::int64_t separation = 0;  ///< failed certificates of separating tangents
+  std::int64_t tangents_max = 0;
   std::int64_t clusters_max = 0;
   std::int64_t queue_max = 0;  ///< certificates pending, and posts to come
   std::int64_t work = 0;       ///< disjoint hulls, summed over the stops of the plane

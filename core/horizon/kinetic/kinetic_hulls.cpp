@@ -51,6 +51,7 @@ void KineticHulls::Join(ClusterId kept, ClusterId lost) {
   to.corners.insert(to.corners.end(), from.corners.begin(), from.corners.end());
   to.unlocated.insert(to.unlocated.end(), from.unlocated.begin(), from.unlocated.end());
   to.corners_stale = true;
+  to.joined = true;
   from = {};
   roots_[Index(lost)] = kept;
   clusters_.erase(std::find(clusters_.begin(), clusters_.end(), lost));
@@ -104,27 +105,85 @@ std::vector<PointId> HullOf(const KineticHulls& hulls, std::vector<PointId> poin
 
 }  // namespace
 
+namespace {
+
+// Takes out of a ring that was convex just before now, some of its points gone since, those at
+// which it does not turn left strictly just after.
+void RemoveReflex(const KineticHulls& hulls, std::vector<PointId>& ring) {
+  const auto turns_left = [&](PointId a, PointId b, PointId c) {
+    return hulls.Orient(a, b, c) > 0;
+  };
+  std::size_t size = 0;
+  for (const PointId p : ring) {
+    while (size >= 2 && !turns_left(ring[size - 2], ring[size - 1], p)) --size;
+    ring[size++] = p;
+  }
+  std::size_t first = 0;
+  while (size - first >= 3) {
+    if (!turns_left(ring[size - 2], ring[size - 1], ring[first])) {
+      --size;
+    } else if (!turns_left(ring[size - 1], ring[first], ring[first + 1])) {
+      ++first;
+    } else {
+      break;
+    }
+  }
+  ring.resize(size);
+  ring.erase(ring.begin(), ring.begin() + static_cast<std::ptrdiff_t>(first));
+}
+
+// Adds a point to a convex ring, in place of the points that the edges seen from it are between.
+// Returns whether the point was outside.
+bool AddOutside(const KineticHulls& hulls, PointId p, std::vector<PointId>& ring) {
+  if (TriangleAround(hulls, ring, hulls.path(p))) return false;
+  const std::size_t n = ring.size();
+  const auto is_seen = [&](std::size_t i) {
+    return hulls.Orient(ring[i % n], ring[(i + 1) % n], p) <= 0;
+  };
+  std::size_t first = 0;  // the first edge that is seen
+  if (is_seen(0)) {
+    first = n;
+    while (is_seen(first - 1)) --first;
+  } else {
+    while (!is_seen(first)) Check(++first < n, "an edge is seen from outside");
+  }
+  std::size_t last = first;
+  while (is_seen(last + 1)) ++last;
+  std::vector<PointId> next{p};
+  for (std::size_t i = last + 1; i <= first + n; ++i) next.push_back(ring[i % n]);
+  ring = std::move(next);
+  return true;
+}
+
+}  // namespace
+
+// The ring of corners is mended; only a hull that is new, or made of two, is found from its points.
 std::int64_t KineticHulls::UpdateHull(ClusterId c) {
   KineticHull& hull = hulls_[Index(c)];
-  for (const PointId p : hull.unlocated) {
-    if (hull.corners_stale || !point(p).alive || TriangleAround(*this, c, point(p).path)) continue;
-    hull.corners_stale = true;
-  }
   std::vector<PointId> candidates = std::exchange(hull.unlocated, {});
   std::erase_if(candidates, [this](PointId p) { return !point(p).alive; });
   for (const PointId p : candidates) points_[Index(p)].cluster = c;
   interior_points_.insert(interior_points_.end(), candidates.begin(), candidates.end());
-  if (!std::exchange(hull.corners_stale, false)) return 0;
-  for (const PointId p : hull.corners) {
-    if (point(p).alive) candidates.push_back(p);
+  bool changes = std::exchange(hull.corners_stale, false);
+  const bool apart = std::exchange(hull.joined, false) || hull.is_new;
+  std::vector<PointId> ring = hull.corners;
+  if (changes) {
+    std::erase_if(ring, [this](PointId p) { return !point(p).alive; });
+    if (!apart) RemoveReflex(*this, ring);
   }
-  std::vector<PointId> corners = HullOf(*this, std::move(candidates));
+  if (apart || ring.size() < 3) {
+    candidates.insert(candidates.end(), hull.corners.begin(), hull.corners.end());
+    std::erase_if(candidates, [this](PointId p) { return !point(p).alive; });
+    ring = HullOf(*this, std::move(candidates));
+  } else {
+    for (const PointId p : candidates) changes = AddOutside(*this, p, ring) || changes;
+    if (!changes) return 0;
+  }
   // A candidate that is no corner, but once had a certificate, has just failed it.
-  const std::int64_t left_interior =
-      std::count_if(corners.begin(), corners.end(), [this](PointId p) {
-        return !point(p).corner && queue_.WasUsed(CertificateKind::kInterior, p);
-      });
-  SetCorners(c, std::move(corners));
+  const std::int64_t left_interior = std::count_if(ring.begin(), ring.end(), [this](PointId p) {
+    return !point(p).corner && queue_.WasUsed(CertificateKind::kInterior, p);
+  });
+  SetCorners(c, std::move(ring));
   return left_interior;
 }
 
@@ -179,12 +238,12 @@ void KineticHulls::LocateInterior(PointId p) {
   inner.cluster = c;
   // Hulls only grow: a point that ends inside, or does not move, never comes out.
   const bool stays = inner.path.vx == 0 && inner.path.vy == 0;
-  if (stays || TriangleAround(*this, c, inner.path.At(inner.end))) {
+  if (stays || TriangleAround(*this, corners(c), inner.path.At(inner.end))) {
     inner.alive = false;
     queue_.Cancel(CertificateKind::kInterior, p);
     return;
   }
-  const auto triangle = TriangleAround(*this, c, inner.path);
+  const auto triangle = TriangleAround(*this, corners(c), inner.path);
   Check(triangle.has_value(), "a point that is no corner is in its hull");
   const std::int64_t end = std::min(inner.end, FirstEnd(*triangle));
   Check(Compare(SweepDepth::At(end), now_) > 0, "points are removed where they end");

@@ -31,6 +31,7 @@ struct KineticHull {
   std::vector<PointId> corners;    ///< counter-clockwise; none if it was joined to another
   std::vector<PointId> unlocated;  ///< points that are to become corners or to get a triangle
   bool corners_stale = false;      ///< the corners are to be found anew
+  bool joined = false;             ///< the corners are those of two hulls
   bool is_new = false;             ///< no tangents yet
   bool changed = false;            ///< is in changed()
 };
@@ -83,8 +84,11 @@ class KineticHulls {
 
   [[nodiscard]] const SweepDepth& now() const { return now_; }
   [[nodiscard]] const KineticPoint& point(PointId p) const { return points_[Index(p)]; }
+  [[nodiscard]] const MovingPoint& path(PointId p) const { return point(p).path; }
+  [[nodiscard]] std::int64_t EndOf(PointId p) const { return point(p).end; }
   [[nodiscard]] PointId point_count() const { return static_cast<PointId>(points_.size()); }
   [[nodiscard]] const KineticHull& hull(ClusterId c) const { return hulls_[Index(c)]; }
+  [[nodiscard]] const std::vector<PointId>& corners(ClusterId c) const { return hull(c).corners; }
   /// The clusters that were not joined to another, in the order in which they began.
   [[nodiscard]] std::span<const ClusterId> clusters() const { return clusters_; }
   /// The clusters with new points, removed corners or failed certificates in this step, in the

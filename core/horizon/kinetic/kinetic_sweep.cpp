@@ -36,7 +36,8 @@ KineticSweep::KineticSweep(const Terrain& terrain, const RunControl& control,
     : terrain_(terrain), control_(control), work_budget_(work_budget), checks_(checks) {
   const auto posts = static_cast<std::size_t>(terrain.post_count());
   cluster_.assign(posts, -1);
-  arriving_.resize(posts);
+  inside_.assign(posts, -1);
+  arriving_.assign(posts, -1);
   for (VertexId v = 0; v < terrain.post_count(); ++v) {
     if (terrain.IsVertex(v)) order_.push_back(v);
   }
@@ -55,8 +56,7 @@ bool KineticSweep::Fits() const {
 }
 
 bool KineticSweep::OverBudget() const {
-  return events_.work > work_budget_ ||
-         static_cast<std::int64_t>(scene_.hulls().clusters().size()) > kMostKineticHulls;
+  return events_.work + scene_.counts().looks > work_budget_;
 }
 
 // Why SinkPast() was false.
@@ -64,9 +64,8 @@ Error KineticSweep::Stopped() const {
   if (!OverBudget()) return {ErrorCode::kCancelled, "stopped during the kinetic sweep"};
   return {ErrorCode::kResourceExhausted,
           "the kinetic engine's work budget of " + std::to_string(work_budget_) +
-              " is spent, or more than " + std::to_string(kMostKineticHulls) +
-              " hulls are apart: white noise and forests of spikes do that; take the adaptive "
-              "engine, raise the work budget, or smooth the heights",
+              " is spent: white noise and forests of spikes do that; take the adaptive engine, "
+              "raise the work budget, or smooth the heights",
           "work-budget"};
 }
 
@@ -114,17 +113,19 @@ void KineticSweep::Report(double done) {
 KineticHorizon KineticSweep::Take() {
   for (PointId p = 0; p < scene_.hulls().point_count(); ++p) {
     const std::int32_t tag = scene_.hulls().point(p).tag;
-    if (scene_.order().corner(p).on_horizon && tag >= 0) {
+    if (scene_.OnHorizon(p) && tag >= 0) {
       result_.edges.push_back(edges_[static_cast<std::size_t>(tag)]);
     }
   }
   std::sort(result_.edges.begin(), result_.edges.end());
-  const SceneCounts& counts = scene_.counts();
+  const NeighbourCounts& counts = scene_.counts();
   events_.merge = counts.merges;
   events_.hull = counts.hull_failures + counts.left_interior;
   events_.inside = counts.interior_failures - counts.left_interior;
-  events_.by_kind = counts.tangent_failures;
-  for (const std::int64_t n : counts.tangent_failures) events_.bitangent += n;
+  events_.cover = counts.cover_failures;
+  events_.separation = counts.tangent_failures;
+  events_.tangents_max = counts.tangents_max;
+  events_.work += counts.looks;
   events_.clusters_max = counts.clusters_max;
   result_.events = events_;
   return std::move(result_);
@@ -146,38 +147,63 @@ void KineticSweep::RestoreInvariants() {
   if (checks_) scene_.CheckAll();
 }
 
-// Counts a stop of the plane: all hulls may be changed there.
+// Counts a stop of the plane.
 bool KineticSweep::MayGoOn() {
-  events_.work += static_cast<std::int64_t>(scene_.hulls().clusters().size()) + 1;
+  ++events_.work;
   return !OverBudget() && !control_.StopRequested();
 }
 
+// Those with both ends inside one hull of higher ground are not asked of.
 void KineticSweep::FindHorizontalEdges(std::size_t next, std::size_t end, std::int64_t s) {
   std::optional<HorizontalEdgeVisibility> visibility;
   for (std::size_t i = next; i < end; ++i) {
     const VertexId v = order_[i];
     for (const VertexId n : terrain_.NeighboursOf(v)) {
       if (n < v || Height(n) != Height(v) || !terrain_.IsRidgeOrBorder({v, n})) continue;
+      const ClusterId around = ClusterAround(v, s);
+      if (around >= 0 && IsInside(n, around, s)) continue;
       if (!visibility) visibility.emplace(scene_, s);
       if (visibility->IsVisible(terrain_.Point(v), terrain_.Point(n))) {
         result_.edges.push_back({v, n});
       }
     }
   }
+  if (visibility) events_.work += visibility->looks();
 }
 
 void KineticSweep::PassPosts(std::size_t next, std::size_t end, std::int64_t s) {
   containing_.clear();  // before anything is changed at this depth
   for (std::size_t i = next; i < end; ++i) {
-    const Point3i post = terrain_.Point(order_[i]);
-    containing_.push_back(
-        HasHigherNeighbour(order_[i]) ? -1 : ClusterContaining(scene_.hulls(), post.x, post.y));
+    containing_.push_back(HasHigherNeighbour(order_[i]) ? -1 : ClusterAround(order_[i], s));
   }
   for (std::size_t i = next; i < end; ++i) {
-    for (const PointId p : arriving_[static_cast<std::size_t>(order_[i])]) scene_.Remove(p);
+    for (PointId p = arriving_[static_cast<std::size_t>(order_[i])]; p >= 0;
+         p = arriving_too_[Index(p)]) {
+      scene_.Remove(p);
+    }
     Connect(order_[i], containing_[i - next]);
   }
   for (std::size_t i = next; i < end; ++i) Continue(order_[i], s);
+}
+
+// Whether the hull of c surely has the post inside at depth s. Hulls only grow, so what was found
+// once stays.
+bool KineticSweep::IsInside(VertexId v, ClusterId c, std::int64_t s) {
+  ClusterId& inside = inside_[static_cast<std::size_t>(v)];
+  if (inside >= 0 && scene_.Find(inside) == scene_.Find(c)) return true;
+  const Point3i post = terrain_.Point(v);
+  if (!SurelyInsideAt(scene_.hulls(), c, post.x, post.y, s)) return false;
+  inside = c;
+  return true;
+}
+
+// The cluster whose hull surely has the post inside; -1: none is sure to.
+ClusterId KineticSweep::ClusterAround(VertexId v, std::int64_t s) {
+  ClusterId& inside = inside_[static_cast<std::size_t>(v)];
+  if (inside >= 0) return scene_.Find(inside);
+  const Point3i post = terrain_.Point(v);
+  events_.work += static_cast<std::int64_t>(scene_.hulls().clusters().size());
+  return inside = scene_.ClusterAround(post.x, post.y, s);
 }
 
 bool KineticSweep::HasHigherNeighbour(VertexId v) const {
@@ -206,23 +232,28 @@ void KineticSweep::Connect(VertexId v, ClusterId containing) {
 }
 
 // Adds a point for each convex edge down from v; at the border of the terrain, where the slice
-// ends, one that stays at v, too.
+// ends, one that stays at v, too. None for what is inside the hull and stays there: an edge that
+// ends inside never comes out.
 void KineticSweep::Continue(VertexId v, std::int64_t s) {
-  const ClusterId c = cluster_[static_cast<std::size_t>(v)];
+  const ClusterId c = scene_.Find(cluster_[static_cast<std::size_t>(v)]);
+  const bool has_hull = !scene_.hulls().hull(c).joined && !scene_.hulls().corners(c).empty();
   bool border = false;
   for (const VertexId n : terrain_.NeighboursOf(v)) {
     const Edge edge = MakeEdge(v, n);
     const Terrain::Faces faces = terrain_.FacesOf(edge);
     border = border || !faces.left || !faces.right;
     if (DepthOf(n) <= s || !terrain_.IsRidgeOrBorder(edge, faces)) continue;
+    if (has_hull && IsInside(n, c, s)) continue;
     const auto tag = static_cast<std::int32_t>(edges_.size());
     edges_.push_back(edge);
     const PointId p = scene_.Add(
         c, MovingPoint::Sliding(terrain_.Point(v), terrain_.Point(n), summit_), DepthOf(n), tag);
-    arriving_[static_cast<std::size_t>(n)].push_back(p);
+    PointId& last = arriving_[static_cast<std::size_t>(n)];
+    arriving_too_.push_back(std::exchange(last, p));
   }
-  if (border) {
+  if (border && !(has_hull && IsInside(v, c, s))) {
     scene_.Add(c, MovingPoint::Standing(terrain_.Point(v).x, terrain_.Point(v).y), kNever, -1);
+    arriving_too_.push_back(-1);
   }
 }
 

@@ -7,7 +7,7 @@
 #include "core/base/result.h"
 #include "core/base/run_control.h"
 #include "core/horizon/kinetic/kinetic_horizon.h"
-#include "core/horizon/kinetic/scene.h"
+#include "core/horizon/kinetic/neighbour_scene.h"
 #include "core/terrain/terrain.h"
 
 namespace farhorizon::kinetic {
@@ -25,7 +25,7 @@ class KineticSweep {
   /// Errors: those of FindHorizonKinetic.
   Status Run(std::int64_t last = kNever);
 
-  [[nodiscard]] const Scene& scene() const { return scene_; }
+  [[nodiscard]] const NeighbourScene& scene() const { return scene_; }
   [[nodiscard]] std::int32_t summit() const { return summit_; }
   [[nodiscard]] std::int32_t lowest() const { return Height(order_.back()); }
 
@@ -47,6 +47,8 @@ class KineticSweep {
   void FindHorizontalEdges(std::size_t next, std::size_t end, std::int64_t s);
   void PassPosts(std::size_t next, std::size_t end, std::int64_t s);
   [[nodiscard]] bool HasHigherNeighbour(VertexId v) const;
+  [[nodiscard]] bool IsInside(VertexId v, ClusterId c, std::int64_t s);
+  [[nodiscard]] ClusterId ClusterAround(VertexId v, std::int64_t s);
   void Connect(VertexId v, ClusterId containing);
   void Continue(VertexId v, std::int64_t s);
 
@@ -55,11 +57,13 @@ class KineticSweep {
   double reported_ = 0;
   std::int64_t work_budget_;
   bool checks_;
-  Scene scene_;
+  NeighbourScene scene_;
   std::int32_t summit_ = 0;
   std::vector<VertexId> order_;                 // from the summit down
   std::vector<ClusterId> cluster_;              // per post; -1 below the plane
-  std::vector<std::vector<PointId>> arriving_;  // per post: points whose edges end there
+  std::vector<ClusterId> inside_;               // per post: a cluster whose hull has it inside; -1
+  std::vector<PointId> arriving_;               // per post: the last point whose edge ends there
+  std::vector<PointId> arriving_too_;           // per point: the one before it; -1
   std::vector<ClusterId> containing_;           // of PassPosts()
   std::vector<Edge> edges_;                     // by tag
   EventCounts events_;

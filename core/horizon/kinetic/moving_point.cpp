@@ -104,6 +104,8 @@ int OrientAfter(const MovingPoint& a, const MovingPoint& b, const MovingPoint& c
 }
 
 int OrientAt(const MovingPoint& a, const MovingPoint& b, const MovingPoint& c, std::int64_t s) {
+  const int sign = FilteredOrientation(a, b, c, SweepDepth::At(s));
+  if (sign != 0) return sign;
   const Quadratic q = Orientation(a, b, c);
   return SignOf((q.c2 * s + q.c1) * s + q.c0);
 }

@@ -39,6 +39,7 @@ class StepMarks {
     displaced_.push_back(p);
   }
   [[nodiscard]] bool IsStale(PointId p) const { return points_[Index(p)].stale; }
+  [[nodiscard]] bool IsDisplaced(PointId p) const { return points_[Index(p)].displaced; }
   [[nodiscard]] const std::vector<PointId>& stale() const { return stale_; }
   [[nodiscard]] const std::vector<PointId>& displaced() const { return displaced_; }
   void ClearStale() {
