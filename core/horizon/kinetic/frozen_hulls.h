@@ -17,10 +17,12 @@ class FrozenHulls {
  public:
   /// Requires: no event is between `hulls.now()` and depth s; `hulls` outlives it. Cost: O(hulls).
   FrozenHulls(const KineticHulls& hulls, std::int64_t s)
-      : hulls_(hulls), s_(s), rings_(hulls.clusters().size()), now_(SweepDepth::At(0)) {}
+      : hulls_(hulls), s_(s), rings_(hulls.clusters().size()), now_(SweepDepth::At(0)) {
+    for (ClusterId c = 0; Index(c) < rings_.size(); ++c) clusters_.push_back(c);
+  }
 
   [[nodiscard]] std::int64_t depth() const { return s_; }
-  [[nodiscard]] ClusterId count() const { return static_cast<ClusterId>(rings_.size()); }
+  [[nodiscard]] const std::vector<ClusterId>& clusters() const { return clusters_; }
   /// Cost: O(h) for h corners, the first time.
   [[nodiscard]] const std::vector<PointId>& corners(ClusterId c) const;
   [[nodiscard]] const MovingPoint& path(PointId p) const { return paths_[Index(p)]; }
@@ -31,6 +33,7 @@ class FrozenHulls {
  private:
   const KineticHulls& hulls_;
   std::int64_t s_;
+  std::vector<ClusterId> clusters_;
   mutable std::vector<std::vector<PointId>> rings_;  // empty until asked for
   mutable std::vector<MovingPoint> paths_;
   SweepDepth now_;

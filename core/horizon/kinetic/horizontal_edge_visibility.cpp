@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "core/horizon/kinetic/free_line.h"
 #include "core/horizon/kinetic/line_pencil.h"
 
 namespace farhorizon::kinetic {
@@ -13,6 +14,8 @@ namespace farhorizon::kinetic {
 namespace {
 
 constexpr std::int64_t kEndOfEdge = 1;
+
+bool IsPlaced(const SweepDepth& at) { return at.hi - at.lo < PlanBox::kMargin / 2; }
 
 double PlaceAlong(std::int64_t from, std::int64_t step, const SweepDepth& at) {
   return static_cast<double>(from) + static_cast<double>(step) * at.lo;
@@ -28,8 +31,8 @@ const PlanBox& HorizontalEdgeVisibility::box(ClusterId c) const {
 std::optional<ClusterId> HorizontalEdgeVisibility::HullAround(const MovingPoint& p) const {
   const double x = PlaceAlong(p.x, p.vx, hulls_.now());
   const double y = PlaceAlong(p.y, p.vy, hulls_.now());
-  const bool is_placed = hulls_.now().hi - hulls_.now().lo < PlanBox::kMargin / 2;
-  for (ClusterId c = 0; c < hulls_.count(); ++c) {
+  const bool is_placed = IsPlaced(hulls_.now());
+  for (const ClusterId c : hulls_.clusters()) {
     if (is_placed && !box(c).Contains(x, y)) continue;
     const std::vector<PointId>& ring = hulls_.corners(c);
     std::size_t i = 0;
@@ -61,35 +64,19 @@ bool HorizontalEdgeVisibility::IsVisible(Point3i a, Point3i b) {
   const MovingPoint behind = MovingPoint::Standing(a.x, a.y);
   const MovingPoint p{a.x, std::int64_t{b.x} - a.x, a.y, std::int64_t{b.y} - a.y, 1};
   std::optional<SweepDepth> at = SweepDepth::At(0);
-  for (; at; ) {
+  while (at) {
     hulls_.AdvanceTo(*at);
-    looks_ += hulls_.count();
+    looks_ += static_cast<std::int64_t>(hulls_.clusters().size());
     if (const std::optional<ClusterId> around = HullAround(p)) {
       at = WayOutOf(*around, p);
       continue;
     }
     LinePencil<FrozenHulls> pencil(hulls_, p, behind);
-    for (const ClusterId c : recent_) {
-      if (!pencil.Has(c)) pencil.Add(c);
-    }
-    const bool is_placed = at->hi - at->lo < PlanBox::kMargin / 2;
-    std::optional<LinePencil<FrozenHulls>::Gap> gap = pencil.FindGap();
-    for (; gap; gap = pencil.FindGap()) {
-      std::optional<Aim> direction = pencil.DirectionIn(*gap);
-      if (!is_placed) direction.reset();
-      const std::size_t before = pencil.hull_count();
-      looks_ += hulls_.count();
-      for (ClusterId c = 0; c < hulls_.count(); ++c) {
-        if (pencil.Has(c)) continue;
-        if (direction && box(c).IsMissedBy(PlaceAlong(p.x, p.vx, *at), PlaceAlong(p.y, p.vy, *at),
-                                           direction->x, direction->y)) {
-          continue;
-        }
-        pencil.Add(c);
-        if (direction && pencil.LastOccludes(*direction)) break;
-      }
-      if (pencil.hull_count() == before) return true;
-    }
+    for (const ClusterId c : recent_) pencil.Add(c);
+    const FreeLineQuery query{hulls_.clusters(), -1, PlaceAlong(p.x, p.vx, *at),
+                              PlaceAlong(p.y, p.vy, *at), IsPlaced(*at)};
+    const auto box_of = [this](ClusterId c) -> const PlanBox& { return box(c); };
+    if (FindFreeLine(pencil, query, box_of, looks_)) return true;
     recent_ = pencil.cover();
     at = pencil.FailureBefore(kEndOfEdge);
   }

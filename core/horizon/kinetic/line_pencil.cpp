@@ -139,24 +139,21 @@ Aim LinePencil<Hulls>::AimOf(const Line& line) const {
   return sign > 0 ? aim : Aim{-aim.x, -aim.y, aim.error};
 }
 
-// The sum of the two, or what is at a right angle to the first where they are nearly opposite.
+// The sum of the two, or what is at a right angle to the first where they are nearly opposite. A gap
+// that has just opened has no width in floating point; its lines are then those beside the first.
 template <typename Hulls>
 std::optional<Aim> LinePencil<Hulls>::DirectionIn(const Gap& gap) const {
+  constexpr double kSmall = 0x1p-30;  // times any extent, far below PlanBox::kMargin
   const Aim from = AimOf(gap.from);
   const Aim to = AimOf(gap.to);
   Aim middle{from.x + to.x, from.y + to.y, 0x1p-51};
-  double size = std::fabs(middle.x) + std::fabs(middle.y);
-  if (size < 0x1p-4) {
-    middle = {-from.y, from.x, 0x1p-51};
-    size = std::fabs(middle.x) + std::fabs(middle.y);
-  }
-  if (!(size > 0)) return std::nullopt;
+  if (std::fabs(middle.x) + std::fabs(middle.y) < 0x1p-4) middle = {-from.y, from.x, 0x1p-51};
+  const double size = std::fabs(middle.x) + std::fabs(middle.y);
   middle.x /= size;
   middle.y /= size;
-  if (FilteredCrossSign(from, middle) <= 0 || FilteredCrossSign(middle, to) <= 0) {
-    return std::nullopt;
-  }
-  return middle;
+  if (FilteredCrossSign(from, middle) > 0 && FilteredCrossSign(middle, to) > 0) return middle;
+  if (from.error < kSmall) return from;
+  return std::nullopt;
 }
 
 template <typename Hulls>

@@ -64,7 +64,8 @@ class LinePencil {
   /// The first lines, counter-clockwise, that no hull added so far occludes; they have an interior.
   /// nullopt: the hulls cover the pencil. Cost: O(hulls) for each hull of the cover.
   std::optional<Gap> FindGap();
-  /// A direction inside the gap, in floating point; nullopt where that is not sure.
+  /// A direction, in floating point, that some lines of the gap have nearly, to 2^-30: what misses
+  /// it by more than that leaves a part of the gap free. nullopt where none is sure.
   [[nodiscard]] std::optional<Aim> DirectionIn(const Gap& gap) const;
   /// Whether the hull that was added last surely occludes the line of that direction.
   [[nodiscard]] bool LastOccludes(const Aim& direction) const;

@@ -118,6 +118,25 @@ std::optional<SweepDepth> TurnFailureAfter(const PointTriple& points, int sign,
   return FailureAfter(q, now, end);
 }
 
+namespace {
+
+// From exact coordinates: of two points that meet at a whole depth, the direction just after is
+// that of their speeds.
+Aim AimAfter(const MovingPoint& from, const MovingPoint& to, std::int64_t s) {
+  const Int128 vx = Int128{to.vx} * from.d - Int128{from.vx} * to.d;
+  const Int128 vy = Int128{to.vy} * from.d - Int128{from.vy} * to.d;
+  const Int128 dx = Int128{to.x} * from.d - Int128{from.x} * to.d + vx * s;
+  const Int128 dy = Int128{to.y} * from.d - Int128{from.y} * to.d + vy * s;
+  const bool meet = dx == 0 && dy == 0;
+  const auto x = static_cast<double>(meet ? vx : dx);
+  const auto y = static_cast<double>(meet ? vy : dy);
+  const double norm = std::fabs(x) + std::fabs(y);
+  if (norm == 0) return {0, 0, 1};
+  return {x / norm, y / norm, 0x1p-50};
+}
+
+}  // namespace
+
 Aim AimAt(const MovingPoint& from, const MovingPoint& to, const SweepDepth& now) {
   const double s = now.lo;
   const double off = now.hi - now.lo;
@@ -129,7 +148,9 @@ Aim AimAt(const MovingPoint& from, const MovingPoint& to, const SweepDepth& now)
   const double norm = std::fabs(x) + std::fabs(y);
   // As in FilteredOrientation, with one product and one sum.
   const double error = size * (0x1p-49 + (s > 0 ? 4 * off / s : 0));
-  if (!(off <= s * 0x1p-40) || error * 4 > norm) return {0, 0, 1};
+  if (!(off <= s * 0x1p-40) || error * 4 > norm) {
+    return now.whole ? AimAfter(from, to, now.s) : Aim{0, 0, 1};
+  }
   return {x / norm, y / norm, error / norm * 2 + 0x1p-51};
 }
 

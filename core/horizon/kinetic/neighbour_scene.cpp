@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/result.h"
+#include "core/horizon/kinetic/free_line.h"
 #include "core/horizon/kinetic/hull_location.h"
 #include "core/horizon/kinetic/line_pencil.h"
 
@@ -191,19 +192,8 @@ void NeighbourScene::AskCorner(PointId p) {
   counts_.looks += static_cast<std::int64_t>(pencil.hull_count()) + 1;
   const Place at = PlaceAt(corner.path, hulls_.now().lo);
   const bool is_placed = hulls_.now().hi - hulls_.now().lo < PlanBox::kMargin / 2;
-  const auto& clusters = hulls_.clusters();
-  while (const auto gap = pencil.FindGap()) {
-    std::optional<Aim> direction = pencil.DirectionIn(*gap);
-    if (!is_placed) direction.reset();
-    const std::size_t before = pencil.hull_count();
-    counts_.looks += static_cast<std::int64_t>(clusters.size());
-    for (const ClusterId c : clusters) {
-      if (c == own || pencil.Has(c)) continue;
-      if (direction && box(c).IsMissedBy(at.x, at.y, direction->x, direction->y)) continue;
-      pencil.Add(c);
-      if (direction && pencil.LastOccludes(*direction)) break;
-    }
-    if (pencil.hull_count() != before) continue;
+  const auto box_of = [this](ClusterId c) -> const PlanBox& { return box(c); };
+  if (FindFreeLine(pencil, {hulls_.clusters(), own, at.x, at.y, is_placed}, box_of, counts_.looks)) {
     on_horizon_[Index(p)] = true;
     return;
   }

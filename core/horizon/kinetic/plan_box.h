@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 
@@ -52,6 +53,13 @@ class PlanBox {
   [[nodiscard]] bool Contains(double x, double y) const {
     return x >= low_[0] && x <= high_[0] && y >= low_[1] && y <= high_[1] && x + y >= low_[2] &&
            x + y <= high_[2] && x - y >= low_[3] && x - y <= high_[3];
+  }
+  /// How wide the octagon is, over how far it is from (x, y): about the angle that it takes there.
+  [[nodiscard]] double WidthFrom(double x, double y) const {
+    const double width = high_[0] - low_[0] + high_[1] - low_[1];
+    const double away = std::abs(x - (low_[0] + high_[0]) / 2) +
+                        std::abs(y - (low_[1] + high_[1]) / 2);
+    return width / (away + 1);
   }
   /// Whether the line through (x, y), off by kMargin at most, in direction (u, v) surely misses the
   /// octagon. Requires: |u| + |v| is about 1. Each pair of ranges is a rectangle; the line misses
