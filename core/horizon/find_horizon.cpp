@@ -56,7 +56,7 @@ std::string ApproximationWarning(const Horizon& horizon) {
 Result<EventCounts> KeepKineticEdges(const Terrain& terrain, Candidates& candidates,
                                      const RunControl& control,
                                      std::optional<std::int64_t> work_budget) {
-  Result<KineticHorizon> kinetic = FindHorizonKinetic(terrain, control, work_budget);
+  Result<KineticHorizon> kinetic = FindHorizonKinetic(terrain, control, {.work_budget = work_budget});
   if (!kinetic) return std::move(kinetic.error());
   std::erase_if(candidates.edges, [&](const Candidate& candidate) {
     return !std::binary_search(kinetic->edges.begin(), kinetic->edges.end(), candidate.edge);
@@ -74,7 +74,7 @@ void SetCounts(HorizonStatistics& statistics, const EventCounts& events) {
   statistics.minima = events.minimum;
   statistics.merges = events.merge;
   statistics.hull_changes = events.hull;
-  statistics.bitangents = events.cover + events.separation;
+  statistics.bitangents = events.Bitangents();
   statistics.clusters_max = events.clusters_max;
   statistics.queue_max = events.queue_max;
 }

@@ -97,10 +97,9 @@ void FindHorizonKineticOf(benchmark::State& state, const std::filesystem::path& 
   count("merge", events.merge);
   count("hull", events.hull);
   count("inside", events.inside);
-  count("two_active", events.by_kind[0]);
-  count("active_inactive", events.by_kind[1]);
-  count("active_hull", events.by_kind[2]);
-  count("inactive_hull", events.by_kind[3]);
+  count("cover", events.cover);
+  count("separation", events.separation);
+  count("tangents_max", events.tangents_max);
   count("clusters_max", events.clusters_max);
   count("queue_max", events.queue_max);
 }

@@ -6,8 +6,10 @@
 
 #include <algorithm>
 
+#include "core/horizon/kinetic/bitangent_scene.h"
 #include "core/horizon/kinetic/free_line.h"
 #include "core/horizon/kinetic/line_pencil.h"
+#include "core/horizon/kinetic/neighbour_scene.h"
 
 namespace farhorizon::kinetic {
 
@@ -23,12 +25,14 @@ double PlaceAlong(std::int64_t from, std::int64_t step, const SweepDepth& at) {
 
 }  // namespace
 
-const PlanBox& HorizontalEdgeVisibility::box(ClusterId c) const {
+template <typename Scene>
+const PlanBox& HorizontalEdgeVisibility<Scene>::box(ClusterId c) const {
   return scene_.box(scene_.hulls().clusters()[Index(c)]);
 }
 
 // The hull that contains the point just after now, on its border or inside.
-std::optional<ClusterId> HorizontalEdgeVisibility::HullAround(const MovingPoint& p) const {
+template <typename Scene>
+std::optional<ClusterId> HorizontalEdgeVisibility<Scene>::HullAround(const MovingPoint& p) const {
   const double x = PlaceAlong(p.x, p.vx, hulls_.now());
   const double y = PlaceAlong(p.y, p.vy, hulls_.now());
   const bool is_placed = IsPlaced(hulls_.now());
@@ -47,7 +51,8 @@ std::optional<ClusterId> HorizontalEdgeVisibility::HullAround(const MovingPoint&
 }
 
 // Where the point leaves the hull; nullopt: not before the end of the edge.
-std::optional<SweepDepth> HorizontalEdgeVisibility::WayOutOf(ClusterId c,
+template <typename Scene>
+std::optional<SweepDepth> HorizontalEdgeVisibility<Scene>::WayOutOf(ClusterId c,
                                                              const MovingPoint& p) const {
   const std::vector<PointId>& ring = hulls_.corners(c);
   std::optional<SweepDepth> first;
@@ -60,7 +65,8 @@ std::optional<SweepDepth> HorizontalEdgeVisibility::WayOutOf(ClusterId c,
   return first;
 }
 
-bool HorizontalEdgeVisibility::IsVisible(Point3i a, Point3i b) {
+template <typename Scene>
+bool HorizontalEdgeVisibility<Scene>::IsVisible(Point3i a, Point3i b) {
   const MovingPoint behind = MovingPoint::Standing(a.x, a.y);
   const MovingPoint p{a.x, std::int64_t{b.x} - a.x, a.y, std::int64_t{b.y} - a.y, 1};
   std::optional<SweepDepth> at = SweepDepth::At(0);
@@ -72,7 +78,9 @@ bool HorizontalEdgeVisibility::IsVisible(Point3i a, Point3i b) {
       continue;
     }
     LinePencil<FrozenHulls> pencil(hulls_, p, behind);
-    for (const ClusterId c : recent_) pencil.Add(c);
+    for (const ClusterId c : recent_) {
+      if (!pencil.Has(c)) pencil.Add(c);
+    }
     const FreeLineQuery query{hulls_.clusters(), -1, PlaceAlong(p.x, p.vx, *at),
                               PlaceAlong(p.y, p.vy, *at), IsPlaced(*at)};
     const auto box_of = [this](ClusterId c) -> const PlanBox& { return box(c); };
@@ -82,5 +90,8 @@ bool HorizontalEdgeVisibility::IsVisible(Point3i a, Point3i b) {
   }
   return false;
 }
+
+template class HorizontalEdgeVisibility<NeighbourScene>;
+template class HorizontalEdgeVisibility<BitangentScene>;
 
 }  // namespace farhorizon::kinetic

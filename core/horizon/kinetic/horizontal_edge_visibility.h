@@ -7,7 +7,7 @@
 #include "core/geometry/point.h"
 #include "core/horizon/kinetic/frozen_hulls.h"
 #include "core/horizon/kinetic/moving_point.h"
-#include "core/horizon/kinetic/neighbour_scene.h"
+#include "core/horizon/kinetic/plan_box.h"
 
 namespace farhorizon::kinetic {
 
@@ -18,10 +18,13 @@ namespace farhorizon::kinetic {
 /// anything of the edge's own height is added. These stand, and a point goes along the edge: at
 /// each of its places the hulls leave a line free, or a cover (line_pencil.h) proves that they do
 /// not, which holds until the point gets to where it fails.
+///
+/// Scene: NeighbourScene or BitangentScene.
+template <typename Scene>
 class HorizontalEdgeVisibility {
  public:
   /// Requires: the scene is past every event before depth s, and at none at s; it outlives this.
-  HorizontalEdgeVisibility(const NeighbourScene& scene, std::int64_t s)
+  HorizontalEdgeVisibility(const Scene& scene, std::int64_t s)
       : scene_(scene), hulls_(scene.hulls(), s) {}
 
   /// Whether the lines that cross the inside of the horizontal edge ab and miss all higher ground
@@ -36,7 +39,7 @@ class HorizontalEdgeVisibility {
   [[nodiscard]] std::optional<SweepDepth> WayOutOf(ClusterId c, const MovingPoint& p) const;
   [[nodiscard]] const PlanBox& box(ClusterId c) const;
 
-  const NeighbourScene& scene_;
+  const Scene& scene_;
   FrozenHulls hulls_;
   std::vector<ClusterId> recent_;  // that covered the last point
   std::int64_t looks_ = 0;

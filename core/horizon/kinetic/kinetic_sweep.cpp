@@ -15,8 +15,10 @@
 #include <string>
 #include <utility>
 
+#include "core/horizon/kinetic/bitangent_scene.h"
 #include "core/horizon/kinetic/horizontal_edge_visibility.h"
 #include "core/horizon/kinetic/hull_location.h"
+#include "core/horizon/kinetic/neighbour_scene.h"
 
 namespace farhorizon::kinetic {
 
@@ -31,7 +33,8 @@ Error TooLarge() {
 
 }  // namespace
 
-KineticSweep::KineticSweep(const Terrain& terrain, const RunControl& control,
+template <typename Scene>
+KineticSweep<Scene>::KineticSweep(const Terrain& terrain, const RunControl& control,
                            std::int64_t work_budget, bool checks)
     : terrain_(terrain), control_(control), work_budget_(work_budget), checks_(checks) {
   const auto posts = static_cast<std::size_t>(terrain.post_count());
@@ -49,18 +52,21 @@ KineticSweep::KineticSweep(const Terrain& terrain, const RunControl& control,
 
 // Whether the largest coefficient of any predicate, the one of an orientation, leaves room for its
 // sums (core/horizon/README.md, section 7).
-bool KineticSweep::Fits() const {
+template <typename Scene>
+bool KineticSweep<Scene>::Fits() const {
   const auto extent = static_cast<unsigned>(std::max(terrain_.dem().columns, terrain_.dem().rows));
   const auto range = static_cast<unsigned>(summit_ - Height(order_.back()));
   return 2 * std::bit_width(extent) + 3 * std::bit_width(range) + 6 <= 124;
 }
 
-bool KineticSweep::OverBudget() const {
+template <typename Scene>
+bool KineticSweep<Scene>::OverBudget() const {
   return events_.work + scene_.counts().looks > work_budget_;
 }
 
 // Why SinkPast() was false.
-Error KineticSweep::Stopped() const {
+template <typename Scene>
+Error KineticSweep<Scene>::Stopped() const {
   if (!OverBudget()) return {ErrorCode::kCancelled, "stopped during the kinetic sweep"};
   return {ErrorCode::kResourceExhausted,
           "the kinetic engine's work budget of " + std::to_string(work_budget_) +
@@ -69,7 +75,8 @@ Error KineticSweep::Stopped() const {
           "work-budget"};
 }
 
-Status KineticSweep::Run(std::int64_t last) {
+template <typename Scene>
+Status KineticSweep<Scene>::Run(std::int64_t last) {
   if (!Fits()) return TooLarge();
   if (!SinkPast(last)) return Stopped();
   return Ok{};
@@ -77,7 +84,8 @@ Status KineticSweep::Run(std::int64_t last) {
 
 // Down to depth `last`, its own events included. False where a stop was requested or the budget was
 // spent.
-bool KineticSweep::SinkPast(std::int64_t last) {
+template <typename Scene>
+bool KineticSweep<Scene>::SinkPast(std::int64_t last) {
   control_.Report(Stage::kKineticSweep, 0);
   std::size_t next = 0;
   while (next < order_.size() && DepthOf(order_[next]) <= last) {
@@ -104,13 +112,15 @@ bool KineticSweep::SinkPast(std::int64_t last) {
 }
 
 // Every height is an event; a report a percent is enough.
-void KineticSweep::Report(double done) {
+template <typename Scene>
+void KineticSweep<Scene>::Report(double done) {
   if (done < reported_ + 0.01) return;
   reported_ = done;
   control_.Report(Stage::kKineticSweep, done);
 }
 
-KineticHorizon KineticSweep::Take() {
+template <typename Scene>
+KineticHorizon KineticSweep<Scene>::Take() {
   for (PointId p = 0; p < scene_.hulls().point_count(); ++p) {
     const std::int32_t tag = scene_.hulls().point(p).tag;
     if (scene_.OnHorizon(p) && tag >= 0) {
@@ -118,12 +128,13 @@ KineticHorizon KineticSweep::Take() {
     }
   }
   std::sort(result_.edges.begin(), result_.edges.end());
-  const NeighbourCounts& counts = scene_.counts();
+  const SceneCounts& counts = scene_.counts();
   events_.merge = counts.merges;
   events_.hull = counts.hull_failures + counts.left_interior;
   events_.inside = counts.interior_failures - counts.left_interior;
   events_.cover = counts.cover_failures;
-  events_.separation = counts.tangent_failures;
+  events_.separation = counts.separation_failures;
+  events_.by_kind = counts.tangent_failures;
   events_.tangents_max = counts.tangents_max;
   events_.work += counts.looks;
   events_.clusters_max = counts.clusters_max;
@@ -132,7 +143,8 @@ KineticHorizon KineticSweep::Take() {
 }
 
 // Deals with the scene's own events before depth s.
-bool KineticSweep::SinkTo(std::int64_t s) {
+template <typename Scene>
+bool KineticSweep<Scene>::SinkTo(std::int64_t s) {
   std::optional<SweepDepth> at = scene_.NextEvent();
   for (; at && Compare(*at, SweepDepth::At(s)) < 0; at = scene_.NextEvent()) {
     if (!MayGoOn()) return false;
@@ -142,20 +154,23 @@ bool KineticSweep::SinkTo(std::int64_t s) {
   return true;
 }
 
-void KineticSweep::RestoreInvariants() {
+template <typename Scene>
+void KineticSweep<Scene>::RestoreInvariants() {
   scene_.RestoreInvariants();
   if (checks_) scene_.CheckAll();
 }
 
 // Counts a stop of the plane.
-bool KineticSweep::MayGoOn() {
+template <typename Scene>
+bool KineticSweep<Scene>::MayGoOn() {
   ++events_.work;
   return !OverBudget() && !control_.StopRequested();
 }
 
 // Those with both ends inside one hull of higher ground are not asked of.
-void KineticSweep::FindHorizontalEdges(std::size_t next, std::size_t end, std::int64_t s) {
-  std::optional<HorizontalEdgeVisibility> visibility;
+template <typename Scene>
+void KineticSweep<Scene>::FindHorizontalEdges(std::size_t next, std::size_t end, std::int64_t s) {
+  std::optional<HorizontalEdgeVisibility<Scene>> visibility;
   for (std::size_t i = next; i < end; ++i) {
     const VertexId v = order_[i];
     for (const VertexId n : terrain_.NeighboursOf(v)) {
@@ -171,7 +186,8 @@ void KineticSweep::FindHorizontalEdges(std::size_t next, std::size_t end, std::i
   if (visibility) events_.work += visibility->looks();
 }
 
-void KineticSweep::PassPosts(std::size_t next, std::size_t end, std::int64_t s) {
+template <typename Scene>
+void KineticSweep<Scene>::PassPosts(std::size_t next, std::size_t end, std::int64_t s) {
   containing_.clear();  // before anything is changed at this depth
   for (std::size_t i = next; i < end; ++i) {
     containing_.push_back(HasHigherNeighbour(order_[i]) ? -1 : ClusterAround(order_[i], s));
@@ -188,7 +204,8 @@ void KineticSweep::PassPosts(std::size_t next, std::size_t end, std::int64_t s) 
 
 // Whether the hull of c surely has the post inside at depth s. Hulls only grow, so what was found
 // once stays.
-bool KineticSweep::IsInside(VertexId v, ClusterId c, std::int64_t s) {
+template <typename Scene>
+bool KineticSweep<Scene>::IsInside(VertexId v, ClusterId c, std::int64_t s) {
   ClusterId& inside = inside_[static_cast<std::size_t>(v)];
   if (inside >= 0 && scene_.Find(inside) == scene_.Find(c)) return true;
   const Point3i post = terrain_.Point(v);
@@ -198,15 +215,23 @@ bool KineticSweep::IsInside(VertexId v, ClusterId c, std::int64_t s) {
 }
 
 // The cluster whose hull surely has the post inside; -1: none is sure to.
-ClusterId KineticSweep::ClusterAround(VertexId v, std::int64_t s) {
+template <typename Scene>
+ClusterId KineticSweep<Scene>::ClusterAround(VertexId v, std::int64_t s) {
   ClusterId& inside = inside_[static_cast<std::size_t>(v)];
   if (inside >= 0) return scene_.Find(inside);
   const Point3i post = terrain_.Point(v);
   events_.work += static_cast<std::int64_t>(scene_.hulls().clusters().size());
-  return inside = scene_.ClusterAround(post.x, post.y, s);
+  for (const ClusterId c : scene_.hulls().clusters()) {
+    if (scene_.box(c).Contains(post.x, post.y) &&
+        SurelyInsideAt(scene_.hulls(), c, post.x, post.y, s)) {
+      return inside = c;
+    }
+  }
+  return -1;
 }
 
-bool KineticSweep::HasHigherNeighbour(VertexId v) const {
+template <typename Scene>
+bool KineticSweep<Scene>::HasHigherNeighbour(VertexId v) const {
   const Terrain::Neighbours around = terrain_.NeighboursOf(v);
   return std::any_of(around.begin(), around.end(),
                      [&](VertexId n) { return Height(n) > Height(v); });
@@ -214,7 +239,8 @@ bool KineticSweep::HasHigherNeighbour(VertexId v) const {
 
 // Puts v into the cluster that its neighbours are in, once joined; a peak into the one whose hull
 // contains it (-1: none), or else into a new one.
-void KineticSweep::Connect(VertexId v, ClusterId containing) {
+template <typename Scene>
+void KineticSweep<Scene>::Connect(VertexId v, ClusterId containing) {
   ClusterId mine = -1;
   bool joins = false;
   bool minimum = true;
@@ -234,7 +260,8 @@ void KineticSweep::Connect(VertexId v, ClusterId containing) {
 // Adds a point for each convex edge down from v; at the border of the terrain, where the slice
 // ends, one that stays at v, too. None for what is inside the hull and stays there: an edge that
 // ends inside never comes out.
-void KineticSweep::Continue(VertexId v, std::int64_t s) {
+template <typename Scene>
+void KineticSweep<Scene>::Continue(VertexId v, std::int64_t s) {
   const ClusterId c = scene_.Find(cluster_[static_cast<std::size_t>(v)]);
   const bool has_hull = !scene_.hulls().hull(c).joined && !scene_.hulls().corners(c).empty();
   bool border = false;
@@ -256,5 +283,8 @@ void KineticSweep::Continue(VertexId v, std::int64_t s) {
     arriving_too_.push_back(-1);
   }
 }
+
+template class KineticSweep<NeighbourScene>;
+template class KineticSweep<BitangentScene>;
 
 }  // namespace farhorizon::kinetic

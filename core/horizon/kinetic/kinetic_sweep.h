@@ -7,13 +7,17 @@
 #include "core/base/result.h"
 #include "core/base/run_control.h"
 #include "core/horizon/kinetic/kinetic_horizon.h"
-#include "core/horizon/kinetic/neighbour_scene.h"
+#include "core/horizon/kinetic/step_marks.h"
+#include "core/horizon/kinetic/sweep_depth.h"
 #include "core/terrain/terrain.h"
 
 namespace farhorizon::kinetic {
 
 /// The sweep plane falling through the terrain, post by post, and the scene of hulls and tangents
 /// that is kept in it ([Archambault03] algorithm 3.1).
+///
+/// Scene: NeighbourScene or BitangentScene.
+template <typename Scene>
 class KineticSweep {
  public:
   /// work_budget: most EventCounts::work to be done. checks: whether all invariants of the scene
@@ -25,7 +29,7 @@ class KineticSweep {
   /// Errors: those of FindHorizonKinetic.
   Status Run(std::int64_t last = kNever);
 
-  [[nodiscard]] const NeighbourScene& scene() const { return scene_; }
+  [[nodiscard]] const Scene& scene() const { return scene_; }
   [[nodiscard]] std::int32_t summit() const { return summit_; }
   [[nodiscard]] std::int32_t lowest() const { return Height(order_.back()); }
 
@@ -57,7 +61,7 @@ class KineticSweep {
   double reported_ = 0;
   std::int64_t work_budget_;
   bool checks_;
-  NeighbourScene scene_;
+  Scene scene_;
   std::int32_t summit_ = 0;
   std::vector<VertexId> order_;                 // from the summit down
   std::vector<ClusterId> cluster_;              // per post; -1 below the plane

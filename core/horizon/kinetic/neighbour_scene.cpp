@@ -73,7 +73,7 @@ void NeighbourScene::Advance(const SweepDepth& now) {
         hulls_.InvalidateTriangle(event->id);
         break;
       case CertificateKind::kTangent:
-        ++counts_.tangent_failures;
+        ++counts_.separation_failures;
         failed_tangents_.push_back(event->id);
         break;
       case CertificateKind::kCover:
@@ -200,16 +200,6 @@ void NeighbourScene::AskCorner(PointId p) {
   recent = pencil.cover();
   queue_.Schedule(CertificateKind::kCover, p,
                   pencil.FailureBefore(corner.end));
-}
-
-ClusterId NeighbourScene::ClusterAround(std::int64_t x, std::int64_t y, std::int64_t s) const {
-  for (const ClusterId c : hulls_.clusters()) {
-    if (box(c).Contains(static_cast<double>(x), static_cast<double>(y)) &&
-        SurelyInsideAt(hulls_, c, x, y, s)) {
-      return c;
-    }
-  }
-  return -1;
 }
 
 void NeighbourScene::CheckAll() const {

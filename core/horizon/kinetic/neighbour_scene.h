@@ -8,23 +8,12 @@
 #include "core/horizon/kinetic/kinetic_hulls.h"
 #include "core/horizon/kinetic/moving_point.h"
 #include "core/horizon/kinetic/plan_box.h"
+#include "core/horizon/kinetic/scene_counts.h"
 #include "core/horizon/kinetic/separating_tangents.h"
 #include "core/horizon/kinetic/step_marks.h"
 #include "core/horizon/kinetic/sweep_depth.h"
 
 namespace farhorizon::kinetic {
-
-struct NeighbourCounts {
-  std::int64_t hull_failures = 0;      ///< three corners in line
-  std::int64_t interior_failures = 0;  ///< a point at the border of its triangle
-  std::int64_t left_interior = 0;      ///< of those, points that were outside their hull then
-  std::int64_t tangent_failures = 0;   ///< separating tangents
-  std::int64_t cover_failures = 0;     ///< covers at corners
-  std::int64_t merges = 0;
-  std::int64_t clusters_max = 0;
-  std::int64_t tangents_max = 0;
-  std::int64_t looks = 0;  ///< hulls that corners were asked about: the work
-};
 
 class NeighbourScene {
  public:
@@ -51,14 +40,11 @@ class NeighbourScene {
 
   /// Whether a visual gap of positive width was at the point at some depth.
   [[nodiscard]] bool OnHorizon(PointId p) const { return on_horizon_[Index(p)]; }
-  /// The cluster whose hull surely has the standing point inside at depth s, as it is reached; -1:
-  /// none is sure to. Requires: no event between now and s. Cost: O(clusters), and O(log h) for
-  /// those whose octagons contain it.
-  [[nodiscard]] ClusterId ClusterAround(std::int64_t x, std::int64_t y, std::int64_t s) const;
+  /// An octagon that contains the hull.
+  [[nodiscard]] const PlanBox& box(ClusterId c) const { return boxes_[Index(c)]; }
 
   [[nodiscard]] const KineticHulls& hulls() const { return hulls_; }
-  [[nodiscard]] const PlanBox& box(ClusterId c) const { return boxes_[Index(c)]; }
-  [[nodiscard]] const NeighbourCounts& counts() const { return counts_; }
+  [[nodiscard]] const SceneCounts& counts() const { return counts_; }
   /// Certificates that have an event to come.
   [[nodiscard]] std::int64_t queue_size() const { return queue_.pending(); }
 
@@ -84,7 +70,7 @@ class NeighbourScene {
   std::vector<ClusterId> grown_;                // clusters whose boxes grew in this step
   std::vector<TangentId> failed_tangents_;
   std::vector<PointId> failed_covers_;
-  NeighbourCounts counts_;
+  SceneCounts counts_;
 };
 
 }  // namespace farhorizon::kinetic

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/horizon/kinetic/scene.h"
+#include "core/horizon/kinetic/bitangent_scene.h"
 
 namespace farhorizon::kinetic {
 namespace {
@@ -70,7 +70,7 @@ class ThreeDiamonds {
     return false;
   }
 
-  Scene scene_;
+  BitangentScene scene_;
   ClusterId p_ = -1;
   ClusterId q_ = -1;
   ClusterId r_ = -1;

@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/horizon/kinetic/scene.h"
+#include "core/horizon/kinetic/bitangent_scene.h"
 
 namespace farhorizon::kinetic {
 namespace {
@@ -41,7 +41,7 @@ constexpr std::int32_t kFoot = -1;
 
 /// Plays the scene up to `end`, calling look() after each step, the first included.
 template <typename Look>
-void Play(Scene& scene, std::int64_t end, const Look& look) {
+void Play(BitangentScene& scene, std::int64_t end, const Look& look) {
   scene.Advance(SweepDepth::At(0));
   scene.RestoreInvariants();
   look();
@@ -59,7 +59,7 @@ class WorstCase : public testing::TestWithParam<int> {};
 TEST_P(WorstCase, TakesTheBridgeOfOneHullThroughEveryPair) {
   const std::int64_t n = GetParam();
   const Chains chains(n);
-  Scene scene;
+  BitangentScene scene;
   const ClusterId c = scene.NewCluster();
   for (std::int64_t i = 0; i < n; ++i) {
     scene.Add(c, chains.A(i), n, static_cast<std::int32_t>(i));
@@ -169,7 +169,7 @@ class DirectionsAtB {
   }
 
   std::int64_t end_;
-  Scene scene_;
+  BitangentScene scene_;
   std::vector<std::vector<Slopes>> periods_;
   std::vector<bool> was_corner_;
 };
@@ -192,7 +192,7 @@ TEST_P(WorstCase, SeesEachInnerPointAlongDisjointIntervalsOfDirections) {
 TEST_P(WorstCase, TakesABitangentOfTwoHullsThroughEveryPair) {
   const std::int64_t n = GetParam();
   const Chains chains(n);
-  Scene scene;
+  BitangentScene scene;
   const ClusterId a = scene.NewCluster();
   const ClusterId b = scene.NewCluster();
   for (std::int64_t i = 0; i < n; ++i) {

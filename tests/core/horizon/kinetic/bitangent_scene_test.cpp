@@ -1,5 +1,5 @@
 // A scene's tangents against the definition of their activity, at every event.
-#include "core/horizon/kinetic/scene.h"
+#include "core/horizon/kinetic/bitangent_scene.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -16,7 +16,7 @@ namespace farhorizon::kinetic {
 namespace {
 
 /// Whether the line of a tangent has corners of a third hull on both its sides just after `now`.
-bool CutsAThirdHull(const Scene& scene, TangentId t, const SweepDepth& now) {
+bool CutsAThirdHull(const BitangentScene& scene, TangentId t, const SweepDepth& now) {
   const KineticHulls& hulls = scene.hulls();
   const auto [p, q] = scene.tangents().contacts(t);
   return std::any_of(hulls.clusters().begin(), hulls.clusters().end(), [&](ClusterId c) {
@@ -35,7 +35,7 @@ bool CutsAThirdHull(const Scene& scene, TangentId t, const SweepDepth& now) {
   });
 }
 
-void CheckActivities(Scene& scene, const SweepDepth& now) {
+void CheckActivities(BitangentScene& scene, const SweepDepth& now) {
   scene.CheckAll();
   for (const ClusterId a : scene.hulls().clusters()) {
     for (const ClusterId b : scene.hulls().clusters()) {
@@ -58,7 +58,7 @@ TEST(Scene, KnowsAtEveryEventWhichTangentsAreActive) {
   };
   SceneCounts sum;
   for (int round = 0; round < Rounds(20); ++round) {
-    Scene scene;
+    BitangentScene scene;
     std::int64_t s = 0;
     for (int peak = 0; peak < 12; ++peak, s += any(1, 400)) {
       for (std::optional<SweepDepth> at = scene.NextEvent();

@@ -11,6 +11,8 @@
 #include "core/horizon/kinetic/kinetic_hulls.h"
 #include "core/horizon/kinetic/moving_point.h"
 #include "core/horizon/kinetic/occlusion_depths.h"
+#include "core/horizon/kinetic/plan_box.h"
+#include "core/horizon/kinetic/scene_counts.h"
 #include "core/horizon/kinetic/step_marks.h"
 #include "core/horizon/kinetic/sweep_depth.h"
 #include "core/horizon/kinetic/tangent_certificates.h"
@@ -18,18 +20,6 @@
 #include "core/horizon/kinetic/tangent_table.h"
 
 namespace farhorizon::kinetic {
-
-/// How often certificates failed, by what they proved.
-struct SceneCounts {
-  std::int64_t hull_failures = 0;      ///< three corners in line
-  std::int64_t interior_failures = 0;  ///< a point at the border of its triangle
-  std::int64_t left_interior = 0;      ///< of those, points that were outside their hull then
-  /// Figure 3.1: A two active bitangents, B active and inactive, C active and an edge of the hull,
-  /// D inactive and an edge of the hull.
-  std::array<std::int64_t, 4> tangent_failures{};
-  std::int64_t merges = 0;
-  std::int64_t clusters_max = 0;
-};
 
 /// The slice of the terrain at one depth, as chapter 3 of [Archambault03] keeps it: disjoint convex
 /// hulls of moving points, the bitangents of each two of them, and the visual gaps at their
@@ -69,11 +59,11 @@ struct SceneCounts {
 ///
 /// Ground at or above the plane only grows, so visual lines are never born: a tangent becomes
 /// active only where it passes an active one, or where its hulls are new.
-class Scene {
+class BitangentScene {
  public:
-  Scene() = default;
-  Scene(const Scene&) = delete;
-  Scene& operator=(const Scene&) = delete;
+  BitangentScene() { everywhere_.AddAll(); }
+  BitangentScene(const BitangentScene&) = delete;
+  BitangentScene& operator=(const BitangentScene&) = delete;
 
   /// A point that is in `cluster` from the coming RestoreInvariants() until depth `end`; the caller
   /// removes it there. tag: the caller's.
@@ -91,6 +81,11 @@ class Scene {
   /// Requires: no event is before `now`.
   void Advance(const SweepDepth& now);
   void RestoreInvariants();
+
+  /// Whether a visual gap of positive width was at the point at some depth.
+  [[nodiscard]] bool OnHorizon(PointId p) const { return order_.corner(p).on_horizon; }
+  /// The whole plan: where hulls are is not kept.
+  [[nodiscard]] const PlanBox& box(ClusterId /*c*/) const { return everywhere_; }
 
   [[nodiscard]] const KineticHulls& hulls() const { return hulls_; }
   [[nodiscard]] const TangentTable& tangents() const { return tangents_; }
@@ -123,6 +118,7 @@ class Scene {
   OcclusionDepths depths_{hulls_, tangents_, order_, marks_};
   TangentMotion motion_{hulls_, tangents_, certificates_, order_, marks_};
   CollinearEvents collinear_{hulls_, tangents_, certificates_, order_, marks_};
+  PlanBox everywhere_;
   SceneCounts counts_;
 };
 

@@ -3,7 +3,7 @@
 // collinear pairs, dropped arcs, changed hulls) is used up when RestoreInvariants() returns. Cost
 // of an event: O(h log h) for each changed hull of h corners, O(m (h + log n)) for each new one
 // among m hulls and n certificates, and O(k log n) for each stale corner with k half tangents.
-#include "core/horizon/kinetic/scene.h"
+#include "core/horizon/kinetic/bitangent_scene.h"
 
 #include <algorithm>
 #include <utility>
@@ -13,12 +13,12 @@
 
 namespace farhorizon::kinetic {
 
-PointId Scene::Add(ClusterId cluster, const MovingPoint& path, std::int64_t end, std::int32_t tag) {
+PointId BitangentScene::Add(ClusterId cluster, const MovingPoint& path, std::int64_t end, std::int32_t tag) {
   order_.AddPoint();
   return hulls_.Add(cluster, path, end, tag);
 }
 
-ClusterId Scene::NewCluster() {
+ClusterId BitangentScene::NewCluster() {
   const ClusterId c = hulls_.NewCluster();
   tangents_.AddCluster(c);
   certificates_.Resize();
@@ -28,7 +28,7 @@ ClusterId Scene::NewCluster() {
 
 // Both become new: all of their tangents are dropped, and those of the one that is left are made
 // anew.
-ClusterId Scene::Join(ClusterId a, ClusterId b) {
+ClusterId BitangentScene::Join(ClusterId a, ClusterId b) {
   a = Find(a);
   b = Find(b);
   if (a == b) return a;
@@ -48,7 +48,7 @@ ClusterId Scene::Join(ClusterId a, ClusterId b) {
   return a;
 }
 
-void Scene::Advance(const SweepDepth& now) {
+void BitangentScene::Advance(const SweepDepth& now) {
   hulls_.AdvanceTo(now);
   while (const std::optional<Event> event = queue_.PopAt(now)) {
     switch (event->kind) {
@@ -63,11 +63,13 @@ void Scene::Advance(const SweepDepth& now) {
       case CertificateKind::kTangent:
         FailTangent(event->id / 2, static_cast<std::size_t>(event->id % 2));
         break;
+      case CertificateKind::kCover:
+        break;  // of a NeighbourScene
     }
   }
 }
 
-void Scene::FailTangent(HalfTangentId half, std::size_t which) {
+void BitangentScene::FailTangent(HalfTangentId half, std::size_t which) {
   const HalfTangentId partner = certificates_.partner(half, which);
   const std::array<PointId, 3> points = certificates_.points(half, which);
   const bool active = order_.IsActive(half);
@@ -87,11 +89,12 @@ void Scene::FailTangent(HalfTangentId half, std::size_t which) {
   }
 }
 
-void Scene::RestoreInvariants() {
+void BitangentScene::RestoreInvariants() {
   // 1. Hulls and 2. collisions, until no two hulls intersect.
   do {
     UpdateHulls();
   } while (JoinIntersecting());
+  counts_.looks += static_cast<std::int64_t>(hulls_.clusters().size());
   counts_.clusters_max =
       std::max(counts_.clusters_max, static_cast<std::int64_t>(hulls_.clusters().size()));
   // 3. Collinear corners.
@@ -116,7 +119,7 @@ void Scene::RestoreInvariants() {
   hulls_.LocateInteriorPoints();
 }
 
-void Scene::UpdateHulls() {
+void BitangentScene::UpdateHulls() {
   for (const ClusterId c : hulls_.changed()) {
     if (Find(c) == c) counts_.left_interior += hulls_.UpdateHull(c);
   }
@@ -126,7 +129,7 @@ void Scene::UpdateHulls() {
 // tangents proved that they are disjoint. So only those pairs are asked of which one hull is new,
 // or of which an inner tangent may no longer support both: one that has failed, or one at a
 // displaced corner.
-bool Scene::JoinIntersecting() {
+bool BitangentScene::JoinIntersecting() {
   if (JoinNewHull()) return true;
   for (const TangentMotion::Crossing& crossing : motion_.crossings()) {
     if (tangents_.Own(crossing.half) >= 0 && JoinAcross(crossing.half)) return true;
@@ -140,7 +143,7 @@ bool Scene::JoinIntersecting() {
   return false;
 }
 
-bool Scene::JoinNewHull() {
+bool BitangentScene::JoinNewHull() {
   for (const ClusterId c : hulls_.changed()) {
     if (Find(c) != c || !hulls_.hull(c).is_new) continue;
     for (const ClusterId other : hulls_.clusters()) {
@@ -152,7 +155,7 @@ bool Scene::JoinNewHull() {
   return false;
 }
 
-bool Scene::JoinAcross(HalfTangentId half) {
+bool BitangentScene::JoinAcross(HalfTangentId half) {
   const TangentId t = TangentOf(half);
   if (TangentTable::Outer(t) || tangents_.Supports(t)) return false;
   const ClusterId a = hulls_.ClusterOf(tangents_.Own(half));
@@ -162,7 +165,7 @@ bool Scene::JoinAcross(HalfTangentId half) {
   return true;
 }
 
-void Scene::MakeTangentsOfNewHulls() {
+void BitangentScene::MakeTangentsOfNewHulls() {
   for (const ClusterId c : hulls_.changed()) {
     if (Find(c) != c || !hulls_.hull(c).is_new) continue;
     for (const ClusterId other : hulls_.clusters()) {
@@ -171,7 +174,7 @@ void Scene::MakeTangentsOfNewHulls() {
   }
 }
 
-void Scene::MakeTangents(ClusterId a, ClusterId b) {
+void BitangentScene::MakeTangents(ClusterId a, ClusterId b) {
   const TangentId first = tangents_.First(a, b);
   if (tangents_.Exists(first)) return;
   tangents_.Make(a, b);
@@ -184,7 +187,7 @@ void Scene::MakeTangents(ClusterId a, ClusterId b) {
   }
 }
 
-void Scene::DropTangents(ClusterId a, ClusterId b) {
+void BitangentScene::DropTangents(ClusterId a, ClusterId b) {
   const TangentId first = tangents_.First(a, b);
   if (!tangents_.Exists(first)) return;
   for (const std::int32_t end : {0, 1}) {
@@ -202,7 +205,7 @@ void Scene::DropTangents(ClusterId a, ClusterId b) {
   }
 }
 
-void Scene::PropagateMarks() {
+void BitangentScene::PropagateMarks() {
   std::size_t done = 0;  // of the stale corners; there are more and more
   do {
     for (; done < marks_.stale().size(); ++done) motion_.MarkBesideStale(marks_.stale()[done]);
@@ -216,14 +219,14 @@ void Scene::PropagateMarks() {
   } while (done != marks_.stale().size());
 }
 
-void Scene::RebuildStale() {
+void BitangentScene::RebuildStale() {
   for (const PointId p : marks_.stale()) {
     if (hulls_.point(p).corner) order_.Rebuild(p);
   }
   marks_.ClearStale();
 }
 
-void Scene::CheckAll() const {
+void BitangentScene::CheckAll() const {
   for (const ClusterId c : hulls_.clusters()) {
     for (const ClusterId other : hulls_.clusters()) {
       if (other == c) continue;
