@@ -61,7 +61,8 @@ namespace farhorizon::kinetic {
 /// active only where it passes an active one, or where its hulls are new.
 class BitangentScene {
  public:
-  BitangentScene() { everywhere_.AddAll(); }
+  /// most_looks: as of a NeighbourScene; not heeded inside a step.
+  explicit BitangentScene(std::int64_t /*most_looks*/ = 0) { everywhere_.AddAll(); }
   BitangentScene(const BitangentScene&) = delete;
   BitangentScene& operator=(const BitangentScene&) = delete;
 

@@ -36,7 +36,7 @@ Error TooLarge() {
 template <typename Scene>
 KineticSweep<Scene>::KineticSweep(const Terrain& terrain, const RunControl& control,
                            std::int64_t work_budget, bool checks)
-    : terrain_(terrain), control_(control), work_budget_(work_budget), checks_(checks) {
+    : terrain_(terrain), control_(control), work_budget_(work_budget), checks_(checks), scene_(work_budget) {
   const auto posts = static_cast<std::size_t>(terrain.post_count());
   cluster_.assign(posts, -1);
   inside_.assign(posts, -1);
@@ -98,6 +98,7 @@ bool KineticSweep<Scene>::SinkPast(std::int64_t last) {
     scene_.Advance(SweepDepth::At(s));
     PassPosts(next, end, s);
     RestoreInvariants();
+    if (OverBudget()) return false;
     events_.queue_max = std::max(
         events_.queue_max, scene_.queue_size() + static_cast<std::int64_t>(order_.size() - end));
     next = end;
@@ -108,7 +109,7 @@ bool KineticSweep<Scene>::SinkPast(std::int64_t last) {
     RestoreInvariants();
   }
   control_.Report(Stage::kKineticSweep, 1);
-  return true;
+  return !OverBudget();
 }
 
 // Every height is an event; a report a percent is enough.
@@ -157,7 +158,7 @@ bool KineticSweep<Scene>::SinkTo(std::int64_t s) {
 template <typename Scene>
 void KineticSweep<Scene>::RestoreInvariants() {
   scene_.RestoreInvariants();
-  if (checks_) scene_.CheckAll();
+  if (checks_ && !OverBudget()) scene_.CheckAll();
 }
 
 // Counts a stop of the plane.

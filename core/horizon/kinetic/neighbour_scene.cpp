@@ -1,3 +1,7 @@
+// The conductor of algorithm 3.1 of [Archambault03], with the tangents of neighbours only: the
+// numbered steps of neighbour_scene.h. Cost of an event: O(h) for each changed hull of h corners,
+// O(m) for each octagon that grew among m hulls, and for each corner that is asked about O(m + c
+// log h) for a cover of c hulls.
 #include "core/horizon/kinetic/neighbour_scene.h"
 
 #include <algorithm>
@@ -35,6 +39,7 @@ PointId NeighbourScene::Add(ClusterId cluster, const MovingPoint& path, std::int
 
 ClusterId NeighbourScene::NewCluster() {
   boxes_.emplace_back();
+  is_grown_.push_back(false);
   recent_.emplace_back();
   tangents_.AddCluster();
   return hulls_.NewCluster();
@@ -49,7 +54,7 @@ ClusterId NeighbourScene::Join(ClusterId a, ClusterId b) {
   tangents_.DropAllOf(b);
   for (const TangentId t : tangents_.Of(a)) failed_tangents_.push_back(t);
   boxes_[Index(a)].Add(boxes_[Index(b)]);
-  grown_.push_back(a);
+  MarkGrown(a);
   recent_[Index(b)] = {};
   hulls_.Join(a, b);
   return a;
@@ -124,14 +129,22 @@ void NeighbourScene::GrowBoxes() {
         grown = box.Add(to.x, to.y) || grown;
       }
     }
-    if (grown && (grown_.empty() || grown_.back() != c)) grown_.push_back(c);
+    if (grown) MarkGrown(c);
   }
 }
 
+void NeighbourScene::MarkGrown(ClusterId c) {
+  if (is_grown_[Index(c)]) return;
+  is_grown_[Index(c)] = true;
+  grown_.push_back(c);
+}
+
+// Each hull whose octagon grew is held against all others; one that was joined meanwhile is again.
 bool NeighbourScene::JoinNeighbours() {
-  std::sort(grown_.begin(), grown_.end());
-  grown_.erase(std::unique(grown_.begin(), grown_.end()), grown_.end());
-  for (const ClusterId c : grown_) {
+  while (!grown_.empty() && !OverBudget()) {
+    const ClusterId c = grown_.back();
+    grown_.pop_back();
+    is_grown_[Index(c)] = false;
     if (Find(c) != c) continue;
     counts_.looks += static_cast<std::int64_t>(hulls_.clusters().size());
     for (const ClusterId other : hulls_.clusters()) {
@@ -143,7 +156,6 @@ bool NeighbourScene::JoinNeighbours() {
       tangents_.Make(c, other);
     }
   }
-  grown_.clear();
   return false;
 }
 
@@ -180,7 +192,7 @@ void NeighbourScene::FindVisualGaps() {
 void NeighbourScene::AskCorner(PointId p) {
   const KineticPoint& corner = hulls_.point(p);
   queue_.Cancel(CertificateKind::kCover, p);
-  if (!corner.corner || corner.tag < 0 || OnHorizon(p)) return;
+  if (!corner.corner || corner.tag < 0 || OnHorizon(p) || OverBudget()) return;
   const ClusterId own = hulls_.ClusterOf(p);
   LinePencil<KineticHulls> pencil(hulls_, corner.path, hulls_.path(corner.prev),
                                   hulls_.path(corner.next));

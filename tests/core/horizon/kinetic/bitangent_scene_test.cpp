@@ -69,7 +69,10 @@ TEST(Scene, KnowsAtEveryEventWhichTangentsAreActive) {
       }
       scene.Advance(SweepDepth::At(s));
       const Point3i top{any(0, 5000), any(0, 5000), static_cast<std::int32_t>(-s)};
-      if (ClusterContaining(scene.hulls(), top.x, top.y) < 0) {
+      const auto clusters = scene.hulls().clusters();
+      if (std::none_of(clusters.begin(), clusters.end(), [&](ClusterId c) {
+            return SurelyInsideAt(scene.hulls(), c, top.x, top.y, s);
+          })) {
         const ClusterId c = scene.NewCluster();
         const int signs[8][2] = {{1, 0},  {1, 1},   {0, 1},  {-1, 1},
                                  {-1, 0}, {-1, -1}, {0, -1}, {1, -1}};

@@ -121,7 +121,7 @@ TEST(FindHorizonKinetic, DoesNotSeeLevelEdgesThroughAContactOfTwoHulls) {
                                 Find));
 }
 
-// Throws where an invariant of the scene does not hold.
+// Throws where an invariant of the scene does not hold. Both ways to keep tangents.
 void CheckOnRandomTerrains(std::int32_t min_side, std::int32_t max_side, int rounds,
                            std::uint32_t seed) {
   std::mt19937 random(seed);
@@ -130,7 +130,12 @@ void CheckOnRandomTerrains(std::int32_t min_side, std::int32_t max_side, int rou
     Result<Terrain> terrain = Terrain::Build(dem);
     if (!terrain) continue;
     SCOPED_TRACE(DrawAscii(dem));
-    ASSERT_NO_THROW({ EXPECT_EQ(FindHorizonKineticChecked(*terrain)->edges, Find(*terrain)); });
+    for (const KineticTangents tangents :
+         {KineticTangents::kNeighbours, KineticTangents::kAllPairs}) {
+      const KineticOptions options{.tangents = tangents};
+      ASSERT_NO_THROW(
+          { EXPECT_EQ(FindHorizonKineticChecked(*terrain, options)->edges, Find(*terrain)); });
+    }
   }
 }
 
@@ -152,7 +157,10 @@ TEST(FindHorizonKinetic, KeepsItsInvariantsWhereAJoinedHullHidesNoMoreOfAnEdgeBu
       . 0 1 1 . 0
       . 0 . 0 1 .
       2 2 1 . 0 1)");
-  EXPECT_NO_THROW({ EXPECT_TRUE(FindHorizonKineticChecked(*Terrain::Build(dem))); });
+  for (const KineticTangents tangents : {KineticTangents::kNeighbours, KineticTangents::kAllPairs}) {
+    const KineticOptions options{.tangents = tangents};
+    EXPECT_NO_THROW({ EXPECT_TRUE(FindHorizonKineticChecked(*Terrain::Build(dem), options)); });
+  }
 }
 
 TEST(FindHorizonKinetic, AgreesWithTheAdaptiveEngineOnLargerRandomTerrains) {
@@ -180,12 +188,13 @@ TEST(FindHorizonKinetic, CountsTheEventsOfTwoSummits) {
       2 3 2 3 2
       0 1 0 2 0)");
   const Terrain terrain = *Terrain::Build(dem);
-  const EventCounts events = (*FindHorizonKinetic(terrain, {})).events;
+  const KineticOptions options{.tangents = KineticTangents::kAllPairs};
+  const EventCounts events = (*FindHorizonKinetic(terrain, {}, options)).events;
   EXPECT_EQ(events.peak + events.regular + events.saddle + events.minimum, 20);
   EXPECT_EQ(events.clusters_max, events.peak);
   EXPECT_EQ(events.merge, events.peak - 1) << "in the end all is one hull";
   EXPECT_EQ(events.by_kind[0] + events.by_kind[1] + events.by_kind[2] + events.by_kind[3],
-            events.bitangent);
+            events.Bitangents());
   EXPECT_GT(events.queue_max, 0);
 }
 
@@ -220,10 +229,10 @@ TEST(FindHorizonKinetic, EndsWithAnErrorWhereTheWorkBudgetDoesNotSuffice) {
   const Dem dem = FractalDem(33, 3000, 100, 8);
   const Terrain terrain = *Terrain::Build(dem);
   const KineticHorizon whole = *FindHorizonKinetic(terrain, {});
-  Result<KineticHorizon> enough = FindHorizonKinetic(terrain, {}, whole.events.work);
+  Result<KineticHorizon> enough = FindHorizonKinetic(terrain, {}, {.work_budget = whole.events.work});
   ASSERT_TRUE(enough) << enough.error().message;
   EXPECT_EQ(enough->edges, whole.edges);
-  Result<KineticHorizon> scarce = FindHorizonKinetic(terrain, {}, whole.events.work - 1);
+  Result<KineticHorizon> scarce = FindHorizonKinetic(terrain, {}, {.work_budget = whole.events.work - 1});
   ASSERT_FALSE(scarce);
   EXPECT_EQ(scarce.error().code, ErrorCode::kResourceExhausted);
   EXPECT_EQ(scarce.error().kind, "work-budget");
@@ -234,15 +243,24 @@ TEST(FindHorizonKinetic, EndsWithAnErrorWhereTheWorkBudgetDoesNotSuffice) {
   EXPECT_NE(chosen.error().message.find("take the adaptive engine"), std::string::npos);
 }
 
-// Spikes three posts apart: each is a hull of its own until the plane is down.
-TEST(FindHorizonKineticLong, RefusesMoreHullsThanMemoryIsFor) {
-  const Dem dem = MakeDem(105, 105, [](std::int32_t c, std::int32_t r) {
-    return c % 3 == 1 && r % 3 == 1 ? 1'000'000 + c + 105 * r : 0;
+Dem Spikes(std::int32_t side) {
+  return MakeDem(side, side, [side](std::int32_t c, std::int32_t r) {
+    return c % 3 == 1 && r % 3 == 1 ? 1'000'000 + c + side * r : 0;
   });
-  const Terrain terrain = *Terrain::Build(dem);
-  Result<KineticHorizon> horizon = FindHorizonKinetic(terrain, {});
-  ASSERT_FALSE(horizon);
-  EXPECT_EQ(horizon.error().kind, "work-budget");
+}
+
+// Each spike is a hull of its own until the plane is down.
+TEST(FindHorizonKinetic, KeepsTheTangentsOfNeighboursOnly) {
+  const KineticHorizon horizon = *FindHorizonKinetic(*Terrain::Build(Spikes(33)), {});
+  EXPECT_EQ(horizon.events.clusters_max, 121);
+  EXPECT_LT(horizon.events.tangents_max, 4 * 121) << "of 7,260 pairs";
+}
+
+TEST(FindHorizonKineticLong, DealsWithMoreThanAThousandHulls) {
+  const Terrain terrain = *Terrain::Build(Spikes(105));
+  const KineticHorizon horizon = *FindHorizonKinetic(terrain, {});
+  EXPECT_EQ(horizon.events.clusters_max, 35 * 35);
+  EXPECT_LT(horizon.events.tangents_max, 4 * 35 * 35);
 }
 
 TEST(FindHorizonKinetic, StopsWhenAskedTo) {
