@@ -56,6 +56,10 @@ void BitangentScene::Advance(const SweepDepth& now) {
         ++counts_.hull_failures;
         hulls_.InvalidateCorners(event->id);
         break;
+      case CertificateKind::kTree:
+        ++counts_.hull_failures;
+        hulls_.FailTree(event->id);
+        break;
       case CertificateKind::kInterior:
         ++counts_.interior_failures;
         hulls_.InvalidateTriangle(event->id);
@@ -227,6 +231,7 @@ void BitangentScene::RebuildStale() {
 }
 
 void BitangentScene::CheckAll() const {
+  hulls_.CheckPoints();
   for (const ClusterId c : hulls_.clusters()) {
     for (const ClusterId other : hulls_.clusters()) {
       if (other == c) continue;

@@ -62,7 +62,11 @@ namespace farhorizon::kinetic {
 class BitangentScene {
  public:
   /// most_looks: as of a NeighbourScene; not heeded inside a step.
-  explicit BitangentScene(std::int64_t /*most_looks*/ = 0) { everywhere_.AddAll(); }
+  explicit BitangentScene(HullCertificates certificates = HullCertificates::kTurns,
+                          std::int64_t /*most_looks*/ = 0)
+      : hulls_(queue_, marks_, certificates) {
+    everywhere_.AddAll();
+  }
   BitangentScene(const BitangentScene&) = delete;
   BitangentScene& operator=(const BitangentScene&) = delete;
 
@@ -112,7 +116,7 @@ class BitangentScene {
 
   CertificateQueue queue_;
   StepMarks marks_;
-  KineticHulls hulls_{queue_, marks_};
+  KineticHulls hulls_;
   TangentTable tangents_{hulls_};
   TangentCertificates certificates_{queue_, hulls_, tangents_};
   CornerOrder order_{hulls_, tangents_, certificates_, marks_};

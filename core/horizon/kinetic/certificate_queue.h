@@ -15,6 +15,7 @@ enum class CertificateKind : std::uint8_t {
   kHull,      ///< a corner turns left strictly; id: PointId
   kInterior,  ///< an interior point is in its triangle; id: PointId
   kTangent,   ///< a tangent separates two hulls; id: TangentId
+  kTree,      ///< the hull of a node of a tree is that of its children; id: HullForest has it
   kCover,     ///< hulls occlude all lines that touch a hull at a corner; id: PointId
 };
 
@@ -61,7 +62,7 @@ class CertificateQueue {
   Certificate& At(CertificateKind kind, std::int32_t id);
   void Cancel(Certificate& certificate);
 
-  std::array<std::vector<Certificate>, 4> certificates_;  // by kind, then by id
+  std::array<std::vector<Certificate>, 5> certificates_;  // by kind, then by id
   std::priority_queue<Event, std::vector<Event>, Later> events_;
   std::int64_t pending_ = 0;
 };

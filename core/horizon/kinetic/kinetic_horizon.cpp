@@ -13,9 +13,9 @@ namespace farhorizon {
 namespace {
 
 template <typename Scene>
-Result<KineticHorizon> Find(const Terrain& terrain, const RunControl& control, std::int64_t budget,
-                            bool checks) {
-  kinetic::KineticSweep<Scene> sweep(terrain, control, budget, checks);
+Result<KineticHorizon> FindWith(const Terrain& terrain, const RunControl& control,
+                                const KineticOptions& options, bool checks) {
+  kinetic::KineticSweep<Scene> sweep(terrain, control, options, checks);
   Status run = sweep.Run();
   if (!run) return std::move(run.error());
   return sweep.Take();
@@ -23,11 +23,9 @@ Result<KineticHorizon> Find(const Terrain& terrain, const RunControl& control, s
 
 Result<KineticHorizon> Find(const Terrain& terrain, const RunControl& control,
                             const KineticOptions& options, bool checks) {
-  const std::int64_t budget =
-      options.work_budget.value_or(DefaultKineticWorkBudget(terrain.CountEdges()));
   return options.tangents == KineticTangents::kAllPairs
-             ? Find<kinetic::BitangentScene>(terrain, control, budget, checks)
-             : Find<kinetic::NeighbourScene>(terrain, control, budget, checks);
+             ? FindWith<kinetic::BitangentScene>(terrain, control, options, checks)
+             : FindWith<kinetic::NeighbourScene>(terrain, control, options, checks);
 }
 
 }  // namespace

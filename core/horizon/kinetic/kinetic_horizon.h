@@ -7,6 +7,7 @@
 
 #include "core/base/result.h"
 #include "core/base/run_control.h"
+#include "core/horizon/kinetic/hull_certificates.h"
 #include "core/terrain/terrain.h"
 
 namespace farhorizon {
@@ -53,6 +54,7 @@ struct KineticOptions {
   /// Most EventCounts::work to be done; unset: DefaultKineticWorkBudget.
   std::optional<std::int64_t> work_budget = std::nullopt;
   KineticTangents tangents = KineticTangents::kNeighbours;
+  HullCertificates hull = HullCertificates::kTurns;
 };
 
 /// The same set of edges as FindHorizon, by the algorithm of the thesis: a plane falls through the
@@ -61,7 +63,8 @@ struct KineticOptions {
 ///
 /// Exact for every terrain within the limits, equal heights and posts in line included.
 /// Errors: kCancelled; kUnsupportedData, kind kinetic-too-large, where 2 log2(columns or rows) + 3
-/// log2(range of heights in quanta) is beyond 118: remedy, the adaptive engine; kResourceExhausted,
+/// log2(range of heights in quanta) is beyond 118 (with trees 4 of the latter): remedy, the adaptive
+/// engine; kResourceExhausted,
 /// kind work-budget, where the budget is spent: the same remedy.
 /// Cost: memory O(n + m) for m hulls apart (kNeighbours).
 Result<KineticHorizon> FindHorizonKinetic(const Terrain& terrain, const RunControl& control,

@@ -29,6 +29,7 @@ ClusterId KineticHulls::NewCluster() {
   const auto id = static_cast<ClusterId>(hulls_.size());
   KineticHull& hull = hulls_.emplace_back();
   marks_.AddCluster();
+  if (forest_) forest_->AddCluster();
   roots_.push_back(id);
   clusters_.push_back(id);
   hull.corners_stale = true;
@@ -42,6 +43,9 @@ void KineticHulls::Remove(PointId p) {
   gone.alive = false;
   queue_.Cancel(CertificateKind::kInterior, p);
   if (gone.corner) InvalidateCorners(p);
+  if (!forest_) return;
+  forest_->Erase(p);
+  MarkChanged(ClusterOf(p));
 }
 
 void KineticHulls::Join(ClusterId kept, ClusterId lost) {
@@ -53,6 +57,7 @@ void KineticHulls::Join(ClusterId kept, ClusterId lost) {
   to.corners_stale = true;
   to.joined = true;
   from = {};
+  if (forest_) forest_->Join(kept, lost);
   roots_[Index(lost)] = kept;
   clusters_.erase(std::find(clusters_.begin(), clusters_.end(), lost));
   MarkChanged(kept);
@@ -157,8 +162,39 @@ bool AddOutside(const KineticHulls& hulls, PointId p, std::vector<PointId>& ring
 
 }  // namespace
 
-// The ring of corners is mended; only a hull that is new, or made of two, is found from its points.
 std::int64_t KineticHulls::UpdateHull(ClusterId c) {
+  if (forest_) {
+    SetCorners(c, CornersByTree(c));
+    return 0;
+  }
+  std::optional<std::vector<PointId>> ring = CornersByTurns(c);
+  if (!ring) return 0;
+  // A candidate that is no corner, but once had a certificate, has just failed it.
+  const std::int64_t left_interior = std::count_if(ring->begin(), ring->end(), [this](PointId p) {
+    return !point(p).corner && queue_.WasUsed(CertificateKind::kInterior, p);
+  });
+  SetCorners(c, *std::move(ring));
+  return left_interior;
+}
+
+std::vector<PointId> KineticHulls::CornersByTree(ClusterId c) {
+  KineticHull& hull = hulls_[Index(c)];
+  hull.corners_stale = hull.joined = false;
+  for (const PointId p : std::exchange(hull.unlocated, {})) {
+    if (!point(p).alive) continue;
+    points_[Index(p)].cluster = c;
+    forest_->Insert(c, p);
+  }
+  forest_->Update(c, points_, now_);
+  std::vector<PointId> ring = forest_->Corners(c);
+  RemoveReflex(*this, ring);  // of points that are one for ever, each chain has one of its own
+  Check(ring.size() >= 3, "the ground just below a post has a width");
+  return ring;
+}
+
+// The ring of corners is mended; only a hull that is new, or made of two, is found from its points.
+// nullopt: nothing has changed.
+std::optional<std::vector<PointId>> KineticHulls::CornersByTurns(ClusterId c) {
   KineticHull& hull = hulls_[Index(c)];
   std::vector<PointId> candidates = std::exchange(hull.unlocated, {});
   std::erase_if(candidates, [this](PointId p) { return !point(p).alive; });
@@ -174,17 +210,11 @@ std::int64_t KineticHulls::UpdateHull(ClusterId c) {
   if (apart || ring.size() < 3) {
     candidates.insert(candidates.end(), hull.corners.begin(), hull.corners.end());
     std::erase_if(candidates, [this](PointId p) { return !point(p).alive; });
-    ring = HullOf(*this, std::move(candidates));
-  } else {
-    for (const PointId p : candidates) changes = AddOutside(*this, p, ring) || changes;
-    if (!changes) return 0;
+    return HullOf(*this, std::move(candidates));
   }
-  // A candidate that is no corner, but once had a certificate, has just failed it.
-  const std::int64_t left_interior = std::count_if(ring.begin(), ring.end(), [this](PointId p) {
-    return !point(p).corner && queue_.WasUsed(CertificateKind::kInterior, p);
-  });
-  SetCorners(c, std::move(ring));
-  return left_interior;
+  for (const PointId p : candidates) changes = AddOutside(*this, p, ring) || changes;
+  if (!changes) return std::nullopt;
+  return ring;
 }
 
 void KineticHulls::SetCorners(ClusterId c, std::vector<PointId> corners) {
@@ -205,6 +235,7 @@ void KineticHulls::SetCorners(ClusterId c, std::vector<PointId> corners) {
     corner.next = next;
     queue_.Cancel(CertificateKind::kInterior, p);
     marks_.MarkDisplaced(p);
+    if (forest_) continue;
     queue_.Schedule(CertificateKind::kHull, p,
                     TurnFailureAfter({point(prev).path, corner.path, point(next).path}, 1, now_,
                                      FirstEnd({prev, p, next})));
@@ -233,7 +264,7 @@ void KineticHulls::LocateInteriorPoints() {
 // side.
 void KineticHulls::LocateInterior(PointId p) {
   KineticPoint& inner = points_[Index(p)];
-  if (!inner.alive || inner.corner) return;
+  if (!inner.alive || inner.corner || forest_) return;
   const ClusterId c = Find(inner.cluster);
   inner.cluster = c;
   // Hulls only grow: a point that ends inside, or does not move, never comes out.
@@ -265,6 +296,14 @@ std::int64_t KineticHulls::FirstEnd(const std::array<PointId, 3>& points) const 
 void KineticHulls::CheckHull(ClusterId c) const {
   for (const PointId p : hull(c).corners) {
     Check(Orient(point(p).prev, p, point(p).next) > 0, "corners are strictly convex");
+  }
+}
+
+void KineticHulls::CheckPoints() const {
+  for (const KineticPoint& p : points_) {
+    if (!p.alive || p.corner) continue;
+    Check(TriangleAround(*this, corners(Find(p.cluster)), p.path).has_value(),
+          "points are in their hulls");
   }
 }
 

@@ -7,25 +7,14 @@
 #include <vector>
 
 #include "core/horizon/kinetic/certificate_queue.h"
+#include "core/horizon/kinetic/hull_certificates.h"
+#include "core/horizon/kinetic/hull_forest.h"
+#include "core/horizon/kinetic/kinetic_point.h"
 #include "core/horizon/kinetic/moving_point.h"
 #include "core/horizon/kinetic/step_marks.h"
 #include "core/horizon/kinetic/sweep_depth.h"
 
 namespace farhorizon::kinetic {
-
-struct KineticPoint {
-  MovingPoint path;
-  std::int64_t end = 0;    ///< the depth at which it is removed
-  std::int32_t tag = 0;    ///< the caller's
-  ClusterId cluster = -1;  ///< the one that it was last found in; ClusterOf() has the present one
-  bool alive = true;       ///< may still become a corner, or is one
-  bool corner = false;     ///< of the hull of its cluster
-  /// Of a corner: the previous and the next one, counter-clockwise, and its place among the corners
-  /// of its cluster. Of a point that was a corner: what they were then; else -1, -1 and 0.
-  PointId prev = -1;
-  PointId next = -1;
-  std::int32_t index = 0;
-};
 
 struct KineticHull {
   std::vector<PointId> corners;    ///< counter-clockwise; none if it was joined to another
@@ -46,14 +35,18 @@ struct KineticHull {
 /// So the corners are those of the convex hull of the cluster's points. The hulls of different
 /// clusters are disjoint: the scene joins those that come to intersect.
 ///
-/// This is simpler than the thesis's tree [Archambault03, section 3.2.4] of
-/// [BaschGuibasHershberger97]: a failure costs O(h log h) for h corners instead of O(log^2 h), and
-/// each interior point has a certificate. But only points on convex edges are kept, and only while
-/// they may still come out.
+/// So it is with HullCertificates::kTurns: a failure costs O(h) for h corners, and each interior
+/// point has a certificate; but only points on convex edges are kept, and only while they may still
+/// come out. With kTree, all points are in the tree of the thesis (hull_forest.h), which has the
+/// certificates [Archambault03, section 3.2.4; BaschGuibasHershberger97].
 class KineticHulls {
  public:
   /// Requires: both outlive it.
-  KineticHulls(CertificateQueue& queue, StepMarks& marks) : queue_(queue), marks_(marks) {}
+  KineticHulls(CertificateQueue& queue, StepMarks& marks,
+               HullCertificates certificates = HullCertificates::kTurns)
+      : queue_(queue), marks_(marks) {
+    if (certificates == HullCertificates::kTree) forest_.emplace(queue);
+  }
 
   /// A point that is in `cluster` from the next UpdateHull() until depth `end`.
   PointId Add(ClusterId cluster, const MovingPoint& path, std::int64_t end, std::int32_t tag);
@@ -74,6 +67,9 @@ class KineticHulls {
   void InvalidateCorners(PointId p);
   /// The interior point has come to the border of its triangle, or a corner of that is removed.
   void InvalidateTriangle(PointId p);
+
+  /// The certificate of a tree has failed.
+  void FailTree(std::int32_t id) { MarkChanged(forest_->Fail(id)); }
 
   /// Finds the corners anew where they changed, and marks those as displaced that have other
   /// neighbours than before. Returns how many of the new ones were interior points.
@@ -104,14 +100,19 @@ class KineticHulls {
 
   /// Throws InternalError where the corners are not those of a convex polygon.
   void CheckHull(ClusterId c) const;
+  /// Throws InternalError where a point that is alive is outside its hull.
+  void CheckPoints() const;
 
  private:
   void MarkChanged(ClusterId c);
+  [[nodiscard]] std::optional<std::vector<PointId>> CornersByTurns(ClusterId c);
+  [[nodiscard]] std::vector<PointId> CornersByTree(ClusterId c);
   void SetCorners(ClusterId c, std::vector<PointId> corners);
   void LocateInterior(PointId p);
 
   CertificateQueue& queue_;
   StepMarks& marks_;
+  std::optional<HullForest> forest_;  // HullCertificates::kTree
   SweepDepth now_;
   std::vector<KineticPoint> points_;
   std::vector<KineticHull> hulls_;

@@ -35,8 +35,13 @@ Error TooLarge() {
 
 template <typename Scene>
 KineticSweep<Scene>::KineticSweep(const Terrain& terrain, const RunControl& control,
-                           std::int64_t work_budget, bool checks)
-    : terrain_(terrain), control_(control), work_budget_(work_budget), checks_(checks), scene_(work_budget) {
+                                  const KineticOptions& options, bool checks)
+    : terrain_(terrain),
+      control_(control),
+      work_budget_(options.work_budget.value_or(DefaultKineticWorkBudget(terrain.CountEdges()))),
+      hull_certificates_(options.hull),
+      checks_(checks),
+      scene_(options.hull, work_budget_) {
   const auto posts = static_cast<std::size_t>(terrain.post_count());
   cluster_.assign(posts, -1);
   inside_.assign(posts, -1);
@@ -51,12 +56,13 @@ KineticSweep<Scene>::KineticSweep(const Terrain& terrain, const RunControl& cont
 }
 
 // Whether the largest coefficient of any predicate, the one of an orientation, leaves room for its
-// sums (core/horizon/README.md, section 7).
+// sums; or with trees the one of the turn of two edges (core/horizon/README.md, section 7).
 template <typename Scene>
 bool KineticSweep<Scene>::Fits() const {
   const auto extent = static_cast<unsigned>(std::max(terrain_.dem().columns, terrain_.dem().rows));
   const auto range = static_cast<unsigned>(summit_ - Height(order_.back()));
-  return 2 * std::bit_width(extent) + 3 * std::bit_width(range) + 6 <= 124;
+  const int factors = hull_certificates_ == HullCertificates::kTree ? 4 : 3;
+  return 2 * std::bit_width(extent) + factors * std::bit_width(range) + 6 <= 124;
 }
 
 template <typename Scene>

@@ -20,10 +20,10 @@ namespace farhorizon::kinetic {
 template <typename Scene>
 class KineticSweep {
  public:
-  /// work_budget: most EventCounts::work to be done. checks: whether all invariants of the scene
-  /// are checked after every step. Requires: `terrain` and `control` outlive it.
-  KineticSweep(const Terrain& terrain, const RunControl& control, std::int64_t work_budget,
-               bool checks);
+  /// checks: whether all invariants of the scene are checked after every step. Requires: `terrain`
+  /// and `control` outlive it.
+  KineticSweep(const Terrain& terrain, const RunControl& control, const KineticOptions& options,
+               bool checks = false);
 
   /// Goes down to depth `last`, its own events included; to the bottom by default. Call it once.
   /// Errors: those of FindHorizonKinetic.
@@ -60,6 +60,7 @@ class KineticSweep {
   const RunControl& control_;
   double reported_ = 0;
   std::int64_t work_budget_;
+  HullCertificates hull_certificates_;
   bool checks_;
   Scene scene_;
   std::int32_t summit_ = 0;

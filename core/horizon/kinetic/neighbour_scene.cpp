@@ -73,6 +73,10 @@ void NeighbourScene::Advance(const SweepDepth& now) {
         ++counts_.hull_failures;
         hulls_.InvalidateCorners(event->id);
         break;
+      case CertificateKind::kTree:
+        ++counts_.hull_failures;
+        hulls_.FailTree(event->id);
+        break;
       case CertificateKind::kInterior:
         ++counts_.interior_failures;
         hulls_.InvalidateTriangle(event->id);
@@ -215,6 +219,7 @@ void NeighbourScene::AskCorner(PointId p) {
 }
 
 void NeighbourScene::CheckAll() const {
+  hulls_.CheckPoints();
   for (const ClusterId c : hulls_.clusters()) {
     hulls_.CheckHull(c);
     for (const ClusterId other : hulls_.clusters()) {

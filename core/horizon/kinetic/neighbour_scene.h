@@ -50,8 +50,9 @@ namespace farhorizon::kinetic {
 class NeighbourScene {
  public:
   /// most_looks: SceneCounts::looks after which a step ends early and leaves the scene unfit.
-  explicit NeighbourScene(std::int64_t most_looks = std::int64_t{1} << 62)
-      : most_looks_(most_looks) {}
+  explicit NeighbourScene(HullCertificates certificates = HullCertificates::kTurns,
+                          std::int64_t most_looks = std::int64_t{1} << 62)
+      : hulls_(queue_, marks_, certificates), most_looks_(most_looks) {}
   NeighbourScene(const NeighbourScene&) = delete;
   NeighbourScene& operator=(const NeighbourScene&) = delete;
 
@@ -98,7 +99,7 @@ class NeighbourScene {
 
   CertificateQueue queue_;
   StepMarks marks_;
-  KineticHulls hulls_{queue_, marks_};
+  KineticHulls hulls_;
   SeparatingTangents tangents_{queue_, hulls_};
   std::vector<PlanBox> boxes_;                  // by cluster
   std::vector<std::vector<ClusterId>> recent_;  // by cluster: hulls that occluded its corners last
