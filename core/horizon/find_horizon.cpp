@@ -54,9 +54,12 @@ std::string ApproximationWarning(const Horizon& horizon) {
 // Removes the candidates that the kinetic engine does not find. Those that stay make the same
 // skyline as the terrain, so they suffice as occluders, too.
 Result<EventCounts> KeepKineticEdges(const Terrain& terrain, Candidates& candidates,
-                                     const RunControl& control,
-                                     std::optional<std::int64_t> work_budget) {
-  Result<KineticHorizon> kinetic = FindHorizonKinetic(terrain, control, {.work_budget = work_budget});
+                                     const RunControl& control, const HorizonOptions& options) {
+  const KineticOptions kinetic_options{.work_budget = options.work_budget,
+                                       .hull = options.engine == Engine::kKineticTree
+                                                   ? HullCertificates::kTree
+                                                   : HullCertificates::kTurns};
+  Result<KineticHorizon> kinetic = FindHorizonKinetic(terrain, control, kinetic_options);
   if (!kinetic) return std::move(kinetic.error());
   std::erase_if(candidates.edges, [&](const Candidate& candidate) {
     return !std::binary_search(kinetic->edges.begin(), kinetic->edges.end(), candidate.edge);
@@ -97,11 +100,11 @@ Result<Horizon> FindHorizon(const Terrain& terrain, const HorizonOptions& option
   horizon.statistics = sweep->statistics;
   horizon.statistics.candidates = static_cast<std::int64_t>(candidates->edges.size());
   horizon.hulls = std::move(sweep->hulls);
-  const bool kinetic = options.engine == Engine::kKinetic;
+  const bool kinetic = options.engine != Engine::kAdaptive;
   std::int64_t budget = DefaultWorkBudget(horizon.statistics.terrain_edges);
   if (kinetic) {
     Result<EventCounts> events =
-        KeepKineticEdges(terrain, *candidates, control, options.work_budget);
+        KeepKineticEdges(terrain, *candidates, control, options);
     if (!events) return std::move(events.error());
     SetCounts(horizon.statistics, *events);
   } else {

@@ -16,18 +16,19 @@ struct HorizonArguments {
   DemArguments dem;
   std::string file;
   std::string engine = "auto";
+  std::string kinetic_hull = "turns";
   std::optional<double> trace_level_m;
 };
 
-Engine EngineOf(const std::string& name) {
+Engine EngineOf(const HorizonArguments& arguments) {
   // "auto" is the adaptive engine, which is the faster one on large terrain.
-  return name == "kinetic" ? Engine::kKinetic : Engine::kAdaptive;
+  if (arguments.engine != "kinetic") return Engine::kAdaptive;
+  return arguments.kinetic_hull == "bgh" ? Engine::kKineticTree : Engine::kKinetic;
 }
 
 Workflow WorkflowOf(const HorizonArguments& arguments) {
   if (arguments.trace_level_m) return Workflow::kTrace;
-  return EngineOf(arguments.engine) == Engine::kKinetic ? Workflow::kKineticHorizon
-                                                        : Workflow::kHorizon;
+  return EngineOf(arguments) == Engine::kAdaptive ? Workflow::kHorizon : Workflow::kKineticHorizon;
 }
 
 int Run(const HorizonArguments& arguments) {
@@ -37,7 +38,7 @@ int Run(const HorizonArguments& arguments) {
                ? WriteSweepPicture(dem, arguments.file, *arguments.trace_level_m, run.options,
                                    run.control)
                : WriteHorizonEdges(dem, arguments.file, run.options, run.control,
-                                   EngineOf(arguments.engine));
+                                   EngineOf(arguments));
   }));
 }
 
@@ -60,6 +61,12 @@ void AddHorizon(CLI::App& app, SelectedCommand& selected) {
           "find the same ones")
       ->check(CLI::IsMember({"adaptive", "kinetic", "auto"}).description(""))
       ->type_name("ENGINE");
+  command
+      ->add_option("--kinetic-hull", arguments->kinetic_hull,
+                   "how --engine kinetic certifies hulls: turns, of neighbouring corners, or bgh, "
+                   "the tree of Basch, Guibas and Hershberger; both find the same edges")
+      ->check(CLI::IsMember({"turns", "bgh"}).description(""))
+      ->type_name("HULL");
   command
       ->add_option("--trace-level", arguments->trace_level_m,
                    "instead of the edges, draw the sweep at the height of Z metres: contours, "

@@ -95,6 +95,7 @@ class BitangentScene {
   [[nodiscard]] const KineticHulls& hulls() const { return hulls_; }
   [[nodiscard]] const TangentTable& tangents() const { return tangents_; }
   [[nodiscard]] const CornerOrder& order() const { return order_; }
+  [[nodiscard]] const TangentCertificates& certificates() const { return certificates_; }
   [[nodiscard]] const SceneCounts& counts() const { return counts_; }
   /// Certificates that have an event to come.
   [[nodiscard]] std::int64_t queue_size() const { return queue_.pending(); }

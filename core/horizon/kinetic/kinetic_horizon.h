@@ -19,8 +19,11 @@ struct EventCounts {
   std::int64_t saddle = 0;     ///< posts at which separate hulls join
   std::int64_t minimum = 0;    ///< posts all of whose neighbours were met before
   std::int64_t merge = 0;      ///< hulls that became part of another: at saddles and by collision
-  std::int64_t hull = 0;    ///< corners in line, and interior points that came out
+  std::int64_t hull = 0;    ///< certificates of hulls that failed
   std::int64_t inside = 0;  ///< interior points that got another triangle of their hull
+  /// Of HullCertificates::kTree, the failures of `hull` by ChainCertificate (kinetic/chain_merge.h):
+  /// x; yli and yri; yt; slt and srt; sl and sr.
+  std::array<std::int64_t, 5> tree{};
   /// Of KineticTangents::kNeighbours: corners that were asked about anew, since their cover failed;
   /// and certificates of separating tangents that failed.
   std::int64_t cover = 0;

@@ -78,6 +78,11 @@ class KineticHulls {
   /// changed then. Requires: every changed hull is up to date.
   void LocateInteriorPoints();
 
+  /// Certificates of trees that failed.
+  [[nodiscard]] std::array<std::int64_t, kChainCertificates> tree_failures() const {
+    return forest_ ? forest_->failures() : std::array<std::int64_t, kChainCertificates>{};
+  }
+
   [[nodiscard]] const SweepDepth& now() const { return now_; }
   [[nodiscard]] const KineticPoint& point(PointId p) const { return points_[Index(p)]; }
   [[nodiscard]] const MovingPoint& path(PointId p) const { return point(p).path; }

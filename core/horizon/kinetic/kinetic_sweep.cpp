@@ -139,6 +139,7 @@ KineticHorizon KineticSweep<Scene>::Take() {
   events_.merge = counts.merges;
   events_.hull = counts.hull_failures + counts.left_interior;
   events_.inside = counts.interior_failures - counts.left_interior;
+  events_.tree = scene_.hulls().tree_failures();
   events_.cover = counts.cover_failures;
   events_.separation = counts.separation_failures;
   events_.by_kind = counts.tangent_failures;

@@ -14,6 +14,7 @@ void TangentCertificates::Certify(HalfTangentId half, std::size_t which, HalfTan
   const Turn turn = TurnBetween(half, which, partner);
   if (turn == certified.turn[which]) return;
   certified.turn[which] = turn;
+  if (partner == kHullEdge) ++edge_updates_;
   const auto id = 2 * half + static_cast<std::int32_t>(which);
   if (turn.sign == 0) {
     queue_.Cancel(CertificateKind::kTangent, id);

@@ -62,6 +62,8 @@ class TangentCertificates {
   [[nodiscard]] bool HasDeferred(HalfTangentId half) const {
     return deferred(half, 0) != 0 || deferred(half, 1) != 0;
   }
+  /// How often a certificate with an edge of the hull was made anew: lemma 4.12 of the thesis.
+  [[nodiscard]] std::int64_t edge_updates() const { return edge_updates_; }
   /// Whether it and its partner are in order just after now.
   [[nodiscard]] bool Holds(HalfTangentId half, std::size_t which) const;
 
@@ -84,6 +86,7 @@ class TangentCertificates {
   const KineticHulls& hulls_;
   const TangentTable& tangents_;
   std::vector<Half> halves_;
+  std::int64_t edge_updates_ = 0;
 };
 
 }  // namespace farhorizon::kinetic

@@ -3,7 +3,9 @@
 #include "core/horizon/kinetic/kinetic_horizon.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
+#include <numeric>
 #include <random>
 #include <string>
 #include <vector>
@@ -121,7 +123,15 @@ TEST(FindHorizonKinetic, DoesNotSeeLevelEdgesThroughAContactOfTwoHulls) {
                                 Find));
 }
 
-// Throws where an invariant of the scene does not hold. Both ways to keep tangents.
+/// Every way to keep tangents and hulls.
+std::vector<KineticOptions> AllOptions() {
+  return {{},
+          {.hull = HullCertificates::kTree},
+          {.tangents = KineticTangents::kAllPairs},
+          {.tangents = KineticTangents::kAllPairs, .hull = HullCertificates::kTree}};
+}
+
+// Throws where an invariant of the scene does not hold.
 void CheckOnRandomTerrains(std::int32_t min_side, std::int32_t max_side, int rounds,
                            std::uint32_t seed) {
   std::mt19937 random(seed);
@@ -130,9 +140,7 @@ void CheckOnRandomTerrains(std::int32_t min_side, std::int32_t max_side, int rou
     Result<Terrain> terrain = Terrain::Build(dem);
     if (!terrain) continue;
     SCOPED_TRACE(DrawAscii(dem));
-    for (const KineticTangents tangents :
-         {KineticTangents::kNeighbours, KineticTangents::kAllPairs}) {
-      const KineticOptions options{.tangents = tangents};
+    for (const KineticOptions& options : AllOptions()) {
       ASSERT_NO_THROW(
           { EXPECT_EQ(FindHorizonKineticChecked(*terrain, options)->edges, Find(*terrain)); });
     }
@@ -157,8 +165,7 @@ TEST(FindHorizonKinetic, KeepsItsInvariantsWhereAJoinedHullHidesNoMoreOfAnEdgeBu
       . 0 1 1 . 0
       . 0 . 0 1 .
       2 2 1 . 0 1)");
-  for (const KineticTangents tangents : {KineticTangents::kNeighbours, KineticTangents::kAllPairs}) {
-    const KineticOptions options{.tangents = tangents};
+  for (const KineticOptions& options : AllOptions()) {
     EXPECT_NO_THROW({ EXPECT_TRUE(FindHorizonKineticChecked(*Terrain::Build(dem), options)); });
   }
 }
@@ -196,6 +203,23 @@ TEST(FindHorizonKinetic, CountsTheEventsOfTwoSummits) {
   EXPECT_EQ(events.by_kind[0] + events.by_kind[1] + events.by_kind[2] + events.by_kind[3],
             events.Bitangents());
   EXPECT_GT(events.queue_max, 0);
+}
+
+// The tree certifies all points, so it has events at which no corner changes; those at which one
+// does are the same.
+TEST(FindHorizonKinetic, CountsTheEventsOfTheTreeBesideThoseOfTheTurns) {
+  const Terrain terrain = *Terrain::Build(FractalDem(33, 3000, 100, 8));
+  const EventCounts turns = FindHorizonKinetic(terrain, {})->events;
+  const EventCounts tree =
+      FindHorizonKinetic(terrain, {}, {.hull = HullCertificates::kTree})->events;
+  EXPECT_GT(turns.inside, 0);
+  EXPECT_EQ(tree.inside, 0) << "no point has a triangle";
+  EXPECT_GT(tree.hull, turns.hull);
+  EXPECT_EQ(std::accumulate(tree.tree.begin(), tree.tree.end(), std::int64_t{0}), tree.hull);
+  for (const std::int64_t of_kind : tree.tree) EXPECT_GT(of_kind, 0);
+  EXPECT_EQ(std::accumulate(turns.tree.begin(), turns.tree.end(), std::int64_t{0}), 0);
+  EXPECT_EQ(tree.merge, turns.merge);
+  EXPECT_EQ(tree.clusters_max, turns.clusters_max);
 }
 
 TEST(FindHorizon, GivesTheKineticEnginesEdgesWitnessesThatHold) {

@@ -30,6 +30,22 @@ class Chains {
     const std::int64_t part = scale >> k;
     return {d_ * (scale - part) - k, part, -k, part, scale};
   }
+  /// In place of b_k, one that stays l / scale above the line (lemma 4.14).
+  [[nodiscard]] MovingPoint Above(std::int64_t k, std::int64_t l) const {
+    MovingPoint point = B(k);
+    point.x += k + l;
+    point.y += k + l;
+    return point;
+  }
+  /// Where a point moves that starts at b_k and is `share` of the way that b_k goes in n, at `y`.
+  [[nodiscard]] MovingPoint Below(std::int64_t k, std::int64_t quarters, std::int64_t y) const {
+    MovingPoint point = B(k);
+    point.x = 4 * (point.x + k) + quarters * n_ * point.vx;
+    point.y = 4 * y * point.d;
+    point.d *= 4;
+    point.vx = point.vy = 0;
+    return point;
+  }
   [[nodiscard]] std::int64_t d() const { return d_; }
 
  private:
@@ -219,6 +235,83 @@ TEST_P(WorstCase, TakesABitangentOfTwoHullsThroughEveryPair) {
   EXPECT_EQ(scene.counts().tangent_failures[0] + scene.counts().tangent_failures[1], 0)
       << "two hulls make no tritangents";
   EXPECT_GE(scene.counts().tangent_failures[2], 2 * n * n - n - 1);
+}
+
+// Lemma 4.11: the same two contours with a mountain between them, which occludes all bitangents.
+TEST_P(WorstCase, TakesAnInactiveBitangentThroughEveryPair) {
+  const std::int64_t n = GetParam();
+  const Chains chains(n);
+  BitangentScene scene;
+  const ClusterId a = scene.NewCluster();
+  const ClusterId b = scene.NewCluster();
+  const ClusterId mountain = scene.NewCluster();
+  for (std::int64_t i = 0; i < n; ++i) {
+    scene.Add(a, chains.A(i), n, static_cast<std::int32_t>(i));
+    scene.Add(b, chains.B(i), n, static_cast<std::int32_t>(i));
+  }
+  scene.Add(a, MovingPoint::Standing(-chains.d() - n, -9999), kNever, kFoot);
+  scene.Add(b, MovingPoint::Standing(chains.d() / 2, -9999), kNever, kFoot);
+  for (const std::int64_t x : {-1, 1}) {
+    for (const std::int64_t y : {-99'999, 99'999}) {
+      scene.Add(mountain, MovingPoint::Standing(x - chains.d() / 2, y), kNever, kFoot);
+    }
+  }
+
+  std::vector<std::pair<std::int32_t, std::int32_t>> pairs;
+  Play(scene, n, [&] {
+    scene.CheckAll();
+    const TangentId first = scene.tangents().First(a, b);
+    for (TangentId t = first; t < first + 4; ++t) {
+      EXPECT_FALSE(scene.order().IsActive(2 * t) || scene.order().IsActive(2 * t + 1));
+      const auto [p, q] = scene.tangents().contacts(t);
+      const std::pair pair(scene.hulls().point(p).tag, scene.hulls().point(q).tag);
+      if (!TangentTable::Outer(t) || pair.first == kFoot || pair.second == kFoot) continue;
+      if (pairs.empty() || pairs.back() != pair) pairs.push_back(pair);
+    }
+  });
+  EXPECT_EQ(static_cast<std::int64_t>(pairs.size()) - 1, 2 * n * n - n - 1);
+  EXPECT_EQ(static_cast<std::int64_t>(std::set(pairs.begin(), pairs.end()).size()), n * n);
+  EXPECT_GE(scene.counts().tangent_failures[3], 2 * n * n - n - 1) << "inactive, at hull edges";
+}
+
+// Lemma 4.14: the last points of chain B are the tops of contours of their own, which stay just
+// above the line that the others stay below. Each time the bridge of the two chains changes, the
+// certificates of the bitangents from a_j to these tops have another edge of the hull.
+TEST_P(WorstCase, UpdatesTheCertificatesOfAllContoursWhereTheBridgeChanges) {
+  const std::int64_t n = GetParam();
+  const std::int64_t contours = n / 2;
+  const std::int64_t on_chain = n - contours;
+  const Chains chains(n);
+  BitangentScene scene;
+  const ClusterId c = scene.NewCluster();
+  for (std::int64_t i = 0; i < n; ++i) {
+    scene.Add(c, chains.A(i), n, static_cast<std::int32_t>(i));
+    if (i < on_chain) scene.Add(c, chains.B(i), n, static_cast<std::int32_t>(n + i));
+  }
+  scene.Add(c, MovingPoint::Standing(-chains.d(), -9999), kNever, kFoot);
+  scene.Add(c, chains.Below(on_chain - 1, 6, -9999), kNever, kFoot);
+  for (std::int64_t l = 0; l < contours; ++l) {
+    const ClusterId contour = scene.NewCluster();
+    scene.Add(contour, chains.Above(on_chain + l, l + 1), n, static_cast<std::int32_t>(2 * n + l));
+    scene.Add(contour, chains.Below(on_chain + l, -1, -9999), kNever, kFoot);
+    scene.Add(contour, chains.Below(on_chain + l, 5, -9999), kNever, kFoot);
+  }
+
+  std::int64_t changes = -1;
+  std::pair<std::int32_t, std::int32_t> bridge(-1, -1);
+  Play(scene, n, [&] {
+    scene.CheckAll();
+    for (const PointId p : scene.hulls().corners(scene.Find(c))) {
+      const KineticPoint& from = scene.hulls().point(p);
+      const std::int32_t to = scene.hulls().point(from.next).tag;
+      if (from.tag < n || to == kFoot || to >= n || bridge == std::pair(to, from.tag)) continue;
+      bridge = {to, from.tag};
+      ++changes;
+    }
+  });
+  EXPECT_EQ(scene.counts().merges, 0);
+  EXPECT_GE(changes, 2 * n * on_chain - n - 1);
+  EXPECT_GE(scene.certificates().edge_updates(), changes * (contours - 1));
 }
 
 INSTANTIATE_TEST_SUITE_P(Chains, WorstCase, testing::Values(3, 4, 5, 6, 8, 10));
