@@ -103,8 +103,7 @@ Result<Horizon> FindHorizon(const Terrain& terrain, const HorizonOptions& option
   const bool kinetic = options.engine != Engine::kAdaptive;
   std::int64_t budget = DefaultWorkBudget(horizon.statistics.terrain_edges);
   if (kinetic) {
-    Result<EventCounts> events =
-        KeepKineticEdges(terrain, *candidates, control, options);
+    Result<EventCounts> events = KeepKineticEdges(terrain, *candidates, control, options);
     if (!events) return std::move(events.error());
     SetCounts(horizon.statistics, *events);
   } else {

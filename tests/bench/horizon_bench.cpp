@@ -123,8 +123,9 @@ void RegisterRealDems() {
                                  path)
         ->UseRealTime()
         ->Unit(benchmark::kMillisecond);
-    for (const auto& [name, hull] : {std::pair("FindHorizonKineticOf/", HullCertificates::kTurns),
-                                     std::pair("FindHorizonKineticTreeOf/", HullCertificates::kTree)}) {
+    for (const auto& [name, hull] :
+         {std::pair("FindHorizonKineticOf/", HullCertificates::kTurns),
+          std::pair("FindHorizonKineticTreeOf/", HullCertificates::kTree)}) {
       benchmark::RegisterBenchmark((name + path.stem().string()).c_str(), FindHorizonKineticOf,
                                    path, hull)
           ->UseRealTime()

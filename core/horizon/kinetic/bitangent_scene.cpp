@@ -13,7 +13,8 @@
 
 namespace farhorizon::kinetic {
 
-PointId BitangentScene::Add(ClusterId cluster, const MovingPoint& path, std::int64_t end, std::int32_t tag) {
+PointId BitangentScene::Add(ClusterId cluster, const MovingPoint& path, std::int64_t end,
+                            std::int32_t tag) {
   order_.AddPoint();
   return hulls_.Add(cluster, path, end, tag);
 }

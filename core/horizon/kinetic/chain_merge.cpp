@@ -35,8 +35,7 @@ std::optional<SweepDepth> FirstFailure(const Quadratic& q, const SweepDepth& now
   const auto last = static_cast<double>(end);
   const auto holds = [&](double a, double b) {
     const double value = c0 + c1 * (a + b) / 2 + c2 * a * b;
-    const double size =
-        std::fabs(c0) + std::fabs(c1) * (a + b) / 2 + std::fabs(c2) * a * b;
+    const double size = std::fabs(c0) + std::fabs(c1) * (a + b) / 2 + std::fabs(c2) * a * b;
     return value > size * 0x1p-48;  // three terms of two roundings at most, and two sums
   };
   if (holds(first, first) && holds(first, last) && holds(last, last)) return std::nullopt;
@@ -93,8 +92,7 @@ void ChainMerger::FindChain(std::span<const PointId> red, std::span<const PointI
   std::size_t i = 0;
   std::size_t k = 0;
   while (i < red.size() || k < blue.size()) {
-    const bool take_red =
-        k == blue.size() || (i < red.size() && Order(red[i], blue[k]) <= 0);
+    const bool take_red = k == blue.size() || (i < red.size() && Order(red[i], blue[k]) <= 0);
     const PointId p = take_red ? red[i++] : blue[k++];
     if (!chain.empty() && Order(chain.back(), p) == 0) continue;  // they are one for ever
     while (chain.size() >= 2 && Orient(chain[chain.size() - 2], chain.back(), p) >= 0) {
@@ -141,9 +139,7 @@ void ChainMerger::CertifyX() {
 
 void ChainMerger::CertifyBridges(bool red_is_first, bool red_is_last) {
   for (std::size_t i = 0; i <= edges_.size(); ++i) {
-    const auto red_on_top = [&](std::size_t at) {
-      return edges_[at].red == edges_[at].on_top;
-    };
+    const auto red_on_top = [&](std::size_t at) { return edges_[at].red == edges_[at].on_top; };
     const bool before = i == 0 ? red_is_first : red_on_top(i - 1);
     const bool after = i == edges_.size() ? red_is_last : red_on_top(i);
     if (before == after) continue;
@@ -185,8 +181,8 @@ void ChainMerger::CertifyOrder(ChainCertificate kind, PointId left, PointId righ
   Quadratic step = StepX(path(left), path(right));
   if (step.c0 == 0 && step.c1 == 0) step = StepY(path(left), path(right));
   if (sense_ < 0) step = Negative(step);
-  Note(kind, FirstFailure(step, now_,
-                          std::min(points_[Index(left)].end, points_[Index(right)].end)));
+  Note(kind,
+       FirstFailure(step, now_, std::min(points_[Index(left)].end, points_[Index(right)].end)));
 }
 
 void ChainMerger::Note(ChainCertificate kind, const std::optional<SweepDepth>& at) {

@@ -40,9 +40,9 @@ std::optional<ClusterId> HorizontalEdgeVisibility<Scene>::HullAround(const Movin
     if (is_placed && !box(c).Contains(x, y)) continue;
     const std::vector<PointId>& ring = hulls_.corners(c);
     std::size_t i = 0;
-    while (i < ring.size() && OrientAfter(hulls_.path(ring[i]),
-                                          hulls_.path(ring[(i + 1) % ring.size()]), p,
-                                          hulls_.now()) >= 0) {
+    while (i < ring.size() &&
+           OrientAfter(hulls_.path(ring[i]), hulls_.path(ring[(i + 1) % ring.size()]), p,
+                       hulls_.now()) >= 0) {
       ++i;
     }
     if (i == ring.size()) return c;
@@ -53,13 +53,13 @@ std::optional<ClusterId> HorizontalEdgeVisibility<Scene>::HullAround(const Movin
 // Where the point leaves the hull; nullopt: not before the end of the edge.
 template <typename Scene>
 std::optional<SweepDepth> HorizontalEdgeVisibility<Scene>::WayOutOf(ClusterId c,
-                                                             const MovingPoint& p) const {
+                                                                    const MovingPoint& p) const {
   const std::vector<PointId>& ring = hulls_.corners(c);
   std::optional<SweepDepth> first;
   for (std::size_t i = 0; i < ring.size(); ++i) {
-    const std::optional<SweepDepth> at = TurnFailureAfter(
-        {hulls_.path(ring[i]), hulls_.path(ring[(i + 1) % ring.size()]), p}, 1, hulls_.now(),
-        kEndOfEdge);
+    const std::optional<SweepDepth> at =
+        TurnFailureAfter({hulls_.path(ring[i]), hulls_.path(ring[(i + 1) % ring.size()]), p}, 1,
+                         hulls_.now(), kEndOfEdge);
     if (at && (!first || Compare(*at, *first) < 0)) first = at;
   }
   return first;

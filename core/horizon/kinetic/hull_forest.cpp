@@ -86,8 +86,7 @@ void HullForest::Join(ClusterId kept, ClusterId lost) {
 ClusterId HullForest::Fail(std::int32_t id) {
   const Place& place = places_[Index(id)];
   Tree& tree = trees_[Index(place.cluster)];
-  const Hull& hull =
-      tree.nodes[Index(place.level)][Index(place.hull / 2)][Index(place.hull % 2)];
+  const Hull& hull = tree.nodes[Index(place.level)][Index(place.hull / 2)][Index(place.hull % 2)];
   ++failures_[static_cast<std::size_t>(hull.failing)];
   MarkDirty(tree, Index(place.level), place.hull);
   return place.cluster;

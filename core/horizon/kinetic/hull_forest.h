@@ -62,8 +62,8 @@ class HullForest {
   };
   using Node = std::array<Hull, 2>;  ///< upper, lower
   struct Tree {
-    std::vector<PointId> leaves;           ///< -1: empty
-    std::vector<std::vector<Node>> nodes;  ///< by level above the leaves
+    std::vector<PointId> leaves;                   ///< -1: empty
+    std::vector<std::vector<Node>> nodes;          ///< by level above the leaves
     std::vector<std::vector<std::int32_t>> dirty;  ///< by level: 2 * node + 0 or 1
     std::int32_t points = 0;
   };

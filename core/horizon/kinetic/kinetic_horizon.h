@@ -14,13 +14,13 @@ namespace farhorizon {
 
 /// How many events a kinetic sweep had, by kind [Archambault03, section 3.2].
 struct EventCounts {
-  std::int64_t peak = 0;       ///< posts that begin a hull of their own
-  std::int64_t regular = 0;    ///< posts that do none of the others (a peak inside a hull is one)
-  std::int64_t saddle = 0;     ///< posts at which separate hulls join
-  std::int64_t minimum = 0;    ///< posts all of whose neighbours were met before
-  std::int64_t merge = 0;      ///< hulls that became part of another: at saddles and by collision
-  std::int64_t hull = 0;    ///< certificates of hulls that failed
-  std::int64_t inside = 0;  ///< interior points that got another triangle of their hull
+  std::int64_t peak = 0;     ///< posts that begin a hull of their own
+  std::int64_t regular = 0;  ///< posts that do none of the others (a peak inside a hull is one)
+  std::int64_t saddle = 0;   ///< posts at which separate hulls join
+  std::int64_t minimum = 0;  ///< posts all of whose neighbours were met before
+  std::int64_t merge = 0;    ///< hulls that became part of another: at saddles and by collision
+  std::int64_t hull = 0;     ///< certificates of hulls that failed
+  std::int64_t inside = 0;   ///< interior points that got another triangle of their hull
   /// Of HullCertificates::kTree, the failures of `hull` by ChainCertificate (kinetic/chain_merge.h):
   /// x; yli and yri; yt; slt and srt; sl and sr.
   std::array<std::int64_t, 5> tree{};

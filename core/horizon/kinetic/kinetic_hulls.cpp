@@ -207,13 +207,24 @@ std::optional<std::vector<PointId>> KineticHulls::CornersByTurns(ClusterId c) {
     std::erase_if(ring, [this](PointId p) { return !point(p).alive; });
     if (!apart) RemoveReflex(*this, ring);
   }
-  if (apart || ring.size() < 3) {
+  const auto found_anew = [&] {
     candidates.insert(candidates.end(), hull.corners.begin(), hull.corners.end());
     std::erase_if(candidates, [this](PointId p) { return !point(p).alive; });
     return HullOf(*this, std::move(candidates));
-  }
+  };
+  if (apart || ring.size() < 3) return found_anew();
   for (const PointId p : candidates) changes = AddOutside(*this, p, ring) || changes;
   if (!changes) return std::nullopt;
+  // Corners that met, as those of terrain never do, may be out of order.
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    points_[Index(ring[i])].index = static_cast<std::int32_t>(i);
+  }
+  const bool all_inside = std::all_of(hull.corners.begin(), hull.corners.end(), [&](PointId p) {
+    const auto index = static_cast<std::size_t>(point(p).index);
+    const bool stays = index < ring.size() && ring[index] == p;
+    return stays || !point(p).alive || TriangleAround(*this, ring, path(p));
+  });
+  if (!all_inside) return found_anew();
   return ring;
 }
 

@@ -64,13 +64,13 @@ class KineticSweep {
   bool checks_;
   Scene scene_;
   std::int32_t summit_ = 0;
-  std::vector<VertexId> order_;                 // from the summit down
-  std::vector<ClusterId> cluster_;              // per post; -1 below the plane
-  std::vector<ClusterId> inside_;               // per post: a cluster whose hull has it inside; -1
-  std::vector<PointId> arriving_;               // per post: the last point whose edge ends there
-  std::vector<PointId> arriving_too_;           // per point: the one before it; -1
-  std::vector<ClusterId> containing_;           // of PassPosts()
-  std::vector<Edge> edges_;                     // by tag
+  std::vector<VertexId> order_;        // from the summit down
+  std::vector<ClusterId> cluster_;     // per post; -1 below the plane
+  std::vector<ClusterId> inside_;      // per post: a cluster whose hull has it inside; -1
+  std::vector<PointId> arriving_;      // per post: the last point whose edge ends there
+  std::vector<PointId> arriving_too_;  // per point: the one before it; -1
+  std::vector<ClusterId> containing_;  // of PassPosts()
+  std::vector<Edge> edges_;            // by tag
   EventCounts events_;
   KineticHorizon result_;
 };

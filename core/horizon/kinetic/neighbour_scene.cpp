@@ -209,13 +209,13 @@ void NeighbourScene::AskCorner(PointId p) {
   const Place at = PlaceAt(corner.path, hulls_.now().lo);
   const bool is_placed = hulls_.now().hi - hulls_.now().lo < PlanBox::kMargin / 2;
   const auto box_of = [this](ClusterId c) -> const PlanBox& { return box(c); };
-  if (FindFreeLine(pencil, {hulls_.clusters(), own, at.x, at.y, is_placed}, box_of, counts_.looks)) {
+  if (FindFreeLine(pencil, {hulls_.clusters(), own, at.x, at.y, is_placed}, box_of,
+                   counts_.looks)) {
     on_horizon_[Index(p)] = true;
     return;
   }
   recent = pencil.cover();
-  queue_.Schedule(CertificateKind::kCover, p,
-                  pencil.FailureBefore(corner.end));
+  queue_.Schedule(CertificateKind::kCover, p, pencil.FailureBefore(corner.end));
 }
 
 void NeighbourScene::CheckAll() const {

@@ -57,8 +57,8 @@ class PlanBox {
   /// How wide the octagon is, over how far it is from (x, y): about the angle that it takes there.
   [[nodiscard]] double WidthFrom(double x, double y) const {
     const double width = high_[0] - low_[0] + high_[1] - low_[1];
-    const double away = std::abs(x - (low_[0] + high_[0]) / 2) +
-                        std::abs(y - (low_[1] + high_[1]) / 2);
+    const double away =
+        std::abs(x - (low_[0] + high_[0]) / 2) + std::abs(y - (low_[1] + high_[1]) / 2);
     return width / (away + 1);
   }
   /// Whether the line through (x, y), off by kMargin at most, in direction (u, v) surely misses the

@@ -110,9 +110,8 @@ void SeparatingTangents::Certify(TangentId t) {
   for (const PointId corner : {p.prev, p.next, q.prev, q.next}) {
     const bool of_p = corner == p.prev || corner == p.next;
     const KineticPoint& beside = hulls_.point(corner);
-    const std::optional<SweepDepth> at =
-        TurnFailureAfter({p.path, q.path, beside.path}, of_p ? 1 : -1, hulls_.now(),
-                         std::min(end, beside.end));
+    const std::optional<SweepDepth> at = TurnFailureAfter(
+        {p.path, q.path, beside.path}, of_p ? 1 : -1, hulls_.now(), std::min(end, beside.end));
     if (at && (!first || Compare(*at, *first) < 0)) first = at;
   }
   queue_.Schedule(CertificateKind::kTangent, t, first);

@@ -4,11 +4,11 @@ namespace farhorizon {
 
 namespace {
 
+using kinetic::BitangentScene;
 using kinetic::ClusterId;
 using kinetic::KineticHulls;
 using kinetic::MovingPoint;
 using kinetic::PointId;
-using kinetic::BitangentScene;
 using kinetic::TangentId;
 
 PlanPoint Where(const MovingPoint& p, std::int64_t s) {

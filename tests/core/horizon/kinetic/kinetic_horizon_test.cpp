@@ -253,10 +253,12 @@ TEST(FindHorizonKinetic, EndsWithAnErrorWhereTheWorkBudgetDoesNotSuffice) {
   const Dem dem = FractalDem(33, 3000, 100, 8);
   const Terrain terrain = *Terrain::Build(dem);
   const KineticHorizon whole = *FindHorizonKinetic(terrain, {});
-  Result<KineticHorizon> enough = FindHorizonKinetic(terrain, {}, {.work_budget = whole.events.work});
+  Result<KineticHorizon> enough =
+      FindHorizonKinetic(terrain, {}, {.work_budget = whole.events.work});
   ASSERT_TRUE(enough) << enough.error().message;
   EXPECT_EQ(enough->edges, whole.edges);
-  Result<KineticHorizon> scarce = FindHorizonKinetic(terrain, {}, {.work_budget = whole.events.work - 1});
+  Result<KineticHorizon> scarce =
+      FindHorizonKinetic(terrain, {}, {.work_budget = whole.events.work - 1});
   ASSERT_FALSE(scarce);
   EXPECT_EQ(scarce.error().code, ErrorCode::kResourceExhausted);
   EXPECT_EQ(scarce.error().kind, "work-budget");
