@@ -6,10 +6,10 @@
 
 #include <algorithm>
 
-#include "core/horizon/kinetic/bitangent_scene.h"
-#include "core/horizon/kinetic/free_line.h"
-#include "core/horizon/kinetic/line_pencil.h"
-#include "core/horizon/kinetic/neighbour_scene.h"
+#include "core/horizon/kinetic/bitangents/bitangent_scene.h"
+#include "core/horizon/kinetic/neighbours/free_line.h"
+#include "core/horizon/kinetic/neighbours/line_pencil.h"
+#include "core/horizon/kinetic/neighbours/neighbour_scene.h"
 
 namespace farhorizon::kinetic {
 

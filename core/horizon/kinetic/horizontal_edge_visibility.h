@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "core/geometry/point.h"
-#include "core/horizon/kinetic/frozen_hulls.h"
-#include "core/horizon/kinetic/moving_point.h"
-#include "core/horizon/kinetic/plan_box.h"
+#include "core/horizon/kinetic/hulls/moving_point.h"
+#include "core/horizon/kinetic/hulls/plan_box.h"
+#include "core/horizon/kinetic/neighbours/frozen_hulls.h"
 
 namespace farhorizon::kinetic {
 

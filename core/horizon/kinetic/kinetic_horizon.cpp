@@ -4,9 +4,9 @@
 #include <optional>
 #include <utility>
 
-#include "core/horizon/kinetic/bitangent_scene.h"
+#include "core/horizon/kinetic/bitangents/bitangent_scene.h"
 #include "core/horizon/kinetic/kinetic_sweep.h"
-#include "core/horizon/kinetic/neighbour_scene.h"
+#include "core/horizon/kinetic/neighbours/neighbour_scene.h"
 
 namespace farhorizon {
 

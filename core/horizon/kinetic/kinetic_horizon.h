@@ -7,7 +7,7 @@
 
 #include "core/base/result.h"
 #include "core/base/run_control.h"
-#include "core/horizon/kinetic/hull_certificates.h"
+#include "core/horizon/kinetic/hulls/hull_certificates.h"
 #include "core/terrain/terrain.h"
 
 namespace farhorizon {
@@ -21,8 +21,8 @@ struct EventCounts {
   std::int64_t merge = 0;    ///< hulls that became part of another: at saddles and by collision
   std::int64_t hull = 0;     ///< certificates of hulls that failed
   std::int64_t inside = 0;   ///< interior points that got another triangle of their hull
-  /// Of HullCertificates::kTree, the failures of `hull` by ChainCertificate (kinetic/chain_merge.h):
-  /// x; yli and yri; yt; slt and srt; sl and sr.
+  /// Of HullCertificates::kTree, the failures of `hull` by ChainCertificate (chain_merge.h): x; yli
+  /// and yri; yt; slt and srt; sl and sr.
   std::array<std::int64_t, 5> tree{};
   /// Of KineticTangents::kNeighbours: corners that were asked about anew, since their cover failed;
   /// and certificates of separating tangents that failed.
@@ -66,9 +66,9 @@ struct KineticOptions {
 ///
 /// Exact for every terrain within the limits, equal heights and posts in line included.
 /// Errors: kCancelled; kUnsupportedData, kind kinetic-too-large, where 2 log2(columns or rows) + 3
-/// log2(range of heights in quanta) is beyond 118 (with trees 4 of the latter): remedy, the adaptive
-/// engine; kResourceExhausted,
-/// kind work-budget, where the budget is spent: the same remedy.
+/// log2(range of heights in quanta) is beyond 118, with HullCertificates::kTree 4 of the latter:
+/// remedy, the adaptive engine; kResourceExhausted, kind work-budget, where the budget is spent:
+/// the same remedy.
 /// Cost: memory O(n + m) for m hulls apart (kNeighbours).
 Result<KineticHorizon> FindHorizonKinetic(const Terrain& terrain, const RunControl& control,
                                           const KineticOptions& options = {});

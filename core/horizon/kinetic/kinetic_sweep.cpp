@@ -1,8 +1,8 @@
 // The sweep plane falls from height to height of posts; between two of these, the scene deals with
 // its own events (algorithm 3.1 of [Archambault03]). No heights are perturbed. All posts of one
 // height and all certificates that fail there are one event, and what is true just below is found
-// from the signs of the predicates just below (scene.h). So between two events each edge that is on
-// the horizon for a while is found there; for sloped edges that is definition D2
+// from the signs of the predicates just below (neighbour_scene.h). So between two events each edge
+// that is on the horizon for a while is found there; for sloped edges that is definition D2
 // (core/horizon/README.md, theorem 10), since a line that only touches an edge at an event is in no
 // open set of such lines. Horizontal edges are in the slice at one event only and are asked of the
 // scene's limit from above (horizontal_edge_visibility.h): ground of their own height does not
@@ -15,10 +15,10 @@
 #include <string>
 #include <utility>
 
-#include "core/horizon/kinetic/bitangent_scene.h"
+#include "core/horizon/kinetic/bitangents/bitangent_scene.h"
 #include "core/horizon/kinetic/horizontal_edge_visibility.h"
-#include "core/horizon/kinetic/hull_location.h"
-#include "core/horizon/kinetic/neighbour_scene.h"
+#include "core/horizon/kinetic/hulls/hull_location.h"
+#include "core/horizon/kinetic/neighbours/neighbour_scene.h"
 
 namespace farhorizon::kinetic {
 

@@ -6,9 +6,9 @@
 
 #include "core/base/result.h"
 #include "core/base/run_control.h"
+#include "core/horizon/kinetic/hulls/step_marks.h"
+#include "core/horizon/kinetic/hulls/sweep_depth.h"
 #include "core/horizon/kinetic/kinetic_horizon.h"
-#include "core/horizon/kinetic/step_marks.h"
-#include "core/horizon/kinetic/sweep_depth.h"
 #include "core/terrain/terrain.h"
 
 namespace farhorizon::kinetic {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "core/horizon/kinetic/bitangent_scene.h"
+#include "core/horizon/kinetic/bitangents/bitangent_scene.h"
 #include "core/horizon/kinetic/kinetic_sweep.h"
 #include "core/horizon/sweep/candidates.h"
 #include "core/horizon/sweep/hull_sweep.h"

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "core/horizon/kinetic/bitangent_scene.h"
+#include "core/horizon/kinetic/bitangents/bitangent_scene.h"
 #include "core/horizon/trace/sweep_trace.h"
 
 namespace farhorizon {

@@ -1,5 +1,5 @@
 // The kinetic engine against the definition, and against the adaptive engine where the brute force
-// is too slow. Runs the whole engine; the scene by itself is in scene_test.cpp.
+// is too slow. Runs the whole engine; the scene by itself is in neighbour_scene_test.cpp.
 #include "core/horizon/kinetic/kinetic_horizon.h"
 
 #include <algorithm>
