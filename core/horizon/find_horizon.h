@@ -13,8 +13,9 @@ namespace farhorizon {
 
 /// The algorithm that finds the edges. Both find the same ones. kKinetic is the thesis's own
 /// (kinetic_horizon.h) and has its limits; it uses the adaptive decision for witnesses only, and an
-/// edge without a witness is an InternalError.
-enum class Engine { kAdaptive, kKinetic };
+/// edge without a witness is an InternalError. kKineticTree is the same with hulls certified by the
+/// tree of [BaschGuibasHershberger97].
+enum class Engine { kAdaptive, kKinetic, kKineticTree };
 
 struct HorizonOptions {
   int threads = 1;  ///< never changes the answer

@@ -17,12 +17,14 @@ struct HorizonArguments {
   std::string file;
   std::string engine = "auto";
   std::string weights = "full";
+  std::string kinetic_hull = "turns";
   std::optional<double> trace_level_m;
 };
 
-Engine EngineOf(const std::string& name) {
+Engine EngineOf(const HorizonArguments& arguments) {
   // "auto" is the adaptive engine, which is the faster one on large terrain.
-  return name == "kinetic" ? Engine::kKinetic : Engine::kAdaptive;
+  if (arguments.engine != "kinetic") return Engine::kAdaptive;
+  return arguments.kinetic_hull == "bgh" ? Engine::kKineticTree : Engine::kKinetic;
 }
 
 Weights WeightsOf(const std::string& name) {
@@ -31,8 +33,7 @@ Weights WeightsOf(const std::string& name) {
 
 Workflow WorkflowOf(const HorizonArguments& arguments) {
   if (arguments.trace_level_m) return Workflow::kTrace;
-  return EngineOf(arguments.engine) == Engine::kKinetic ? Workflow::kKineticHorizon
-                                                        : Workflow::kHorizon;
+  return EngineOf(arguments) == Engine::kAdaptive ? Workflow::kHorizon : Workflow::kKineticHorizon;
 }
 
 int Run(const HorizonArguments& arguments) {
@@ -43,7 +44,7 @@ int Run(const HorizonArguments& arguments) {
                                    run.control)
                : WriteHorizonEdges(dem, arguments.file,
                                    {.build = run.options,
-                                    .engine = EngineOf(arguments.engine),
+                                    .engine = EngineOf(arguments),
                                     .weights = WeightsOf(arguments.weights)},
                                    run.control);
   }));
@@ -66,6 +67,12 @@ void AddHorizon(Command& program, SelectedCommand& selected) {
                      .help = "algorithm that finds the edges: adaptive, kinetic, or auto, which is "
                              "adaptive; all find the same ones"},
                     arguments->engine, {"adaptive", "kinetic", "auto"});
+  command.AddChoice({.names = "--kinetic-hull",
+                     .type = "HULL",
+                     .help = "how --engine kinetic certifies hulls: turns, of neighbouring corners, "
+                             "or bgh, the tree of Basch, Guibas and Hershberger; both find the same "
+                             "edges"},
+                    arguments->kinetic_hull, {"turns", "bgh"});
   command.AddChoice({.names = "--weights",
                      .type = "W",
                      .help = "what is said of each edge beside its witness: none; fast, all that "
