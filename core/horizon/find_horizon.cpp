@@ -22,18 +22,10 @@ namespace farhorizon {
 
 namespace {
 
-Error TooNarrow(const Terrain& terrain, Edge edge) {
-  const auto post = [&terrain](VertexId v) {
-    const Point3i p = terrain.Point(v);
-    return "(" + std::to_string(p.x) + ", " + std::to_string(p.y) + ") of height " +
-           std::to_string(p.z);
-  };
-  return {ErrorCode::kUnsupportedData,
-          "the edge from post " + post(edge.a) + " to post " + post(edge.b) +
-              " quanta is on the horizon through a gap too narrow for the witness to be written: "
-              "cliffs of this height differ by too little; round the heights to a coarser unit, or "
-              "mark spikes as nodata",
-          "sight-too-narrow"};
+std::string TooNarrowWarning(std::int64_t edges) {
+  return std::to_string(edges) +
+         " edges are on the horizon through gaps too narrow for a witness to be written, between "
+         "cliffs whose heights differ by too little; they have none";
 }
 
 std::string ApproximationWarning(const Horizon& horizon) {
@@ -45,9 +37,12 @@ std::string ApproximationWarning(const Horizon& horizon) {
 // Removes the candidates that the kinetic engine does not find. Those that stay make the same
 // skyline as the terrain, so they suffice as occluders, too.
 Result<EventCounts> KeepKineticEdges(const Terrain& terrain, Candidates& candidates,
-                                     const RunControl& control,
-                                     std::optional<std::int64_t> work_budget) {
-  Result<KineticHorizon> kinetic = FindHorizonKinetic(terrain, control, work_budget);
+                                     const RunControl& control, const HorizonOptions& options) {
+  const KineticOptions kinetic_options{.work_budget = options.work_budget,
+                                       .hull = options.engine == Engine::kKineticTree
+                                                   ? HullCertificates::kTree
+                                                   : HullCertificates::kTurns};
+  Result<KineticHorizon> kinetic = FindHorizonKinetic(terrain, control, kinetic_options);
   if (!kinetic) return std::move(kinetic.error());
   std::erase_if(candidates.edges, [&](const Candidate& candidate) {
     return !std::binary_search(kinetic->edges.begin(), kinetic->edges.end(), candidate.edge);
@@ -65,7 +60,7 @@ void SetCounts(HorizonStatistics& statistics, const EventCounts& events) {
   statistics.minima = events.minimum;
   statistics.merges = events.merge;
   statistics.hull_changes = events.hull;
-  statistics.bitangents = events.bitangent;
+  statistics.bitangents = events.Bitangents();
   statistics.clusters_max = events.clusters_max;
   statistics.queue_max = events.queue_max;
 }
@@ -81,7 +76,7 @@ std::int64_t DefaultWorkBudget(std::int64_t terrain_edges) {
 WorkBudget WorkBudgetOf(const Terrain& terrain, const HorizonOptions& options) {
   // The option counts the kinetic engine's own steps.
   const std::optional<std::int64_t> given =
-      options.engine == Engine::kKinetic ? std::nullopt : options.work_budget;
+      options.engine != Engine::kAdaptive ? std::nullopt : options.work_budget;
   return WorkBudget(given ? *given : DefaultWorkBudget(terrain.CountEdges()), options.approximate);
 }
 
@@ -105,10 +100,9 @@ Result<Horizon> FindHorizon(const Terrain& terrain, const HorizonOptions& option
     horizon.hulls = std::move(sweep->hulls);
   }
   horizon.statistics.candidates = std::ssize(candidates.edges);
-  const bool kinetic = options.engine == Engine::kKinetic;
+  const bool kinetic = options.engine != Engine::kAdaptive;
   if (kinetic) {
-    Result<EventCounts> events =
-        KeepKineticEdges(terrain, candidates, control, options.work_budget);
+    Result<EventCounts> events = KeepKineticEdges(terrain, candidates, control, options);
     if (!events) return std::move(events.error());
     SetCounts(horizon.statistics, *events);
   }
@@ -124,11 +118,13 @@ Result<Horizon> FindHorizon(const Terrain& terrain, const HorizonOptions& option
   if (decider.undecided() > 0) control.Warn(ApproximationWarning(horizon));
   Check(!kinetic || horizon.edges.size() == candidates.edges.size(),
         "every edge of the kinetic engine has a line of sight");
+  std::int64_t too_narrow = 0;
   for (const HorizonEdge& e : horizon.edges) {
-    if (!e.witness.exact) return TooNarrow(terrain, e.edge);
-    Check(!kinetic || e.undecided || WitnessHolds(terrain, e.edge, e.witness),
+    too_narrow += e.witness.exact ? 0 : 1;
+    Check(!kinetic || e.undecided || !e.witness.exact || WitnessHolds(terrain, e.edge, e.witness),
           "a line of sight over the kinetic engine's edges is one over the terrain");
   }
+  if (too_narrow > 0) control.Warn(TooNarrowWarning(too_narrow));
   return horizon;
 }
 

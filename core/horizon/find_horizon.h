@@ -13,8 +13,9 @@ namespace farhorizon {
 
 /// The algorithm that finds the edges. Both find the same ones. kKinetic is the thesis's own
 /// (kinetic_horizon.h) and has its limits; it uses the adaptive decision for witnesses only, and an
-/// edge without a witness is an InternalError.
-enum class Engine { kAdaptive, kKinetic };
+/// edge without a witness is an InternalError. kKineticTree is the same with hulls certified by the
+/// tree of [BaschGuibasHershberger97].
+enum class Engine { kAdaptive, kKinetic, kKineticTree };
 
 struct HorizonOptions {
   int threads = 1;  ///< never changes the answer
@@ -44,10 +45,10 @@ WorkBudget WorkBudgetOf(const Terrain& terrain, const HorizonOptions& options);
 /// the greatest height over the line on a set of lines with interior points
 /// (core/horizon/README.md, definition D2).
 ///
-/// Exact for every terrain, except edges that are marked undecided, and so is every witness. The
-/// same for any number of threads.
-/// Errors: kCancelled; kUnsupportedData, kind sight-too-narrow, where the witness of an edge cannot
-/// be represented (witness.h); kResourceExhausted, kind work-budget, where the budget does not
+/// Exact for every terrain, except edges that are marked undecided. The same for any number of
+/// threads. Witnesses are exact too, except where an edge is certainly on the horizon and no witness
+/// can be represented (witness.h); the number of those is warned of.
+/// Errors: kCancelled; kResourceExhausted, kind work-budget, where the budget does not
 /// suffice; those of the kinetic engine.
 /// Cost: about O(n log n) on real terrain; a few hundred bytes for each candidate, some 20 for each
 /// post.

@@ -18,6 +18,12 @@ constexpr int kMeasureDecimals = 9;
 // A skyline drop is known to half a millimetre (kSkylineDropStep).
 constexpr int kSkylineDropDecimals = 3;
 
+std::string WitnessText(const Witness& witness) {
+  if (!witness.exact) return R"(,"witness":null,"too_narrow":true)";
+  return R"(,"witness":{"t":)" + Exact(witness.t) + R"(,"direction":)" +
+         Pair(witness.dc, witness.dr) + "}";
+}
+
 // The property `name`, after others: null where it was not afforded, nothing where not asked for.
 std::string Measure(const char* name, Known known, const std::string& value) {
   if (known == Known::kNotAsked) return {};
@@ -39,9 +45,7 @@ std::string FeatureText(const HorizonFeature& feature) {
   if (feature.undecided) {
     text += R"(,"undecided":true)";
   } else {
-    text += MeasuresText(feature.measures);
-    text += R"(,"witness":{"t":)" + Exact(feature.witness.t);
-    text += R"(,"direction":)" + Pair(feature.witness.dc, feature.witness.dr) + "}";
+    text += MeasuresText(feature.measures) + WitnessText(feature.witness);
   }
   if (feature.level_kept) text += R"(,"level_kept":)" + std::to_string(*feature.level_kept);
   return text + "}}";
@@ -60,6 +64,18 @@ std::array<Geodetic, 2> ReadLine(const Json& geometry) {
     return {ReadPosition(lines.at(0)), ReadPosition(lines.at(1))};
   }
   return {ReadPosition(lines.at(0).at(0)), ReadPosition(lines.at(1).at(1))};
+}
+
+Witness ReadWitness(const Json& properties) {
+  Witness result;
+  result.exact = !properties.value("too_narrow", false);
+  if (!result.exact) return result;
+  const Json& witness = properties.at("witness");
+  result.t = witness.at("t").get<double>();
+  const auto direction = witness.at("direction").get<std::array<std::int64_t, 2>>();
+  result.dc = direction[0];
+  result.dr = direction[1];
+  return result;
 }
 
 Known KnownOf(const Json& properties, const char* name) {
@@ -97,11 +113,7 @@ HorizonFeature ReadFeature(const Json& feature) {
     result.measures.sights = result.measures.drop = Known::kNotAfforded;
   } else {
     result.measures = ReadMeasures(properties);
-    const Json& witness = properties.at("witness");
-    result.witness.t = witness.at("t").get<double>();
-    const auto direction = witness.at("direction").get<std::array<std::int64_t, 2>>();
-    result.witness.dc = direction[0];
-    result.witness.dr = direction[1];
+    result.witness = ReadWitness(properties);
   }
   if (properties.contains("level_kept")) {
     result.level_kept = properties.at("level_kept").get<int>();

@@ -17,8 +17,10 @@ inline constexpr int kAzimuthDecimals = 6;
 inline constexpr double kAzimuthStep = 1e-6;
 inline constexpr int kSpanDecimals = 7;
 inline constexpr double kSpanStep = 1e-7;
-/// The greatest amount by which a published skyline drop is too small, metres.
+/// The greatest amount by which a published skyline drop is too small, metres, or, where that is
+/// more, as a share of itself.
 inline constexpr double kSkylineDropStep = 5e-4;
+inline constexpr double kSkylineDropShare = 0x1p-10;
 
 /// Whether a measure has a value: kNotAfforded where the work budget ran out before it was found.
 enum class Known { kYes, kNotAsked, kNotAfforded };
@@ -35,7 +37,8 @@ enum class Known { kYes, kNotAsked, kNotAfforded };
 ///   lines on which the edge is the skyline, radians times metres across; the lines that meet a
 ///   convex region measure its perimeter [Crofton1868]. True to a millionth of itself.
 /// skyline_drop_m: how much lower the skyline would be without the edge, on the line of sight where
-///   that is most (skyline_drop.h): the truth, or up to kSkylineDropStep less.
+///   that is most (skyline_drop.h): the truth, or less by up to kSkylineDropStep or
+///   kSkylineDropShare of itself.
 /// sights: whether all but the skyline drop have values. drop: whether that has one.
 struct EdgeMeasures {
   std::vector<std::array<double, 2>> azimuths = {};
@@ -70,7 +73,8 @@ struct HorizonFeature {
 /// Where some edges are undecided, the collection has `approximate` and their number as
 /// `undecided`, and each of them has `undecided` instead of measures and witness. A measure that
 /// the work budget did not suffice for is null; one that was not asked for is left out.
-/// Witnesses are printed without loss: t as the shortest text of its double, directions as
+/// A witness that no double and two integers can write (witness.h) is null, and the edge has
+/// `too_narrow`. Others are printed without loss: t as the shortest text of its double, directions as
 /// integers. Directions are below 2^53, which every JSON reader keeps, except where cliffs of 2^26
 /// quanta and more differ by single quanta. There a few are up to 2^62; a reader that takes all
 /// numbers for doubles, as JavaScript's JSON.parse does, rounds them to a line that may not be a

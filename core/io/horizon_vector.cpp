@@ -69,9 +69,11 @@ bool AddFeature(OGRLayerH layer, const HorizonFeature& edge) {
   const std::int32_t numbers[] = {edge.a[0], edge.a[1], edge.b[0], edge.b[1]};
   for (int i = 0; i < 4; ++i) OGR_F_SetFieldInteger(feature.get(), i, numbers[i]);
   if (!edge.undecided) {  // otherwise these fields stay null
-    OGR_F_SetFieldDouble(feature.get(), 4, edge.witness.t);
-    OGR_F_SetFieldInteger64(feature.get(), 5, edge.witness.dc);
-    OGR_F_SetFieldInteger64(feature.get(), 6, edge.witness.dr);
+    if (edge.witness.exact) {
+      OGR_F_SetFieldDouble(feature.get(), 4, edge.witness.t);
+      OGR_F_SetFieldInteger64(feature.get(), 5, edge.witness.dc);
+      OGR_F_SetFieldInteger64(feature.get(), 6, edge.witness.dr);
+    }
     const EdgeMeasures& m = edge.measures;
     if (m.sights == Known::kYes) {
       const std::string azimuths = IntervalsText(m.azimuths, kAzimuthDecimals);

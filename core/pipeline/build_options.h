@@ -16,7 +16,7 @@ namespace farhorizon {
 struct BuildOptions {
   int levels = 5;                     ///< at most
   std::optional<double> max_error_m;  ///< of level 0; unset: as LevelPlan has it
-  double silhouette_error_m = 0;      ///< of level 0
+  double silhouette_error_m = 0;      ///< by how much level 0 may rise above the skyline
   /// For each level the most triangles that it may have, falling, instead of the three above; empty
   /// where those say what the levels are.
   std::vector<std::int64_t> triangles;

@@ -103,6 +103,7 @@ std::vector<Interval> AzimuthsOf(const std::vector<Interval>& angles, const Edge
 // both curves. By Gauss and Legendre's rule of eight nodes on each quarter of the range: exact for
 // polynomials up to degree 15, and true to a millionth here (edge_measures_test.cpp).
 double MeasureOf(const LineOfSightCell& cell, const EdgeCompass& compass) {
+  if (!(cell.from < cell.to)) return 0;  // narrower than doubles tell
   constexpr std::array<double, 4> kNodes = {0.1834346424956498, 0.5255324099163290,
                                             0.7966664774136267, 0.9602898564975363};
   constexpr std::array<double, 4> kWeights = {0.3626837833783620, 0.3137066458778873,

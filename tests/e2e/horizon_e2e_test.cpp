@@ -65,6 +65,8 @@ TEST_F(HorizonE2e, EveryEngineFindsTheSameEdges) {
   const auto edges = EdgesIn("adaptive.geojson");
   EXPECT_GT(edges.size(), 100U);
   EXPECT_EQ(EdgesIn("kinetic.geojson"), edges);
+  ASSERT_EQ(Run("bgh.geojson", {"--engine", "kinetic", "--kinetic-hull", "bgh"}), 0) << Said();
+  EXPECT_EQ(EdgesIn("bgh.geojson"), edges);
   EXPECT_EQ(SlurpFile(folder_ / "auto.geojson"), SlurpFile(folder_ / "adaptive.geojson"));
   EXPECT_EQ(SlurpFile(folder_ / "unsaid.geojson"), SlurpFile(folder_ / "auto.geojson"));
   const json shape = json::parse(

@@ -77,6 +77,7 @@ std::optional<std::vector<StripCell>> VisibleRegion::Difference(const StripCell&
     return std::nullopt;
   }
   std::vector<IsolatedRoot> roots;
+  roots.reserve(4);
   for (const BoundaryCurve& side : {occluded.first, occluded.last}) {
     AppendCrossings(side, cell.first, from.lo, to.hi, roots);
     AppendCrossings(side, cell.last, from.lo, to.hi, roots);
@@ -85,24 +86,22 @@ std::optional<std::vector<StripCell>> VisibleRegion::Difference(const StripCell&
   bool changed = false;
   std::vector<StripCell> difference;
   StripBuilder strip(difference);
-  if (Compare(cell.from, from) < 0) strip.AddSlab(cell.from, from, {{cell.first, cell.last}});
+  if (Compare(cell.from, from) < 0) strip.AddSlab(cell.from, from, {cell.first, cell.last});
   for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
     const SamplePoint point = PointBetween(cuts[i], cuts[i + 1]);
-    std::vector<CurvePair> remaining;
+    CurvePairs remaining;
     if (Order(occluded.first, cell.last, point) <= 0 ||
         Order(cell.first, occluded.last, point) <= 0) {
-      remaining.emplace_back(cell.first, cell.last);
+      remaining.Add(cell.first, cell.last);
     } else {
       changed = true;
-      if (Order(cell.first, occluded.first, point) > 0)
-        remaining.emplace_back(cell.first, occluded.first);
-      if (Order(occluded.last, cell.last, point) > 0)
-        remaining.emplace_back(occluded.last, cell.last);
+      if (Order(cell.first, occluded.first, point) > 0) remaining.Add(cell.first, occluded.first);
+      if (Order(occluded.last, cell.last, point) > 0) remaining.Add(occluded.last, cell.last);
     }
     strip.AddSlab(cuts[i], cuts[i + 1], remaining);
   }
   if (!changed) return std::nullopt;
-  if (Compare(to, cell.to) < 0) strip.AddSlab(to, cell.to, {{cell.first, cell.last}});
+  if (Compare(to, cell.to) < 0) strip.AddSlab(to, cell.to, {cell.first, cell.last});
   return difference;
 }
 

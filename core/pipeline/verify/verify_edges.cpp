@@ -35,6 +35,11 @@ bool Close(const std::vector<Interval>& a, const std::vector<Interval>& b, doubl
                     });
 }
 
+// By how much a skyline drop may be too small, metres.
+double SkylineDropMargin(double drop_m) {
+  return std::max(kSkylineDropStep, kSkylineDropShare * drop_m);
+}
+
 // Measures of another build may round to the next step; half a step more is for the text.
 bool Same(const EdgeMeasures& claimed, const EdgeMeasures& found) {
   constexpr double kRelative = 1e-6;
@@ -44,7 +49,8 @@ bool Same(const EdgeMeasures& claimed, const EdgeMeasures& found) {
          Close(claimed.angular_share, found.angular_share, kRelative) &&
          Close(claimed.line_measure_m, found.line_measure_m,
                kRelative * (1 + found.line_measure_m)) &&
-         Close(claimed.skyline_drop_m, found.skyline_drop_m, 1.5 * kSkylineDropStep);
+         Close(claimed.skyline_drop_m, found.skyline_drop_m,
+               1.5 * SkylineDropMargin(found.skyline_drop_m));
 }
 
 bool IsIn(const std::vector<Interval>& intervals, double value, double margin) {
@@ -67,8 +73,6 @@ LineCounts CountLines(const Terrain& terrain, const Horizon& horizon, const Publ
   // middle; far below what a wrong one would be off by.
   constexpr double kAzimuthMargin = 1e-4;
   constexpr double kSpanMargin = 1e-6;
-  // The search stops a step short of the truth, and the text is rounded to less than another.
-  constexpr double kSkylineDropMargin = 2 * kSkylineDropStep + 1e-6;
   const GridLineQuery ground(terrain);
   std::mt19937_64 random(1841);
   LineCounts counts;
@@ -86,11 +90,13 @@ LineCounts CountLines(const Terrain& terrain, const Horizon& horizon, const Publ
     if (claimed.drop != Known::kYes) continue;
     const Edge edge = horizon.edges[highest->edge].edge;
     const std::optional<HighestEdge> other =
-        ground.HighestEdgeOver(edge, line.x / 2.0, line.y / 2.0, line.dc, line.dr);
+        ground.HighestEdgeOver(edge, {line.x / 2.0, line.y / 2.0, 1.0 * line.dc, 1.0 * line.dr});
     const double low = terrain.Point(edge.a).z;
     const double own = low + highest->t * (terrain.Point(edge.b).z - low);
     const double lower_m = other ? (own - other->height) * terrain.dem().quantum_m : 0;
-    counts.beyond_skyline_drop += lower_m > claimed.skyline_drop_m + kSkylineDropMargin ? 1 : 0;
+    // The search stops short of the truth, and the text is rounded to no more than as much again.
+    const double margin_m = 2 * SkylineDropMargin(lower_m) + 1e-6;
+    counts.beyond_skyline_drop += lower_m > claimed.skyline_drop_m + margin_m ? 1 : 0;
   }
   return counts;
 }

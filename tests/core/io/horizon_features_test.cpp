@@ -53,6 +53,17 @@ TEST(HorizonGeoJson, HasNullForWhatWasNotAffordedAndNothingForWhatWasNotAskedFor
   EXPECT_EQ(WriteHorizonGeoJson(read), text);
 }
 
+TEST(HorizonGeoJson, SaysWhereAWitnessIsTooNarrowToBeWritten) {
+  HorizonFeature feature = SomeFeature();
+  feature.witness.exact = false;
+  const std::string text = WriteHorizonGeoJson({SomeFeature(), feature});
+  EXPECT_THAT(text, HasSubstr(R"("witness":null,"too_narrow":true)"));
+  const std::vector<HorizonFeature> read = *ReadHorizonGeoJson(text);
+  EXPECT_TRUE(read[0].witness.exact);
+  EXPECT_FALSE(read[1].witness.exact);
+  EXPECT_EQ(WriteHorizonGeoJson(read), text);
+}
+
 TEST(HorizonGeoJson, IsTheTextThatTheContractShows) {
   HorizonFeature feature = SomeFeature();
   feature.level_kept = 2;
