@@ -50,8 +50,8 @@ std::string FlagOf(std::string_view parameter);
 ///   `triangles` comes with a parameter that it takes the place of; those of CheckOptions.
 Result<BuildOptions> ParseOptions(const std::map<std::string, std::string>& parameters);
 
-/// The options of FindHorizon for a build: where the work budget is short, half of it is for what is
-/// said of the edges.
+/// The options of FindHorizon for a build: where the work budget is short, half of it is for what
+/// is said of the edges.
 HorizonOptions HorizonOptionsOf(const BuildOptions& options);
 
 }  // namespace farhorizon

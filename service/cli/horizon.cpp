@@ -67,12 +67,13 @@ void AddHorizon(Command& program, SelectedCommand& selected) {
                      .help = "algorithm that finds the edges: adaptive, kinetic, or auto, which is "
                              "adaptive; all find the same ones"},
                     arguments->engine, {"adaptive", "kinetic", "auto"});
-  command.AddChoice({.names = "--kinetic-hull",
-                     .type = "HULL",
-                     .help = "how --engine kinetic certifies hulls: turns, of neighbouring corners, "
-                             "or bgh, the tree of Basch, Guibas and Hershberger; both find the same "
-                             "edges"},
-                    arguments->kinetic_hull, {"turns", "bgh"});
+  command.AddChoice(
+      {.names = "--kinetic-hull",
+       .type = "HULL",
+       .help = "how --engine kinetic certifies hulls: turns, of neighbouring corners, "
+               "or bgh, the tree of Basch, Guibas and Hershberger; both find the same "
+               "edges"},
+      arguments->kinetic_hull, {"turns", "bgh"});
   command.AddChoice({.names = "--weights",
                      .type = "W",
                      .help = "what is said of each edge beside its witness: none; fast, all that "

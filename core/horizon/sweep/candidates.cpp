@@ -213,8 +213,8 @@ Result<Candidates> FindCandidates(const Terrain& terrain, const HullSweep& sweep
                                   WorkBudget& budget, const RunControl& control) {
   constexpr std::size_t kRows = 32;
   constexpr std::size_t kTask = 1 << 15;
-  // Of one survivor. Any value is sound: where it ends the search, the edge stays a candidate, which
-  // the exact decision deals with. On real DEMs it ends hardly any.
+  // Of one survivor. Any value is sound: where it ends the search, the edge stays a candidate, for
+  // the exact decision to deal with. On real DEMs it ends hardly any.
   constexpr std::int64_t kMostDecisions = 2048;
   // Of what is left of a budget that is short, one part in so many is for candidates.
   constexpr std::int64_t kShare = 8;

@@ -24,8 +24,9 @@ class EdgeOcclusion {
   /// Requires: low and high are neighbours in the grid. wedge: WedgeOf(low, high).
   EdgeOcclusion(Point2i low, Point2i high, const std::optional<FaceWedge>& wedge);
 
-  /// Removes the directions that `hull` occludes; whether there are some. Add hulls that occlude most first: later ones
-  /// then cost less. A hull that contains both ends is ignored: theorem 5 rules out such edges.
+  /// Removes the directions that `hull` occludes; returns whether there are some. Add hulls that
+  /// occlude most first: later ones then cost less. A hull that contains both ends is ignored:
+  /// theorem 5 rules out such edges.
   /// Cost: the hull's corners, where a direction is left in which the hull can be seen.
   bool Add(const ConvexPolygon& hull);
 
