@@ -29,8 +29,10 @@ namespace farhorizon {
 namespace {
 
 // In decisions (work_budget.h), about: finding what an occluder takes, or what is left of a cell,
-// are some quadratics, their roots and an exact sample for each.
-constexpr std::int64_t kExactStep = 50;
+// are some quadratics, their roots and an exact sample for each. As many cells as kCellsPerDecision
+// are compared with a box in the time of one decision.
+constexpr std::int64_t kExactStep = 15;
+constexpr std::int64_t kCellsPerDecision = 8;
 
 // A side of the wedge as a curve: in lowest terms, so that it is equal to CurveOf's for an edge of
 // the same face (occluded_cells.cpp).
@@ -151,7 +153,7 @@ void VisibleRegion::Insert(StripCell cell) {
 
 void VisibleRegion::AddOccluder(const SegmentIndex::Item& item) {
   if (item.high.z <= edge_.low.z || work_ >= work_limit_) return;
-  work_ += std::ssize(cells_);
+  work_ += 1 + std::ssize(cells_) / kCellsPerDecision;
   const std::array<StripFilter::Corner, 2> ends = {filter_.CornerAt(item.low.x, item.low.y),
                                                    filter_.CornerAt(item.high.x, item.high.y)};
   if (!MayOcclude(ends, item.high.z)) return;
@@ -164,7 +166,7 @@ void VisibleRegion::AddOccluders(const SegmentIndex& index, std::int32_t except)
     const std::array<StripFilter::Corner, 4> box = {
         filter_.CornerAt(node.min_x, node.min_y), filter_.CornerAt(node.max_x, node.min_y),
         filter_.CornerAt(node.max_x, node.max_y), filter_.CornerAt(node.min_x, node.max_y)};
-    work_ += std::ssize(cells_);
+    work_ += 1 + std::ssize(cells_) / kCellsPerDecision;
     return MayOcclude(box, node.top);
   };
   const auto add = [this, except](std::int32_t id, const SegmentIndex::Item& item) {
