@@ -226,13 +226,16 @@ std::optional<HighestEdge> GridLineQuery::HighestEdgeOver(Edge except, const Lin
         walk.highest().height) {
       return;
     }
-    for (int k = 0; k < kPiecesInLarge && from < end; ++k, from += kPiece) {
+    // One at least: a line may touch the grid in one point.
+    int pieces = 0;
+    do {
       const double to = std::min(from + kPiece, end);
       const Point2i post = walk.PostAt((from + to) / 2 * sense);
       if (tops_.At(post.x >> kBlockBits, post.y >> kBlockBits) > walk.highest().height) {
         walk.Walk(from * sense, to * sense);
       }
-    }
+      from += kPiece;
+    } while (++pieces < kPiecesInLarge && from < end);
   };
   for (const double sense : {1.0, -1.0}) {
     const double end = std::max(sense > 0 ? walk.to() : -walk.from(), 0.0);
