@@ -42,10 +42,10 @@ WorkBudget WorkBudgetOf(const Terrain& terrain, const HorizonOptions& options);
 /// (core/horizon/README.md, definition D2).
 ///
 /// Exact for every terrain, except edges that are marked undecided. The same for any number of
-/// threads. Witnesses are exact too, except where an edge is certainly on the horizon and no witness
-/// can be represented (witness.h); the number of those is warned of.
-/// Errors: kCancelled; kResourceExhausted, kind work-budget, where the budget does not
-/// suffice; those of the kinetic engine.
+/// threads. Witnesses are exact too, except where an edge is certainly on the horizon and no
+/// witness can be represented (witness.h); the number of those is warned of.
+/// Errors: kCancelled; kResourceExhausted, kind work-budget, where the budget does not suffice;
+/// those of the kinetic engine.
 /// Cost: about O(n log n) on real terrain; a few hundred bytes for each candidate, some 20 for each
 /// post.
 ///
