@@ -99,7 +99,7 @@ offence() {
 folder_of() {
   case $1 in
     service/main.cpp) echo "$1" ;;
-    core/horizon/find_horizon.* | core/horizon/candidate_decider.* | core/horizon/join_horizons.*)
+    core/horizon/find_horizon.* | core/horizon/candidate_decider.* | core/horizon/join_horizons.* | core/horizon/occluded_edges.*)
       echo core/horizon/search ;;
     core/pipeline/build.*) echo core/pipeline/build ;;
     *) dirname "$1" ;;
