@@ -125,7 +125,7 @@ void BitangentScene::RestoreInvariants() {
 }
 
 void BitangentScene::UpdateHulls() {
-  for (const ClusterId c : hulls_.changed()) {
+  for (const ClusterId c : hulls_.TakeOutdated()) {
     if (Find(c) == c) counts_.left_interior += hulls_.UpdateHull(c);
   }
 }
