@@ -17,7 +17,7 @@ struct HeightRange {
 /// compared exactly with others. All heights of a range, lowered by up to `most_steps`, stay below
 /// 2^30 in size, as occluder sets need (core/horizon/visibility/occluder_set.h).
 ///
-/// Not to be confused with the choice of the quantum itself (core/io/dem/height_quantum.h).
+/// Not to be confused with the choice of the quantum itself (core/io/dem/values/height_quantum.h).
 struct FinerHeights {
   std::int32_t zero = 0;        ///< the height, in quanta, that is 0 steps
   int bits = 0;                 ///< 2^bits steps are a quantum; negative: Scale rounds
