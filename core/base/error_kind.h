@@ -90,7 +90,6 @@ inline constexpr auto kErrorKinds = std::to_array<std::string_view>({
     "result-not-ready",
     "rotated-geotransform",
     "several-bands",
-    "sight-too-narrow",
     "storage",
     "target-too-long",
     "timeout",

@@ -73,33 +73,36 @@ int Compare(const IsolatedRoot& r, const IsolatedRoot& s) {
   if (p.c0 == q.c0 && p.c1 == q.c1 && p.c2 == q.c2) {
     return static_cast<int>(r.root.upper) - static_cast<int>(s.root.upper);
   }
+  // Roots this close together are one number as a rule.
+  if (SurelyEqual(r.root, s.root)) return 0;
   return Compare(r.root, s.root);
 }
 
 // By the signs of q at 0 and at 1 and by the way the parabola opens. A root at 0 or 1 itself is not
 // strictly between; the other root is then rational and compared with 0 and 1 by its coefficients.
-std::vector<IsolatedRoot> SignChanges(const Quadratic& q) {
+RootPair SignChanges(const Quadratic& q) {
   const int at0 = SignOf(q.c0);
   const int at1 = SignOf(q.c0 + q.c1 + q.c2);
   const int opening = SignOf(q.c2);
   if (opening == 0) {
-    if (at0 * at1 < 0) return {Isolate({q, false})};
+    if (at0 * at1 < 0) return RootPair(Isolate({q, false}));
     return {};
   }
   if (at0 == 0 && at1 == 0) return {};
   if (at0 == 0) {
     // The other root is -c1 / c2.
     if (SignOf(q.c1) * opening < 0 && (opening > 0 ? -q.c1 < q.c2 : -q.c1 > q.c2)) {
-      return {Isolate({q, true})};
+      return RootPair(Isolate({q, true}));
     }
     return {};
   }
   if (at1 == 0) {
     // The other root is c0 / c2.
-    if (at0 == opening && (opening > 0 ? q.c0 < q.c2 : q.c0 > q.c2)) return {Isolate({q, false})};
+    if (at0 == opening && (opening > 0 ? q.c0 < q.c2 : q.c0 > q.c2))
+      return RootPair(Isolate({q, false}));
     return {};
   }
-  if (at0 != at1) return {Isolate({q, at0 != opening})};
+  if (at0 != at1) return RootPair(Isolate({q, at0 != opening}));
   // None or two. Two, if the vertex of the parabola lies strictly between 0 and 1, which the slopes
   // at both tell, and beyond the axis, which the discriminant tells.
   const Int128 slope1 = q.c1 + 2 * q.c2;
@@ -110,12 +113,10 @@ std::vector<IsolatedRoot> SignChanges(const Quadratic& q) {
 
 SamplePoint PointBetween(const IsolatedRoot& r, const IsolatedRoot& s) {
   if (r.hi < s.lo) {
-    // The coarsest number between the brackets, a multiple of 2^-(kBracketBits + 1) at the finest.
-    double scale = 2;
-    for (int bits = 1; bits <= kBracketBits + 1; ++bits, scale *= 2) {
-      const double n = std::floor(r.hi * scale) + 1;
-      if (n < s.lo * scale) return {{static_cast<std::int64_t>(n), bits}, std::nullopt};
-    }
+    // With a step of less than half the gap, the second multiple past its start is within it.
+    const int bits = std::max(2 - std::ilogb(s.lo - r.hi), 1);
+    const double n = std::floor(std::ldexp(r.hi, bits)) + 1;
+    return {{static_cast<std::int64_t>(n), bits}, std::nullopt};
   }
   const std::optional<WideDyadic> t = Between(r.root, s.root);
   Check(t.has_value(), "there is room between two different numbers");

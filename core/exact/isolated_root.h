@@ -1,7 +1,8 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <optional>
-#include <vector>
 
 #include "core/exact/quadratic.h"
 
@@ -27,8 +28,27 @@ inline constexpr int kBracketBits = 30;
 /// The sign of r - s, exactly.
 int Compare(const IsolatedRoot& r, const IsolatedRoot& s);
 
-/// The roots strictly between 0 and 1 at which q changes its sign, in ascending order.
-std::vector<IsolatedRoot> SignChanges(const Quadratic& q);
+/// Up to two roots, ascending.
+class RootPair {
+ public:
+  RootPair() = default;
+  explicit RootPair(const IsolatedRoot& root) : roots_{root}, size_(1) {}
+  RootPair(const IsolatedRoot& first, const IsolatedRoot& second)
+      : roots_{first, second}, size_(2) {}
+
+  [[nodiscard]] const IsolatedRoot* begin() const { return roots_.data(); }
+  [[nodiscard]] const IsolatedRoot* end() const { return roots_.data() + size_; }
+  [[nodiscard]] std::size_t size() const { return size_; }
+  [[nodiscard]] bool empty() const { return size_ == 0; }
+  [[nodiscard]] const IsolatedRoot& operator[](std::size_t i) const { return roots_[i]; }
+
+ private:
+  std::array<IsolatedRoot, 2> roots_;
+  std::size_t size_ = 0;
+};
+
+/// The roots strictly between 0 and 1 at which q changes its sign.
+RootPair SignChanges(const Quadratic& q);
 
 /// A dyadic number at which polynomials are evaluated. `wide` is set only where 128 bits do not
 /// hold it; it counts in place of `t` then.

@@ -245,6 +245,21 @@ int Compare(const QuadraticRoot& r, const QuadraticRoot& s) {
   }
 }
 
+// Where the polynomials have a root in common, and each other pair of their roots is apart, this is
+// the one. A root at infinity, that of a polynomial of degree one, is apart from all others.
+bool SurelyEqual(const QuadraticRoot& r, const QuadraticRoot& s) {
+  if (r.q.c2 == 0 && s.q.c2 == 0) return false;
+  const auto apart = [](const QuadraticRoot& a, const QuadraticRoot& b) {
+    return SurelyApart(ApproximateRoot(a), ApproximateRoot(b)) != 0;
+  };
+  const QuadraticRoot other_r{r.q, !r.upper};
+  const QuadraticRoot other_s{s.q, !s.upper};
+  if (r.q.c2 != 0 && !apart(other_r, s)) return false;
+  if (s.q.c2 != 0 && !apart(r, other_s)) return false;
+  if (r.q.c2 != 0 && s.q.c2 != 0 && !apart(other_r, other_s)) return false;
+  return ShareARoot(r.q, s.q);
+}
+
 std::optional<WideDyadic> Between(const QuadraticRoot& lo, const QuadraticRoot& hi) {
   if (Compare(lo, hi) >= 0) return std::nullopt;
   Dyadic middle{1, 1};

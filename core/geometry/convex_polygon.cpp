@@ -4,6 +4,7 @@
 #include "core/geometry/convex_polygon.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/geometry/plan.h"
 #include "core/geometry/row_span.h"
@@ -63,6 +64,13 @@ ConvexPolygon ConvexPolygon::HullOf(std::vector<Point2i>& points) {
   chain.pop_back();
   hull.FindBox();
   return hull;
+}
+
+ConvexPolygon ConvexPolygon::FromCorners(std::vector<Point2i> corners) {
+  ConvexPolygon polygon;
+  polygon.corners_ = std::move(corners);
+  polygon.FindBox();
+  return polygon;
 }
 
 void ConvexPolygon::Extend(Point2i p) {

@@ -16,6 +16,8 @@ class ConvexPolygon {
   explicit ConvexPolygon(Point2i point);
   /// The convex hull of `points` (reordered). Cost: O(n log n).
   static ConvexPolygon HullOf(std::vector<Point2i>& points);
+  /// Requires: `corners` are those of a convex polygon, as corners() has them.
+  static ConvexPolygon FromCorners(std::vector<Point2i> corners);
 
   /// Makes it the convex hull of itself and p. Requires: it has a corner; p is outside.
   /// Cost: O(n).

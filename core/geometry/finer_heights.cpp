@@ -1,6 +1,7 @@
 #include "core/geometry/finer_heights.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace farhorizon {
 
@@ -27,14 +28,15 @@ FinerHeights FinerHeights::Centred(const HeightRange& range) {
 }
 
 FinerHeights FinerHeights::FromLeast(const HeightRange& range, double tolerance) {
-  const double relief = std::max(1.0, static_cast<double>(range.greatest) - range.least);
-  const int relief_bits = std::ilogb(relief) + 1;
+  const std::int64_t relief = std::max<std::int64_t>(std::int64_t{range.greatest} - range.least, 1);
+  const int relief_bits = static_cast<int>(std::bit_width(static_cast<std::uint64_t>(relief)));
   FinerHeights heights;
   heights.zero = range.least;
-  // Scaled heights are in [0, 2^29], and nearbyint may reach its end.
-  heights.bits =
-      std::min(static_cast<int>(std::ceil(-std::log2(tolerance))), kLimitBits - 1 - relief_bits);
-  heights.most_steps = static_cast<std::int32_t>(kLimit - 1);
+  // A DEM's heights are below 2^30 in size, so that relief < 2^31, and its bits have room in 31.
+  constexpr int kSignedBits = 31;
+  heights.bits = std::clamp(static_cast<int>(std::ceil(-std::log2(tolerance))), 0,
+                            std::max(kSignedBits - relief_bits, 0));
+  heights.most_steps = static_cast<std::int32_t>(relief << heights.bits);
   return heights;
 }
 

@@ -22,27 +22,10 @@ namespace farhorizon {
 
 namespace {
 
-Error TooNarrow(const Terrain& terrain, Edge edge) {
-  const auto post = [&terrain](VertexId v) {
-    const Point3i p = terrain.Point(v);
-    return "(" + std::to_string(p.x) + ", " + std::to_string(p.y) + ") of height " +
-           std::to_string(p.z);
-  };
-  return {ErrorCode::kUnsupportedData,
-          "the edge from post " + post(edge.a) + " to post " + post(edge.b) +
-              " quanta is on the horizon through a gap too narrow for the witness to be written: "
-              "cliffs of this height differ by too little; round the heights to a coarser unit, or "
-              "mark spikes as nodata",
-          "sight-too-narrow"};
-}
-
-Error OverBudget(std::int64_t budget, std::size_t candidates) {
-  return {ErrorCode::kResourceExhausted,
-          "deciding " + std::to_string(candidates) +
-              " candidate edges takes more than the work budget of " + std::to_string(budget) +
-              " decisions: white noise and forests of spikes are hard without end; keep what stays "
-              "undecided (approximate), raise the work budget, or smooth the heights",
-          "work-budget"};
+std::string TooNarrowWarning(std::int64_t edges) {
+  return std::to_string(edges) +
+         " edges are on the horizon through gaps too narrow for a witness to be written, between "
+         "cliffs whose heights differ by too little; they have none";
 }
 
 std::string ApproximationWarning(const Horizon& horizon) {
@@ -54,9 +37,12 @@ std::string ApproximationWarning(const Horizon& horizon) {
 // Removes the candidates that the kinetic engine does not find. Those that stay make the same
 // skyline as the terrain, so they suffice as occluders, too.
 Result<EventCounts> KeepKineticEdges(const Terrain& terrain, Candidates& candidates,
-                                     const RunControl& control,
-                                     std::optional<std::int64_t> work_budget) {
-  Result<KineticHorizon> kinetic = FindHorizonKinetic(terrain, control, work_budget);
+                                     const RunControl& control, const HorizonOptions& options) {
+  const KineticOptions kinetic_options{.work_budget = options.work_budget,
+                                       .hull = options.engine == Engine::kKineticTree
+                                                   ? HullCertificates::kTree
+                                                   : HullCertificates::kTurns};
+  Result<KineticHorizon> kinetic = FindHorizonKinetic(terrain, control, kinetic_options);
   if (!kinetic) return std::move(kinetic.error());
   std::erase_if(candidates.edges, [&](const Candidate& candidate) {
     return !std::binary_search(kinetic->edges.begin(), kinetic->edges.end(), candidate.edge);
@@ -74,7 +60,7 @@ void SetCounts(HorizonStatistics& statistics, const EventCounts& events) {
   statistics.minima = events.minimum;
   statistics.merges = events.merge;
   statistics.hull_changes = events.hull;
-  statistics.bitangents = events.bitangent;
+  statistics.bitangents = events.Bitangents();
   statistics.clusters_max = events.clusters_max;
   statistics.queue_max = events.queue_max;
 }
@@ -87,47 +73,57 @@ std::int64_t DefaultWorkBudget(std::int64_t terrain_edges) {
   return std::max(kLeast, kPerEdge * terrain_edges);
 }
 
+WorkBudget WorkBudgetOf(const Terrain& terrain, const HorizonOptions& options) {
+  // The option counts the kinetic engine's own steps.
+  const std::optional<std::int64_t> given =
+      options.engine != Engine::kAdaptive ? std::nullopt : options.work_budget;
+  return WorkBudget(given ? *given : DefaultWorkBudget(terrain.CountEdges()), options.approximate);
+}
+
 Result<Horizon> FindHorizon(const Terrain& terrain, const HorizonOptions& options,
                             const RunControl& control) {
-  Result<HullSweep> sweep = SweepHulls(terrain, options.threads, control);
-  if (!sweep) return std::move(sweep.error());
-  Result<Candidates> candidates = FindCandidates(terrain, *sweep, options.threads, control);
-  if (!candidates) return std::move(candidates.error());
+  WorkBudget budget = WorkBudgetOf(terrain, options);
+  return FindHorizon(terrain, options, budget, control);
+}
+
+Result<Horizon> FindHorizon(const Terrain& terrain, const HorizonOptions& options,
+                            WorkBudget& budget, const RunControl& control) {
   Horizon horizon;
-  horizon.statistics = sweep->statistics;
-  horizon.statistics.candidates = static_cast<std::int64_t>(candidates->edges.size());
-  horizon.hulls = std::move(sweep->hulls);
-  const bool kinetic = options.engine == Engine::kKinetic;
-  std::int64_t budget = DefaultWorkBudget(horizon.statistics.terrain_edges);
+  Candidates candidates;
+  {
+    Result<HullSweep> sweep = SweepHulls(terrain, options.threads, control);
+    if (!sweep) return std::move(sweep.error());
+    Result<Candidates> found = FindCandidates(terrain, *sweep, options.threads, budget, control);
+    if (!found) return std::move(found.error());
+    candidates = *std::move(found);
+    horizon.statistics = sweep->statistics;
+    horizon.hulls = std::move(sweep->hulls);
+  }
+  horizon.statistics.candidates = std::ssize(candidates.edges);
+  const bool kinetic = options.engine != Engine::kAdaptive;
   if (kinetic) {
-    Result<EventCounts> events =
-        KeepKineticEdges(terrain, *candidates, control, options.work_budget);
+    Result<EventCounts> events = KeepKineticEdges(terrain, candidates, control, options);
     if (!events) return std::move(events.error());
     SetCounts(horizon.statistics, *events);
-  } else {
-    budget = options.work_budget.value_or(budget);
   }
-  horizon.statistics.work_budget = budget;
+  horizon.statistics.work_budget = budget.limit();
   control.Report(Stage::kDecide, 0);
-  CandidateDecider decider(terrain, *candidates, control);
-  bool completed = decider.DecideAll(options.threads, budget, options.approximate ? 0.5 : 1);
-  if (completed && decider.undecided() > 0) {
-    if (!options.approximate) return OverBudget(budget, candidates->edges.size());
-    completed = decider.DecideSome(options.threads, budget);
-  }
-  if (!completed) return Error{ErrorCode::kCancelled, "stopped while deciding horizon edges"};
+  CandidateDecider decider(terrain, candidates);
+  Status decided = decider.Decide(options.threads, budget, control);
+  if (!decided) return std::move(decided.error());
   horizon.statistics.predicates = decider.counts();
   horizon.statistics.undecided = decider.undecided();
   decider.AppendEdges(horizon);
   if (decider.undecided() > 0) control.Warn(ApproximationWarning(horizon));
-  Check(!kinetic || horizon.edges.size() == candidates->edges.size(),
+  Check(!kinetic || horizon.edges.size() == candidates.edges.size(),
         "every edge of the kinetic engine has a line of sight");
+  std::int64_t too_narrow = 0;
   for (const HorizonEdge& e : horizon.edges) {
-    if (!e.witness.exact) return TooNarrow(terrain, e.edge);
-    Check(!kinetic || e.undecided || WitnessHolds(terrain, e.edge, e.witness),
+    too_narrow += e.witness.exact ? 0 : 1;
+    Check(!kinetic || e.undecided || !e.witness.exact || WitnessHolds(terrain, e.edge, e.witness),
           "a line of sight over the kinetic engine's edges is one over the terrain");
   }
-  control.Report(Stage::kDecide, 1);
+  if (too_narrow > 0) control.Warn(TooNarrowWarning(too_narrow));
   return horizon;
 }
 

@@ -18,6 +18,26 @@ constexpr int kMeasureDecimals = 9;
 // A skyline drop is known to half a millimetre (kSkylineDropStep).
 constexpr int kSkylineDropDecimals = 3;
 
+std::string WitnessText(const Witness& witness) {
+  if (!witness.exact) return R"(,"witness":null,"too_narrow":true)";
+  return R"(,"witness":{"t":)" + Exact(witness.t) + R"(,"direction":)" +
+         Pair(witness.dc, witness.dr) + "}";
+}
+
+// The property `name`, after others: null where it was not afforded, nothing where not asked for.
+std::string Measure(const char* name, Known known, const std::string& value) {
+  if (known == Known::kNotAsked) return {};
+  return ",\"" + std::string(name) + "\":" + (known == Known::kYes ? value : "null");
+}
+
+std::string MeasuresText(const EdgeMeasures& m) {
+  return Measure("azimuths", m.sights, IntervalsText(m.azimuths, kAzimuthDecimals)) +
+         Measure("spans", m.sights, IntervalsText(m.spans, kSpanDecimals)) +
+         Measure("angular_share", m.sights, Rounded(m.angular_share, kMeasureDecimals)) +
+         Measure("line_measure_m", m.sights, Rounded(m.line_measure_m, kMeasureDecimals)) +
+         Measure("skyline_drop_m", m.drop, Rounded(m.skyline_drop_m, kSkylineDropDecimals));
+}
+
 std::string FeatureText(const HorizonFeature& feature) {
   std::string text = R"({"type":"Feature","geometry":)" + LineGeometry(feature.from, feature.to);
   text += R"(,"properties":{"a":)" + Pair(feature.a[0], feature.a[1]);
@@ -25,14 +45,7 @@ std::string FeatureText(const HorizonFeature& feature) {
   if (feature.undecided) {
     text += R"(,"undecided":true)";
   } else {
-    text += R"(,"azimuths":)" + IntervalsText(feature.measures.azimuths, kAzimuthDecimals);
-    text += R"(,"spans":)" + IntervalsText(feature.measures.spans, kSpanDecimals);
-    text += R"(,"angular_share":)" + Rounded(feature.measures.angular_share, kMeasureDecimals);
-    text += R"(,"line_measure_m":)" + Rounded(feature.measures.line_measure_m, kMeasureDecimals);
-    text +=
-        R"(,"skyline_drop_m":)" + Rounded(feature.measures.skyline_drop_m, kSkylineDropDecimals);
-    text += R"(,"witness":{"t":)" + Exact(feature.witness.t);
-    text += R"(,"direction":)" + Pair(feature.witness.dc, feature.witness.dr) + "}";
+    text += MeasuresText(feature.measures) + WitnessText(feature.witness);
   }
   if (feature.level_kept) text += R"(,"level_kept":)" + std::to_string(*feature.level_kept);
   return text + "}}";
@@ -53,6 +66,40 @@ std::array<Geodetic, 2> ReadLine(const Json& geometry) {
   return {ReadPosition(lines.at(0).at(0)), ReadPosition(lines.at(1).at(1))};
 }
 
+Witness ReadWitness(const Json& properties) {
+  Witness result;
+  result.exact = !properties.value("too_narrow", false);
+  if (!result.exact) return result;
+  const Json& witness = properties.at("witness");
+  result.t = witness.at("t").get<double>();
+  const auto direction = witness.at("direction").get<std::array<std::int64_t, 2>>();
+  result.dc = direction[0];
+  result.dr = direction[1];
+  return result;
+}
+
+Known KnownOf(const Json& properties, const char* name) {
+  const auto found = properties.find(name);
+  if (found == properties.end()) return Known::kNotAsked;
+  return found->is_null() ? Known::kNotAfforded : Known::kYes;
+}
+
+EdgeMeasures ReadMeasures(const Json& properties) {
+  EdgeMeasures measures;
+  measures.sights = KnownOf(properties, "azimuths");
+  measures.drop = KnownOf(properties, "skyline_drop_m");
+  if (measures.sights == Known::kYes) {
+    measures.azimuths = properties.at("azimuths").get<std::vector<std::array<double, 2>>>();
+    measures.spans = properties.at("spans").get<std::vector<std::array<double, 2>>>();
+    measures.angular_share = properties.at("angular_share").get<double>();
+    measures.line_measure_m = properties.at("line_measure_m").get<double>();
+  }
+  if (measures.drop == Known::kYes) {
+    measures.skyline_drop_m = properties.at("skyline_drop_m").get<double>();
+  }
+  return measures;
+}
+
 HorizonFeature ReadFeature(const Json& feature) {
   const std::array<Geodetic, 2> line = ReadLine(feature.at("geometry"));
   const Json& properties = feature.at("properties");
@@ -62,17 +109,11 @@ HorizonFeature ReadFeature(const Json& feature) {
   result.from = line[0];
   result.to = line[1];
   result.undecided = properties.value("undecided", false);
-  if (!result.undecided) {
-    result.measures.azimuths = properties.at("azimuths").get<std::vector<std::array<double, 2>>>();
-    result.measures.spans = properties.at("spans").get<std::vector<std::array<double, 2>>>();
-    result.measures.angular_share = properties.at("angular_share").get<double>();
-    result.measures.line_measure_m = properties.at("line_measure_m").get<double>();
-    result.measures.skyline_drop_m = properties.at("skyline_drop_m").get<double>();
-    const Json& witness = properties.at("witness");
-    result.witness.t = witness.at("t").get<double>();
-    const auto direction = witness.at("direction").get<std::array<std::int64_t, 2>>();
-    result.witness.dc = direction[0];
-    result.witness.dr = direction[1];
+  if (result.undecided) {
+    result.measures.sights = result.measures.drop = Known::kNotAfforded;
+  } else {
+    result.measures = ReadMeasures(properties);
+    result.witness = ReadWitness(properties);
   }
   if (properties.contains("level_kept")) {
     result.level_kept = properties.at("level_kept").get<int>();

@@ -17,8 +17,13 @@ inline constexpr int kAzimuthDecimals = 6;
 inline constexpr double kAzimuthStep = 1e-6;
 inline constexpr int kSpanDecimals = 7;
 inline constexpr double kSpanStep = 1e-7;
-/// The greatest amount by which a published skyline drop is too small, metres.
+/// The greatest amount by which a published skyline drop is too small, metres, or, where that is
+/// more, as a share of itself.
 inline constexpr double kSkylineDropStep = 5e-4;
+inline constexpr double kSkylineDropShare = 0x1p-10;
+
+/// Whether a measure has a value: kNotAfforded where the work budget ran out before it was found.
+enum class Known { kYes, kNotAsked, kNotAfforded };
 
 /// In which directions and where an edge is on the horizon, and how much the edge matters there, as
 /// it is published.
@@ -32,13 +37,17 @@ inline constexpr double kSkylineDropStep = 5e-4;
 ///   lines on which the edge is the skyline, radians times metres across; the lines that meet a
 ///   convex region measure its perimeter [Crofton1868]. True to a millionth of itself.
 /// skyline_drop_m: how much lower the skyline would be without the edge, on the line of sight where
-///   that is most (skyline_drop.h): the truth, or up to kSkylineDropStep less.
+///   that is most (skyline_drop.h): the truth, or less by up to kSkylineDropStep or
+///   kSkylineDropShare of itself.
+/// sights: whether all but the skyline drop have values. drop: whether that has one.
 struct EdgeMeasures {
   std::vector<std::array<double, 2>> azimuths = {};
   std::vector<std::array<double, 2>> spans = {};
   double angular_share = 0;
   double line_measure_m = 0;
   double skyline_drop_m = 0;
+  Known sights = Known::kYes;
+  Known drop = Known::kYes;
 };
 
 /// One horizon edge as it is published, from post a to post b, both [column, row].
@@ -62,8 +71,10 @@ struct HorizonFeature {
 /// MultiLineString of two. Measures of lines are printed to 10^-9, skyline drops to 10^-3.
 ///
 /// Where some edges are undecided, the collection has `approximate` and their number as
-/// `undecided`, and each of them has `undecided` instead of measures and witness.
-/// Witnesses are printed without loss: t as the shortest text of its double, directions as
+/// `undecided`, and each of them has `undecided` instead of measures and witness. A measure that
+/// the work budget did not suffice for is null; one that was not asked for is left out.
+/// A witness that no double and two integers can write (witness.h) is null, and the edge has
+/// `too_narrow`. Others are printed without loss: t as the shortest text of its double, directions as
 /// integers. Directions are below 2^53, which every JSON reader keeps, except where cliffs of 2^26
 /// quanta and more differ by single quanta. There a few are up to 2^62; a reader that takes all
 /// numbers for doubles, as JavaScript's JSON.parse does, rounds them to a line that may not be a

@@ -69,16 +69,21 @@ bool AddFeature(OGRLayerH layer, const HorizonFeature& edge) {
   const std::int32_t numbers[] = {edge.a[0], edge.a[1], edge.b[0], edge.b[1]};
   for (int i = 0; i < 4; ++i) OGR_F_SetFieldInteger(feature.get(), i, numbers[i]);
   if (!edge.undecided) {  // otherwise these fields stay null
-    OGR_F_SetFieldDouble(feature.get(), 4, edge.witness.t);
-    OGR_F_SetFieldInteger64(feature.get(), 5, edge.witness.dc);
-    OGR_F_SetFieldInteger64(feature.get(), 6, edge.witness.dr);
-    OGR_F_SetFieldString(feature.get(), 8,
-                         IntervalsText(edge.measures.azimuths, kAzimuthDecimals).c_str());
-    OGR_F_SetFieldString(feature.get(), 9,
-                         IntervalsText(edge.measures.spans, kSpanDecimals).c_str());
-    const double weights[] = {edge.measures.angular_share, edge.measures.line_measure_m,
-                              edge.measures.skyline_drop_m};
-    for (int i = 0; i < 3; ++i) OGR_F_SetFieldDouble(feature.get(), 10 + i, weights[i]);
+    if (edge.witness.exact) {
+      OGR_F_SetFieldDouble(feature.get(), 4, edge.witness.t);
+      OGR_F_SetFieldInteger64(feature.get(), 5, edge.witness.dc);
+      OGR_F_SetFieldInteger64(feature.get(), 6, edge.witness.dr);
+    }
+    const EdgeMeasures& m = edge.measures;
+    if (m.sights == Known::kYes) {
+      const std::string azimuths = IntervalsText(m.azimuths, kAzimuthDecimals);
+      const std::string spans = IntervalsText(m.spans, kSpanDecimals);
+      OGR_F_SetFieldString(feature.get(), 8, azimuths.c_str());
+      OGR_F_SetFieldString(feature.get(), 9, spans.c_str());
+      OGR_F_SetFieldDouble(feature.get(), 10, m.angular_share);
+      OGR_F_SetFieldDouble(feature.get(), 11, m.line_measure_m);
+    }
+    if (m.drop == Known::kYes) OGR_F_SetFieldDouble(feature.get(), 12, m.skyline_drop_m);
   }
   if (edge.level_kept) OGR_F_SetFieldInteger(feature.get(), 7, *edge.level_kept);
   const OGRGeometryH line = LineOf(edge, OGR_L_GetGeomType(layer));

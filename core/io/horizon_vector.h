@@ -13,7 +13,7 @@ namespace farhorizon {
 ///
 /// The layer is one of line strings, cut as in horizon.geojson: where an edge crosses the meridian
 /// of 180 degrees, it is one of multi line strings throughout. Azimuths and spans are fields of
-/// text, as in horizon.geojson. Fields that an undecided edge has no value for are null.
+/// text, as in horizon.geojson. Fields without a value are null.
 /// Errors: kInvalidArgument for another ending; kIo where the driver failed, with its message.
 Status WriteHorizonVector(const std::vector<HorizonFeature>& features,
                           const std::filesystem::path& path);

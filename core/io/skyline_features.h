@@ -28,7 +28,7 @@ struct SkylineFeature {
 
 /// The skyline in one direction, its parts from left to right.
 ///
-/// azimuth: degrees clockwise from true north at the DEM's middle.
+/// azimuth: that of `direction`, degrees clockwise from true north at the DEM's middle.
 /// direction: [columns, rows]; each line of sight in this direction through a part is a witness.
 /// approximate: the skyline was found from a superset of the horizon edges, which has the same
 ///   skyline.

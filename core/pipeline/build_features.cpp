@@ -2,12 +2,11 @@
 
 #include <utility>
 
-#include "core/pipeline/edge_measures.h"
-
 namespace farhorizon {
 
 Result<std::vector<HorizonFeature>> BuildFeatures(const TerrainInput& input, const Horizon& horizon,
-                                                  const std::vector<int>& level_kept, int threads,
+                                                  const std::vector<int>& level_kept,
+                                                  const MeasureOptions& measuring,
                                                   const RunControl& control) {
   std::vector<VertexId> ends;
   for (const HorizonEdge& e : horizon.edges) {
@@ -17,7 +16,7 @@ Result<std::vector<HorizonFeature>> BuildFeatures(const TerrainInput& input, con
   Result<std::vector<Geodetic>> points = input.georeference().ToGeodetic(ends);
   if (!points) return std::move(points.error());
   Result<std::vector<EdgeMeasures>> measures =
-      MeasureEdges(input.terrain(), horizon, input.georeference(), threads, control);
+      MeasureEdges(input.terrain(), horizon, input.georeference(), measuring, control);
   if (!measures) return std::move(measures.error());
   const Dem& dem = input.dem();
   std::vector<HorizonFeature> features;

@@ -6,6 +6,7 @@
 #include "core/base/run_control.h"
 #include "core/horizon/horizon.h"
 #include "core/io/horizon_features.h"
+#include "core/pipeline/edge_measures.h"
 #include "core/pipeline/terrain_input.h"
 
 namespace farhorizon {
@@ -16,7 +17,8 @@ namespace farhorizon {
 ///   were built.
 /// Errors: those of MeasureEdges and Georeference::ToGeodetic.
 Result<std::vector<HorizonFeature>> BuildFeatures(const TerrainInput& input, const Horizon& horizon,
-                                                  const std::vector<int>& level_kept, int threads,
+                                                  const std::vector<int>& level_kept,
+                                                  const MeasureOptions& measuring,
                                                   const RunControl& control);
 
 }  // namespace farhorizon

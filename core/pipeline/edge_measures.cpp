@@ -7,9 +7,13 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
+#include <string>
+#include <utility>
 
 #include "core/base/parallel_for.h"
 #include "core/geometry/interval_set.h"
+#include "core/horizon/budgeted_work.h"
 #include "core/horizon/lines_of_sight/skyline_drop.h"
 
 namespace farhorizon {
@@ -99,6 +103,7 @@ std::vector<Interval> AzimuthsOf(const std::vector<Interval>& angles, const Edge
 // both curves. By Gauss and Legendre's rule of eight nodes on each quarter of the range: exact for
 // polynomials up to degree 15, and true to a millionth here (edge_measures_test.cpp).
 double MeasureOf(const LineOfSightCell& cell, const EdgeCompass& compass) {
+  if (!(cell.from < cell.to)) return 0;  // narrower than doubles tell
   constexpr std::array<double, 4> kNodes = {0.1834346424956498, 0.5255324099163290,
                                             0.7966664774136267, 0.9602898564975363};
   constexpr std::array<double, 4> kWeights = {0.3626837833783620, 0.3137066458778873,
@@ -138,37 +143,111 @@ EdgeMeasures MeasuresOf(const LinesOfSight& sights, std::array<double, 2> along,
   return measures;
 }
 
+namespace {
+
+// Sets the skyline drops of all edges, as far as the budget suffices.
+Status WeighEdges(const Terrain& terrain, const Horizon& horizon, const MeasureOptions& options,
+                  const RunControl& control, std::vector<EdgeMeasures>& measures) {
+  const SkylineDrops drops(terrain, horizon, kSkylineDropStep / terrain.dem().quantum_m);
+  const auto weigh = [&](std::span<const std::size_t> edges, std::int64_t limit) {
+    BudgetedWork::Done done;
+    for (const std::size_t i : edges) {
+      const SkylineDrops::Drop drop = drops.Find(i, limit);
+      done.spent += drop.spent;
+      measures[i].drop = drop.quanta ? Known::kYes : Known::kNotAfforded;
+      if (!drop.quanta) {
+        done.open.push_back(i);
+      } else {
+        measures[i].skyline_drop_m = *drop.quanta * terrain.dem().quantum_m;
+      }
+    }
+    return done;
+  };
+  const BudgetedWork work{.count = measures.size(),
+                          .attempt = weigh,
+                          .stage = Stage::kEdgeMeasures,
+                          .what = "weighing " + std::to_string(measures.size()) + " horizon edges",
+                          .restart = [&measures] {
+                            for (EdgeMeasures& m : measures) m.drop = Known::kNotAfforded;
+                          }};
+  Result<std::vector<std::size_t>> open =
+      WorkThrough(work, options.threads, options.budget, control);
+  if (!open) return std::move(open.error());
+  for (const std::size_t i : *open) measures[i].drop = Known::kNotAfforded;
+  for (std::size_t i = 0; i < measures.size(); ++i) {
+    if (horizon.edges[i].undecided) measures[i].drop = Known::kNotAfforded;
+  }
+  return Ok{};
+}
+
+// Says what an approximate budget did not suffice for.
+void WarnOfGaps(const Horizon& horizon, const std::vector<EdgeMeasures>& measures,
+                const RunControl& control) {
+  std::int64_t sights = 0;
+  std::int64_t drops = 0;
+  for (std::size_t i = 0; i < measures.size(); ++i) {
+    if (horizon.edges[i].undecided) continue;
+    sights += measures[i].sights == Known::kNotAfforded ? 1 : 0;
+    drops += measures[i].drop == Known::kNotAfforded ? 1 : 0;
+  }
+  if (sights + drops == 0) return;
+  control.Warn("approximate: the work budget leaves " + std::to_string(sights) +
+               " edges without their lines of sight and " + std::to_string(drops) +
+               " without a skyline drop; these are null");
+}
+
+std::array<double, 2> MiddleOf(const Segment& edge) {
+  return {(edge.a.x + edge.b.x) / 2.0, (edge.a.y + edge.b.y) / 2.0};
+}
+
+}  // namespace
+
 Result<std::vector<EdgeMeasures>> MeasureEdges(const Terrain& terrain, const Horizon& horizon,
-                                               const Georeference& georeference, int threads,
+                                               const Georeference& georeference,
+                                               const MeasureOptions& options,
                                                const RunControl& control) {
-  Result<std::vector<LinesOfSight>> sights = FindLinesOfSight(terrain, horizon, threads, control);
+  if (options.weights == Weights::kNone) {
+    control.Report(Stage::kLinesOfSight, 1);
+    control.Report(Stage::kEdgeMeasures, 1);
+    return std::vector<EdgeMeasures>(
+        horizon.edges.size(), EdgeMeasures{.sights = Known::kNotAsked, .drop = Known::kNotAsked});
+  }
+  Result<std::vector<LinesOfSight>> sights =
+      FindLinesOfSight(terrain, horizon, options.threads, options.budget, control);
   if (!sights) return std::move(sights.error());
   control.Report(Stage::kEdgeMeasures, 0);
+  std::vector<Segment> edges;
   std::vector<std::array<double, 2>> middles;
   for (const HorizonEdge& e : horizon.edges) {
-    const Point3i a = terrain.Point(e.edge.a);
-    const Point3i b = terrain.Point(e.edge.b);
-    middles.push_back({(a.x + b.x) / 2.0, (a.y + b.y) / 2.0});
+    edges.push_back({terrain.Point(e.edge.a), terrain.Point(e.edge.b)});
+    middles.push_back(MiddleOf(edges.back()));
   }
   Result<std::vector<GroundStep>> steps = georeference.StepsAt(middles);
   if (!steps) return std::move(steps.error());
-  const SkylineDrops skyline_drops(terrain, horizon, kSkylineDropStep / terrain.dem().quantum_m);
   std::vector<EdgeMeasures> measures(horizon.edges.size());
   const auto measure = [&](std::size_t begin, std::size_t end, std::size_t /*thread*/) {
     for (std::size_t i = begin; i < end; ++i) {
-      const Edge edge = horizon.edges[i].edge;
-      const Point3i a = terrain.Point(edge.a);
-      const Point3i b = terrain.Point(edge.b);
+      const auto& [a, b] = edges[i];
       const std::array<double, 2> along = {static_cast<double>(b.x) - a.x,
                                            static_cast<double>(b.y) - a.y};
       measures[i] = MeasuresOf((*sights)[i], along, (*steps)[i]);
-      measures[i].skyline_drop_m = skyline_drops.Of(i) * terrain.dem().quantum_m;
+      if ((*sights)[i].empty()) measures[i].sights = Known::kNotAfforded;
+      measures[i].drop = Known::kNotAsked;
+      (*sights)[i] = {};
     }
   };
-  if (!ParallelForBatches(measures.size(), kBatch, threads, Stage::kEdgeMeasures, control,
-                          measure)) {
-    return Error{ErrorCode::kCancelled, "stopped while weighing horizon edges"};
+  constexpr double kSightsShare = 0.1;  // of the stage's time: what is found from lines of sight
+  if (!ParallelForBatches(measures.size(), kBatch, options.threads, Stage::kEdgeMeasures,
+                          control.Between(0, kSightsShare), measure)) {
+    return Error{ErrorCode::kCancelled, "stopped while measuring horizon edges"};
   }
+  if (options.weights == Weights::kFull) {
+    Status weighed =
+        WeighEdges(terrain, horizon, options, control.Between(kSightsShare, 1), measures);
+    if (!weighed) return std::move(weighed.error());
+  }
+  WarnOfGaps(horizon, measures, control);
+  control.Report(Stage::kEdgeMeasures, 1);
   return measures;
 }
 

@@ -6,6 +6,7 @@
 #include "core/base/result.h"
 #include "core/base/run_control.h"
 #include "core/horizon/lines_of_sight/lines_of_sight.h"
+#include "core/horizon/work_budget.h"
 #include "core/io/horizon_features.h"
 #include "core/pipeline/georeference.h"
 #include "core/pipeline/ground_step.h"
@@ -19,11 +20,23 @@ namespace farhorizon {
 EdgeMeasures MeasuresOf(const LinesOfSight& sights, std::array<double, 2> along,
                         const GroundStep& step);
 
-/// The measures of each edge of the horizon, in its order. The same for any `threads`.
-/// Errors: kCancelled; those of Georeference::StepsAt.
+/// Which measures of edges are found. kFast: all except skyline drops, which take most of the time.
+enum class Weights { kNone, kFast, kFull };
+
+/// How the edges of a horizon are measured.
+struct MeasureOptions {
+  WorkBudget& budget;  ///< of the run that found the horizon: what it left
+  int threads = 1;     ///< never changes the answer
+  Weights weights = Weights::kFull;
+};
+
+/// The measures of each edge of the horizon, in its order. Where the budget is approximate and does
+/// not suffice, some edges have measures that were not afforded.
+/// Errors: kCancelled; kResourceExhausted, kind work-budget; those of Georeference::StepsAt.
 /// Cost: that of FindLinesOfSight and SkylineDrops.
 Result<std::vector<EdgeMeasures>> MeasureEdges(const Terrain& terrain, const Horizon& horizon,
-                                               const Georeference& georeference, int threads,
+                                               const Georeference& georeference,
+                                               const MeasureOptions& options,
                                                const RunControl& control);
 
 }  // namespace farhorizon

@@ -12,7 +12,7 @@
 namespace farhorizon {
 
 Status WriteHorizonEdges(const std::filesystem::path& dem, const std::filesystem::path& out,
-                         const BuildOptions& options, const RunControl& control, Engine engine) {
+                         const HorizonFileOptions& options, const RunControl& control) {
   const std::string ending = out.extension().string();
   if (ending != ".geojson" && ending != ".fgb" && ending != ".gpkg") {
     return Error{ErrorCode::kInvalidArgument,
@@ -20,15 +20,18 @@ Status WriteHorizonEdges(const std::filesystem::path& dem, const std::filesystem
                  "unknown-format"};
   }
   control.Report(Stage::kRead, 0);
-  Result<std::unique_ptr<TerrainInput>> input = TerrainInput::Open(dem, options, control);
+  Result<std::unique_ptr<TerrainInput>> input = TerrainInput::Open(dem, options.build, control);
   if (!input) return std::move(input.error());
   control.Report(Stage::kRead, 1);
-  HorizonOptions horizon_options = HorizonOptionsOf(options);
-  horizon_options.engine = engine;
-  Result<Horizon> horizon = FindHorizon((*input)->terrain(), horizon_options, control);
+  HorizonOptions horizon_options = HorizonOptionsOf(options.build);
+  horizon_options.engine = options.engine;
+  WorkBudget budget = WorkBudgetOf((*input)->terrain(), horizon_options);
+  Result<Horizon> horizon = FindHorizon((*input)->terrain(), horizon_options, budget, control);
   if (!horizon) return std::move(horizon.error());
+  const MeasureOptions measuring{
+      .budget = budget, .threads = options.build.threads, .weights = options.weights};
   Result<std::vector<HorizonFeature>> features =
-      BuildFeatures(**input, *horizon, {}, options.threads, control);
+      BuildFeatures(**input, *horizon, {}, measuring, control);
   if (!features) return std::move(features.error());
   control.Report(Stage::kWrite, 0);
   Status written = ending == ".geojson" ? WriteFile(out, WriteHorizonGeoJson(*features))

@@ -95,16 +95,59 @@ Result<SkylineOfDirection> Published(const TerrainInput& input, const Horizon& h
   return skyline;
 }
 
+// numerator / denominator, in lowest terms.
+struct SmallFraction {
+  std::int32_t numerator = 0;
+  std::int32_t denominator = 1;
+};
+
+// The nearest to x of all fractions with denominators up to kMaxViewStep, by continued fractions:
+// each convergent is nearer than all fractions of smaller denominators, and past the last one that
+// fits the best of those between it and the next may be nearer still. Requires: 0 <= x <= 1.
+SmallFraction NearestFraction(double x) {
+  SmallFraction before{1, 0};
+  SmallFraction last{0, 1};
+  const auto error = [x](const SmallFraction& f) {
+    return std::abs(x - static_cast<double>(f.numerator) / f.denominator);
+  };
+  double rest = x;
+  double whole = 0;
+  // x is rounded itself: nearer than its last place is near enough.
+  while (error(last) > 0x1p-53) {
+    rest = 1 / (rest - whole);
+    whole = std::floor(rest);
+    const std::int32_t most = (kMaxViewStep - before.denominator) / last.denominator;
+    const bool fits = whole <= most;
+    const std::int32_t times = fits ? static_cast<std::int32_t>(whole) : most;
+    const SmallFraction next{before.numerator + times * last.numerator,
+                             before.denominator + times * last.denominator};
+    if (!fits) return next.denominator > 0 && error(next) < error(last) ? next : last;
+    before = last;
+    last = next;
+  }
+  return last;
+}
+
+// The azimuth of `view`, in the turn of `asked`, to 10^-9 degrees: far less than any DEM's georeference
+// is good for, and as a rule what was asked.
+double AzimuthOf(const ViewDirection& view, const GroundStep& step, double asked) {
+  constexpr double kPerDegree = 1e9;
+  const double off = std::remainder(step.ToAzimuth(view.dc, view.dr) - asked, 360);
+  return std::round((asked + off) * kPerDegree) / kPerDegree + 0.0;  // no -0
+}
+
 Result<SkylineOfDirection> Find(const TerrainInput& input, double azimuth,
                                 const BuildOptions& options, const RunControl& control) {
   const Dem& dem = input.dem();
   const std::array<double, 2> middle = {(dem.columns - 1) / 2.0, (dem.rows - 1) / 2.0};
   Result<std::vector<GroundStep>> step = input.georeference().StepsAt({middle});
   if (!step) return std::move(step.error());
-  Result<Horizon> horizon = FindHorizon(input.terrain(), HorizonOptionsOf(options), control);
+  const HorizonOptions horizon_options = HorizonOptionsOf(options);
+  WorkBudget budget = WorkBudgetOf(input.terrain(), horizon_options);
+  Result<Horizon> horizon = FindHorizon(input.terrain(), horizon_options, budget, control);
   if (!horizon) return std::move(horizon.error());
   Result<std::vector<LinesOfSight>> sights =
-      FindLinesOfSight(input.terrain(), *horizon, options.threads, control);
+      FindLinesOfSight(input.terrain(), *horizon, options.threads, budget, control);
   if (!sights) return std::move(sights.error());
   control.Report(Stage::kWrite, 0);
   const ViewDirection view = DirectionOf(azimuth, step->front());
@@ -113,7 +156,7 @@ Result<SkylineOfDirection> Find(const TerrainInput& input, double azimuth,
   Result<SkylineOfDirection> skyline =
       Published(input, *horizon, LeftToRight(skylines.Along(view), frame.RisesToTheRight()), frame);
   if (!skyline) return skyline;
-  skyline->azimuth = azimuth;
+  skyline->azimuth = AzimuthOf(view, step->front(), azimuth);
   skyline->direction = {view.dc, view.dr};
   skyline->approximate = horizon->statistics.undecided > 0;
   return skyline;
@@ -132,11 +175,13 @@ Result<SkylineFormat> SkylineFormatOf(const std::filesystem::path& file) {
 
 ViewDirection DirectionOf(double azimuth_deg, const GroundStep& step) {
   const auto [columns, rows] = step.ToGrid(azimuth_deg);
-  const double most = std::max(std::abs(columns), std::abs(rows));
-  const auto scaled = [most](double value) {
-    return static_cast<std::int32_t>(std::lround(value / most * kMaxViewStep));
-  };
-  return {scaled(columns), scaled(rows)};
+  const bool steep = std::abs(rows) > std::abs(columns);
+  const double along = steep ? rows : columns;
+  const double across = steep ? columns : rows;
+  const SmallFraction slope = NearestFraction(std::abs(across / along));
+  const std::int32_t longer = std::signbit(along) ? -slope.denominator : slope.denominator;
+  const std::int32_t shorter = std::signbit(across) ? -slope.numerator : slope.numerator;
+  return steep ? ViewDirection{shorter, longer} : ViewDirection{longer, shorter};
 }
 
 Result<std::string> WriteSkyline(const std::filesystem::path& dem, double azimuth,

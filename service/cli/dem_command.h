@@ -12,6 +12,7 @@
 #include "service/cli/command_line.h"
 #include "service/cli/reporter.h"
 #include "service/cli/signals.h"
+#include "service/stage_timer.h"
 
 namespace farhorizon {
 
@@ -25,12 +26,18 @@ struct DemArguments {
   std::string path;
   BuildFlags flags;
   ReporterOptions reporter;
+  std::string timings;  ///< file for the seconds by stage; empty: none
 };
 
 /// Adds the positional argument DEM. Requires: `arguments` outlives the parse.
 void AddDem(Command& command, DemArguments& arguments, const char* help = kDemFormats);
 /// Adds --threads and --progress. Requires: as above.
 void AddRunFlags(Command& command, DemArguments& arguments);
+/// Adds --timings. Requires: as above.
+void AddTimings(Command& command, DemArguments& arguments, const char* help);
+
+/// Writes seconds by stage as JSON. Errors: kIo.
+Status WriteTimings(const std::string& path, const StageSeconds& seconds);
 
 /// A command while it works: its options, progress, and a stop token for SIGINT and SIGTERM.
 struct DemRun {
@@ -39,9 +46,9 @@ struct DemRun {
   RunControl control;
 };
 
-/// Calls work(const DemRun&) and returns its Result, after the progress bar was removed.
-/// workflow: the stages that `work` goes through.
-/// Errors: those of BuildFlags::Options and of `work`.
+/// Calls work(const DemRun&) and returns its Result, after the progress bar was removed and the
+/// timings were written. workflow: the stages that `work` goes through.
+/// Errors: those of BuildFlags::Options, of `work` and of WriteTimings.
 template <typename Work>
 auto RunOnDem(const DemArguments& arguments, Workflow workflow, Work work)
     -> std::invoke_result_t<Work, const DemRun&> {
@@ -49,9 +56,16 @@ auto RunOnDem(const DemArguments& arguments, Workflow workflow, Work work)
   if (!options) return std::move(options.error());
   const StopOnSignal signals;
   Reporter reporter(arguments.reporter);
-  const RunControl control{reporter.progress(workflow), signals.token(), reporter.warn(),
-                           reporter.assume()};
-  return work(DemRun{*options, reporter, control});
+  StageTimer timer;
+  const bool timed = !arguments.timings.empty();
+  RunControl control{timer.Listen(reporter.progress(workflow)), signals.token(), reporter.warn(),
+                     reporter.assume()};
+  if (timed) control.timings = [&timer] { return timer.Seconds(); };
+  auto result = work(DemRun{*options, reporter, control});
+  if (!result || !timed) return result;
+  Status written = WriteTimings(arguments.timings, timer.Seconds());
+  if (!written) return std::move(written.error());
+  return result;
 }
 
 }  // namespace farhorizon

@@ -16,18 +16,24 @@ struct HorizonArguments {
   DemArguments dem;
   std::string file;
   std::string engine = "auto";
+  std::string weights = "full";
+  std::string kinetic_hull = "turns";
   std::optional<double> trace_level_m;
 };
 
-Engine EngineOf(const std::string& name) {
+Engine EngineOf(const HorizonArguments& arguments) {
   // "auto" is the adaptive engine, which is the faster one on large terrain.
-  return name == "kinetic" ? Engine::kKinetic : Engine::kAdaptive;
+  if (arguments.engine != "kinetic") return Engine::kAdaptive;
+  return arguments.kinetic_hull == "bgh" ? Engine::kKineticTree : Engine::kKinetic;
+}
+
+Weights WeightsOf(const std::string& name) {
+  return name == "none" ? Weights::kNone : name == "fast" ? Weights::kFast : Weights::kFull;
 }
 
 Workflow WorkflowOf(const HorizonArguments& arguments) {
   if (arguments.trace_level_m) return Workflow::kTrace;
-  return EngineOf(arguments.engine) == Engine::kKinetic ? Workflow::kKineticHorizon
-                                                        : Workflow::kHorizon;
+  return EngineOf(arguments) == Engine::kAdaptive ? Workflow::kHorizon : Workflow::kKineticHorizon;
 }
 
 int Run(const HorizonArguments& arguments) {
@@ -36,8 +42,11 @@ int Run(const HorizonArguments& arguments) {
     return arguments.trace_level_m
                ? WriteSweepPicture(dem, arguments.file, *arguments.trace_level_m, run.options,
                                    run.control)
-               : WriteHorizonEdges(dem, arguments.file, run.options, run.control,
-                                   EngineOf(arguments.engine));
+               : WriteHorizonEdges(dem, arguments.file,
+                                   {.build = run.options,
+                                    .engine = EngineOf(arguments),
+                                    .weights = WeightsOf(arguments.weights)},
+                                   run.control);
   }));
 }
 
@@ -58,6 +67,17 @@ void AddHorizon(Command& program, SelectedCommand& selected) {
                      .help = "algorithm that finds the edges: adaptive, kinetic, or auto, which is "
                              "adaptive; all find the same ones"},
                     arguments->engine, {"adaptive", "kinetic", "auto"});
+  command.AddChoice({.names = "--kinetic-hull",
+                     .type = "HULL",
+                     .help = "how --engine kinetic certifies hulls: turns, of neighbouring corners, "
+                             "or bgh, the tree of Basch, Guibas and Hershberger; both find the same "
+                             "edges"},
+                    arguments->kinetic_hull, {"turns", "bgh"});
+  command.AddChoice({.names = "--weights",
+                     .type = "W",
+                     .help = "what is said of each edge beside its witness: none; fast, all that "
+                             "follows from its lines of sight; full, its skyline drop, too (full)"},
+                    arguments->weights, {"none", "fast", "full"});
   command.Add({.names = "--trace-level",
                .type = "Z",
                .help = "instead of the edges, draw the sweep at the height of Z metres: contours, "
@@ -66,6 +86,7 @@ void AddHorizon(Command& program, SelectedCommand& selected) {
   AddReadFlags(command, arguments->dem.flags);
   AddWorkFlags(command, arguments->dem.flags);
   AddRunFlags(command, arguments->dem);
+  AddTimings(command, arguments->dem, "write seconds by stage, as JSON");
   command.Select(selected, [arguments] { return Run(*arguments); });
 }
 

@@ -73,7 +73,6 @@ constexpr ErrorKind kKinds422[] = {
     "overlap",
     "rotated-geotransform",
     "several-bands",
-    "sight-too-narrow",
     "timeout",
     "too-large-extent",
     "too-small",

@@ -110,8 +110,10 @@ Row Report(const Dem& dem, int repetitions) {
   const Cost floor = Measure(repetitions, [&] { SortAndRead(terrain); });
   const Cost sweep = Measure(repetitions, [&] { static_cast<void>(SweepHulls(terrain, 1, {})); });
   const HullSweep swept = std::move(*SweepHulls(terrain, 1, {}));
-  const Cost candidates =
-      Measure(repetitions, [&] { static_cast<void>(FindCandidates(terrain, swept, 1, {})); });
+  const Cost candidates = Measure(repetitions, [&] {
+    WorkBudget any(WorkBudget::kMost);
+    static_cast<void>(FindCandidates(terrain, swept, 1, any, {}));
+  });
   const auto find = [&](int threads) {
     return Measure(repetitions,
                    [&] { static_cast<void>(FindHorizon(terrain, {.threads = threads}, {})); });

@@ -23,14 +23,13 @@ struct Answer {
 Answer AdaptiveAnswer(const Terrain& terrain, const Engines& engines) {
   Result<Horizon> horizon = engines.adaptive(terrain);
   if (!horizon) {
-    if (horizon.error().kind == "sight-too-narrow") return {};
     return {{}, "the adaptive engine says: " + horizon.error().message};
   }
   Answer answer;
   answer.edges.emplace();
   for (const HorizonEdge& e : horizon->edges) {
     answer.edges->push_back(e.edge);
-    if (WitnessHolds(terrain, e.edge, e.witness)) continue;
+    if (!e.witness.exact || WitnessHolds(terrain, e.edge, e.witness)) continue;
     std::ostringstream out;
     out << "a witness does not hold: edge " << e.edge.a << '-' << e.edge.b << " t " << e.witness.t
         << " direction " << e.witness.dc << ' ' << e.witness.dr;
@@ -44,16 +43,14 @@ std::string ApproximateOffence(const Terrain& terrain, const std::vector<Edge>& 
                                const Engines& engines) {
   Result<Horizon> horizon = engines.approximate(terrain);
   if (!horizon) {
-    return horizon.error().kind == "sight-too-narrow"
-               ? std::string()
-               : "approximating, the adaptive engine says: " + horizon.error().message;
+    return "approximating, the adaptive engine says: " + horizon.error().message;
   }
   std::vector<Edge> kept;
   std::vector<Edge> decided;
   for (const HorizonEdge& e : horizon->edges) {
     kept.push_back(e.edge);
     if (!e.undecided) decided.push_back(e.edge);
-    if (!e.undecided && !WitnessHolds(terrain, e.edge, e.witness)) {
+    if (!e.undecided && e.witness.exact && !WitnessHolds(terrain, e.edge, e.witness)) {
       return "approximating, a witness does not hold";
     }
   }

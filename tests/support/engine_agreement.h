@@ -26,9 +26,9 @@ struct Engines {
 
 /// How the engines differ on `dem` from one another or from the definition: what failed, then the
 /// edges. Empty where they agree, and on a DEM without any surface. Every witness is checked, and
-/// that what is approximate is a superset, all beyond the horizon undecided. The errors that they
-/// document for extreme heights, sight-too-narrow and kinetic-too-large, are no offence; any other
-/// is, and so is an InternalError.
+/// that what is approximate is a superset, all beyond the horizon undecided. The error that is
+/// documented for extreme heights, kinetic-too-large, is no offence; any other is, and so is an
+/// InternalError.
 std::string EngineOffence(const Dem& dem, const Engines& engines);
 
 /// The smallest DEM to be had on which the engines still offend.

@@ -16,11 +16,11 @@ class SchemaCheck {
   /// closed: whether a property that the schema does not name is an offence.
   void Look(const nlohmann::json& value, const nlohmann::json& schema, const std::string& path,
             bool closed = true) {
-    const std::string type = schema.value("type", "");
-    if (!IsA(value, type)) {
-      Offend(path, "is no " + type);
+    if (schema.contains("type") && !IsOneOf(value, schema["type"])) {
+      Offend(path, "is no " + schema["type"].dump());
       return;
     }
+    if (value.is_null()) return;
     if (schema.contains("const") && schema["const"] != value) Offend(path, "const");
     if (schema.contains("enum") &&
         std::find(schema["enum"].begin(), schema["enum"].end(), value) == schema["enum"].end()) {
@@ -41,8 +41,14 @@ class SchemaCheck {
   [[nodiscard]] const std::vector<std::string>& offences() const { return offences_; }
 
  private:
+  // types: a name of a type, or an array of names.
+  static bool IsOneOf(const nlohmann::json& value, const nlohmann::json& types) {
+    if (types.is_string()) return IsA(value, types);
+    return std::any_of(types.begin(), types.end(),
+                       [&value](const nlohmann::json& type) { return IsA(value, type); });
+  }
   static bool IsA(const nlohmann::json& value, const std::string& type) {
-    return type.empty() || (type == "object" && value.is_object()) ||
+    return (type == "null" && value.is_null()) || (type == "object" && value.is_object()) ||
            (type == "array" && value.is_array()) || (type == "string" && value.is_string()) ||
            (type == "boolean" && value.is_boolean()) ||
            (type == "integer" && value.is_number_integer()) ||

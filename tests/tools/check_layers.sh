@@ -22,9 +22,12 @@ declare -A may=(
   [core/horizon/visibility]="$below_horizon core/horizon"
   [core/horizon/sweep]="$below_horizon core/horizon core/horizon/visibility"
   # A second opinion: it shares no room with what it checks.
-  [core/horizon/kinetic]="$below_horizon core/horizon"
+  [core/horizon/kinetic]="$below_horizon core/horizon core/horizon/kinetic/hulls core/horizon/kinetic/neighbours core/horizon/kinetic/bitangents"
+  [core/horizon/kinetic/hulls]="$below_horizon"
+  [core/horizon/kinetic/neighbours]="$below_horizon core/horizon/kinetic/hulls"
+  [core/horizon/kinetic/bitangents]="$below_horizon core/horizon/kinetic/hulls"
   [core/horizon/lines_of_sight]="$below_horizon core/horizon core/horizon/lines core/horizon/visibility"
-  [core/horizon/trace]="$below_horizon core/horizon core/horizon/sweep core/horizon/kinetic"
+  [core/horizon/trace]="$below_horizon core/horizon core/horizon/sweep core/horizon/kinetic core/horizon/kinetic/hulls core/horizon/kinetic/bitangents"
   [core/horizon/search]="$below_horizon core/horizon core/horizon/visibility core/horizon/sweep core/horizon/kinetic"
   # Is a segment occluded by the DEM? What makes levels and what measures them ask alike.
   [core/horizon/guard]="$below_horizon core/horizon core/horizon/visibility"

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/geometry/grid_lines.h"
+#include "core/terrain/height_range.h"
 
 namespace farhorizon {
 
@@ -30,41 +31,48 @@ constexpr double kAtPost = 1e-9;
 // other families find both ends, and one of the two is as high as the crossing. Any value well
 // below kAtPost is sound.
 constexpr double kAlongFamily = 1e-12;
-// Blocks have 2^3 posts a side: any size is sound, this one is fast. A piece of a line that is no
-// longer than a block is wide, with its middle in the block, stays in the block and those around
-// it, and so do the ends of the edges that it crosses.
-constexpr int kBlockBits = 3;
+// Bounds the error of the share at which an edge is crossed: kAtPost for a line that counts as
+// through a post, less than a tenth of it for j and for the point that the line is given by, and
+// less than that for the rounding of a height, which is below 2^31 quanta. The bound is twice their
+// sum.
+constexpr double kShareError = 0x1p-28;
+// Blocks have 2^2 posts a side, and large blocks 2^4: any sizes are sound, these are fast. A piece of
+// a line that is no longer than a block is wide, with its middle in the block, stays in the block
+// and those around it, and so do the ends of the edges that it crosses.
+constexpr int kBlockBits = 2;
+constexpr int kLargeBlockBits = 4;
 constexpr double kPiece = 1 << kBlockBits;
+constexpr int kPiecesInLarge = 1 << (kLargeBlockBits - kBlockBits);
 
 // One line, its points given by their distance from (x, y).
 class LineWalk {
  public:
-  LineWalk(const Terrain& terrain, bool has_holes, Edge except, double x, double y, double dx,
-           double dy)
+  LineWalk(const Terrain& terrain, bool has_holes, Edge except, const GridLineQuery::Line& line,
+           double floor)
       : terrain_(terrain),
         has_holes_(has_holes),
         columns_(terrain.dem().columns),
         rows_(terrain.dem().rows),
         heights_(terrain.dem().heights.data()),
         except_(except),
-        x_(x),
-        y_(y),
-        dx_(dx),
-        dy_(dy) {
-    Clip(x, dx, columns_ - 1);
-    Clip(y, dy, rows_ - 1);
+        x_(line.x),
+        y_(line.y),
+        dx_(line.dx),
+        dy_(line.dy),
+        highest_{floor, {}} {
+    Clip(x_, dx_, columns_ - 1);
+    Clip(y_, dy_, rows_ - 1);
   }
 
   [[nodiscard]] double from() const { return from_; }
   [[nodiscard]] double to() const { return to_; }
   [[nodiscard]] const HighestEdge& highest() const { return highest_; }
 
-  // The block that the line is in at a distance between from() and to().
-  [[nodiscard]] std::pair<std::int32_t, std::int32_t> BlockAt(double distance) const {
+  // The post at or before the line's point at a distance between from() and to().
+  [[nodiscard]] Point2i PostAt(double distance) const {
     const auto column = static_cast<std::int32_t>(x_ + distance * dx_);
     const auto row = static_cast<std::int32_t>(y_ + distance * dy_);
-    return {std::clamp(column, 0, columns_ - 1) >> kBlockBits,
-            std::clamp(row, 0, rows_ - 1) >> kBlockBits};
+    return {std::clamp(column, 0, columns_ - 1), std::clamp(row, 0, rows_ - 1)};
   }
 
   // Takes the crossings between two distances.
@@ -155,52 +163,87 @@ class LineWalk {
   double dy_;
   double from_ = -std::numeric_limits<double>::infinity();
   double to_ = std::numeric_limits<double>::infinity();
-  HighestEdge highest_{-std::numeric_limits<double>::infinity(), {}};
+  HighestEdge highest_;
 };
 
 }  // namespace
 
 GridLineQuery::GridLineQuery(const Terrain& terrain) : terrain_(terrain) {
   const Dem& dem = terrain.dem();
-  block_columns_ = ((dem.columns - 1) >> kBlockBits) + 1;
-  const std::int32_t block_rows = ((dem.rows - 1) >> kBlockBits) + 1;
-  tops_.assign(static_cast<std::size_t>(block_columns_) * static_cast<std::size_t>(block_rows),
-               kNoHeight);
-  for (VertexId v = 0; v < terrain.post_count(); ++v) {
-    const std::int32_t height = dem.heights[static_cast<std::size_t>(v)];
-    if (height == kNoHeight) has_holes_ = true;
-    const std::int32_t column = dem.Column(v) >> kBlockBits;
-    const std::int32_t row = dem.Row(v) >> kBlockBits;
-    // kNoHeight is less than all.
-    for (std::int32_t y = std::max(row - 1, 0); y <= std::min(row + 1, block_rows - 1); ++y) {
-      for (std::int32_t x = std::max(column - 1, 0); x <= std::min(column + 1, block_columns_ - 1);
-           ++x) {
-        std::int32_t& top = tops_[static_cast<std::size_t>(y * block_columns_ + x)];
-        top = std::max(top, height);
+  const HeightRange range = HeightRangeOf(dem);
+  height_error_ = kShareError * (static_cast<double>(range.greatest) - range.least);
+  has_holes_ = std::find(dem.heights.begin(), dem.heights.end(), kNoHeight) != dem.heights.end();
+  // kNoHeight is less than all.
+  const BlockTops posts{dem.columns, dem.heights};
+  const BlockTops blocks = posts.Coarser(kBlockBits);
+  tops_ = blocks.OfNeighbourhoods();
+  large_tops_ = blocks.Coarser(kLargeBlockBits - kBlockBits).OfNeighbourhoods();
+}
+
+GridLineQuery::BlockTops GridLineQuery::BlockTops::Coarser(int bits) const {
+  const auto rows = static_cast<std::int32_t>(std::ssize(tops)) / columns;
+  BlockTops coarser{((columns - 1) >> bits) + 1, {}};
+  const std::int32_t coarser_rows = ((rows - 1) >> bits) + 1;
+  coarser.tops.assign(
+      static_cast<std::size_t>(coarser.columns) * static_cast<std::size_t>(coarser_rows),
+      kNoHeight);
+  for (std::int32_t row = 0; row < rows; ++row) {
+    for (std::int32_t column = 0; column < columns; ++column) {
+      std::int32_t& top = coarser.At(column >> bits, row >> bits);
+      top = std::max(top, At(column, row));
+    }
+  }
+  return coarser;
+}
+
+GridLineQuery::BlockTops GridLineQuery::BlockTops::OfNeighbourhoods() const {
+  const auto rows = static_cast<std::int32_t>(std::ssize(tops)) / columns;
+  BlockTops around = *this;
+  for (std::int32_t row = 0; row < rows; ++row) {
+    for (std::int32_t column = 0; column < columns; ++column) {
+      std::int32_t& top = around.At(column, row);
+      for (std::int32_t y = std::max(row - 1, 0); y <= std::min(row + 1, rows - 1); ++y) {
+        for (std::int32_t x = std::max(column - 1, 0); x <= std::min(column + 1, columns - 1);
+             ++x) {
+          top = std::max(top, At(x, y));
+        }
       }
     }
   }
+  return around;
 }
 
-std::optional<HighestEdge> GridLineQuery::HighestEdgeOver(Edge except, double x, double y,
-                                                          double dx, double dy) const {
-  const double length = std::hypot(dx, dy);
-  LineWalk line(terrain_, has_holes_, except, x, y, dx / length, dy / length);
-  const auto walk = [&](double from, double to) {
-    const auto [column, row] = line.BlockAt((from + to) / 2);
-    const std::int32_t top = tops_[static_cast<std::size_t>(row * block_columns_ + column)];
-    if (top > line.highest().height) line.Walk(from, to);
+std::optional<HighestEdge> GridLineQuery::HighestEdgeOver(Edge except, const Line& line,
+                                                          double floor) const {
+  const double length = std::hypot(line.dx, line.dy);
+  LineWalk walk(terrain_, has_holes_, except, {line.x, line.y, line.dx / length, line.dy / length},
+                floor);
+  // Large pieces begin at the line's point, as small ones do, with one half of each on either side
+  // of the middle that names its block.
+  const auto large_piece = [&](double from, double sense, double end) {
+    const Point2i middle = walk.PostAt(std::min(from + kPiece * kPiecesInLarge / 2, end) * sense);
+    if (large_tops_.At(middle.x >> kLargeBlockBits, middle.y >> kLargeBlockBits) <=
+        walk.highest().height) {
+      return;
+    }
+    for (int k = 0; k < kPiecesInLarge && from < end; ++k, from += kPiece) {
+      const double to = std::min(from + kPiece, end);
+      const Point2i post = walk.PostAt((from + to) / 2 * sense);
+      if (tops_.At(post.x >> kBlockBits, post.y >> kBlockBits) > walk.highest().height) {
+        walk.Walk(from * sense, to * sense);
+      }
+    }
   };
-  double from = 0;
-  do {
-    walk(from, std::min(from + kPiece, line.to()));
-    from += kPiece;
-  } while (from < line.to());
-  for (double to = 0; to > line.from(); to -= kPiece) {
-    walk(std::max(to - kPiece, line.from()), to);
+  for (const double sense : {1.0, -1.0}) {
+    const double end = std::max(sense > 0 ? walk.to() : -walk.from(), 0.0);
+    double from = 0;
+    do {
+      large_piece(from, sense, end);
+      from += kPiece * kPiecesInLarge;
+    } while (from < end);
   }
-  if (!std::isfinite(line.highest().height)) return std::nullopt;
-  return line.highest();
+  if (!(walk.highest().height > floor)) return std::nullopt;
+  return walk.highest();
 }
 
 }  // namespace farhorizon

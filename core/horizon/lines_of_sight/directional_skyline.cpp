@@ -98,12 +98,11 @@ std::vector<Segment> SegmentsOf(const Terrain& terrain, const Horizon& horizon) 
   return segments;
 }
 
-IntervalTree TreeOf(const std::vector<Segment>& edges, const Horizon& horizon,
-                    const std::vector<LinesOfSight>& lines) {
+IntervalTree TreeOf(const std::vector<Segment>& edges, const std::vector<LinesOfSight>& lines) {
   std::vector<IntervalTree::Entry> all;
   for (std::size_t i = 0; i < edges.size(); ++i) {
     const auto id = static_cast<std::int32_t>(i);
-    if (horizon.edges[i].undecided) {
+    if (lines[i].empty()) {  // undecided, or its lines of sight were not afforded
       all.push_back({0, std::numbers::pi, id});
       continue;
     }
@@ -127,7 +126,7 @@ double ShareAt(const Segment& edge, const ViewDirection& view, const Fraction& o
 
 DirectionalSkylines::DirectionalSkylines(const Terrain& terrain, const Horizon& horizon,
                                          const std::vector<LinesOfSight>& lines)
-    : edges_(SegmentsOf(terrain, horizon)), directions_(TreeOf(edges_, horizon, lines)) {}
+    : edges_(SegmentsOf(terrain, horizon)), directions_(TreeOf(edges_, lines)) {}
 
 std::vector<SkylinePiece> DirectionalSkylines::Along(const ViewDirection& view) const {
   std::vector<std::int32_t> visible = directions_.Holding(AngleOf(view));

@@ -26,7 +26,7 @@ struct SkylinePiece {
 /// direction; the upper envelope of these is the skyline.
 class DirectionalSkylines {
  public:
-  /// Undecided edges count as visible in all directions.
+  /// Edges without lines of sight, undecided ones among them, count as visible in all directions.
   /// Requires: the horizon is FindHorizon's of the terrain, and `lines` are FindLinesOfSight's of
   /// both.
   /// Cost: O(n log n) for n horizon edges, about 200 bytes each.

@@ -1,9 +1,11 @@
 #include "core/horizon/lines_of_sight/lines_of_sight.h"
 
 #include <algorithm>
+#include <span>
+#include <string>
 #include <utility>
 
-#include "core/base/parallel_for.h"
+#include "core/horizon/budgeted_work.h"
 #include "core/horizon/lines_of_sight/visible_region.h"
 #include "core/horizon/visibility/segment_index.h"
 
@@ -46,30 +48,53 @@ LinesOfSight InDoubles(const VisibleRegion& region, const TargetSegment& edge, b
 
 Result<std::vector<LinesOfSight>> FindLinesOfSight(const Terrain& terrain, const Horizon& horizon,
                                                    int threads, const RunControl& control) {
+  WorkBudget any(WorkBudget::kMost);
+  return FindLinesOfSight(terrain, horizon, threads, any, control);
+}
+
+Result<std::vector<LinesOfSight>> FindLinesOfSight(const Terrain& terrain, const Horizon& horizon,
+                                                   int threads, WorkBudget& budget,
+                                                   const RunControl& control) {
   control.Report(Stage::kLinesOfSight, 0);
   SegmentIndex index(terrain.dem().columns, terrain.dem().rows);
   for (const HorizonEdge& e : horizon.edges) {
     index.Insert({terrain.Point(e.edge.a), terrain.Point(e.edge.b)});
   }
   std::vector<LinesOfSight> lines(horizon.edges.size());
-  const auto find = [&](std::size_t i) {
-    if (horizon.edges[i].undecided) return;
+  // Returns the decisions that it takes: `limit` or more where it gives up.
+  const auto find = [&](std::size_t i, std::int64_t limit) -> std::int64_t {
+    if (horizon.edges[i].undecided) return 0;
     const SegmentIndex::Item& item = index.item(static_cast<std::int32_t>(i));
     const TargetSegment edge{item.low, item.high, Ties::kPass};
     VisibleRegion region(edge, WedgeOf(terrain, horizon.edges[i].edge));
+    region.LimitWork(limit);
     for (const Segment& segment : horizon.virtual_occluders.Of(i)) {
       region.AddOccluder({segment.a, segment.b});
     }
     region.AddOccluders(index, static_cast<std::int32_t>(i));
+    if (region.work() >= limit) return region.work();
     Check(!region.cells().empty(), "a horizon edge has lines of sight");
     lines[i] = InDoubles(region, edge, !(item.low == terrain.Point(horizon.edges[i].edge.a)));
+    return region.work();
   };
-  const auto find_all = [&](std::size_t begin, std::size_t end, std::size_t /*thread*/) {
-    for (std::size_t i = begin; i < end; ++i) find(i);
+  const auto find_some = [&](std::span<const std::size_t> edges, std::int64_t limit) {
+    BudgetedWork::Done done;
+    for (const std::size_t i : edges) {
+      const std::int64_t spent = find(i, limit);
+      done.spent += spent;
+      if (spent >= limit) done.open.push_back(i);
+    }
+    return done;
   };
-  if (!ParallelForBatches(lines.size(), kBatch, threads, Stage::kLinesOfSight, control, find_all)) {
-    return Error{ErrorCode::kCancelled, "stopped while finding lines of sight"};
-  }
+  const BudgetedWork work{
+      .count = lines.size(),
+      .attempt = find_some,
+      .stage = Stage::kLinesOfSight,
+      .what = "finding lines of sight of " + std::to_string(lines.size()) + " edges",
+      .share = 0.5,
+      .restart = [&lines] { std::fill(lines.begin(), lines.end(), LinesOfSight()); }};
+  Result<std::vector<std::size_t>> open = WorkThrough(work, threads, budget, control);
+  if (!open) return std::move(open.error());
   return lines;
 }
 

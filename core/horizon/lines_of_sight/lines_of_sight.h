@@ -6,6 +6,7 @@
 #include "core/base/run_control.h"
 #include "core/geometry/plan_motion.h"
 #include "core/horizon/horizon.h"
+#include "core/horizon/work_budget.h"
 
 namespace farhorizon {
 
@@ -35,5 +36,11 @@ using LinesOfSight = std::vector<LineOfSightCell>;
 /// Errors: kCancelled when a stop is requested. Cost: a few times FindHorizon's.
 Result<std::vector<LinesOfSight>> FindLinesOfSight(const Terrain& terrain, const Horizon& horizon,
                                                    int threads, const RunControl& control);
+
+/// The same within what is left of the budget. Where it is approximate and short, it takes half of
+/// that, and what it cannot afford is empty, too. Errors: those of WorkThrough (budgeted_work.h).
+Result<std::vector<LinesOfSight>> FindLinesOfSight(const Terrain& terrain, const Horizon& horizon,
+                                                   int threads, WorkBudget& budget,
+                                                   const RunControl& control);
 
 }  // namespace farhorizon

@@ -26,7 +26,7 @@ namespace {
 
 using Kind = BoundaryCurve::Kind;
 
-void Append(std::vector<IsolatedRoot>& roots, const std::vector<IsolatedRoot>& more) {
+void Append(std::vector<IsolatedRoot>& roots, const RootPair& more) {
   roots.insert(roots.end(), more.begin(), more.end());
 }
 
@@ -60,24 +60,26 @@ BoundaryCurve CurveOf(const MovingVector& along, const ArcEnd& end) {
 
 // The directions of the arc from a to b, or b to a, around the point: each pair from its first
 // curve counter-clockwise to its last.
-std::vector<CurvePair> OccludedDirections(const MovingVector& along, const ArcEnd& a,
-                                          const ArcEnd& b, const SamplePoint& point) {
+CurvePairs OccludedDirections(const MovingVector& along, const ArcEnd& a, const ArcEnd& b,
+                              const SamplePoint& point) {
   if (a.side == 0 && b.side == 0) return {};  // in line with the edge: one direction
   if (a.side == 0 || b.side == 0) {
     const ArcEnd& on_line = a.side == 0 ? a : b;
     const ArcEnd& other = a.side == 0 ? b : a;
     const bool ahead = point.Sign(Dot(along, on_line.v)) * other.side > 0;
-    if (ahead) return {{BoundaryCurve::Along(), CurveOf(along, other)}};
-    return {{CurveOf(along, other), BoundaryCurve::Against()}};
+    if (ahead) return {BoundaryCurve::Along(), CurveOf(along, other)};
+    return {CurveOf(along, other), BoundaryCurve::Against()};
   }
   BoundaryCurve first = CurveOf(along, a);
   BoundaryCurve last = CurveOf(along, b);
   const int turn = Order(first, last, point);
   if (turn == 0) return {};
   if (turn < 0) std::swap(first, last);
-  if (a.side == b.side) return {{first, last}};
+  if (a.side == b.side) return {first, last};
   // Across the edge's line, ahead of the point or behind it: all directions except those between.
-  return {{BoundaryCurve::Along(), first}, {last, BoundaryCurve::Against()}};
+  CurvePairs outside(BoundaryCurve::Along(), first);
+  outside.Add(last, BoundaryCurve::Against());
+  return outside;
 }
 
 }  // namespace
@@ -96,7 +98,9 @@ std::vector<StripCell> CellsOccludedBy(const SegmentIndex::Item& item, const Tar
       sliced_somewhere && item.low.z < item.high.z ? ToSlice(edge, item.low, item.high) : to_low;
   const Quadratic slice_side = Cross(along, to_slice);
 
-  std::vector<IsolatedRoot> roots = SignChanges(below_high);
+  std::vector<IsolatedRoot> roots;
+  roots.reserve(6);  // that is all, as a rule
+  Append(roots, SignChanges(below_high));
   Append(roots, SignChanges(above_low));
   if (sliced_somewhere) Append(roots, SignChanges(slice_side));
   Append(roots, SignChanges(Cross(to_low, to_high)));

@@ -84,9 +84,11 @@ void AppendCrossings(const BoundaryCurve& a, const BoundaryCurve& b, double from
 
 std::vector<IsolatedRoot> Cuts(const IsolatedRoot& from, std::vector<IsolatedRoot> roots,
                                const IsolatedRoot& to) {
-  std::vector<IsolatedRoot> cuts = {from};
   std::sort(roots.begin(), roots.end(),
             [](const IsolatedRoot& a, const IsolatedRoot& b) { return Compare(a, b) < 0; });
+  std::vector<IsolatedRoot> cuts;
+  cuts.reserve(roots.size() + 2);
+  cuts.push_back(from);
   for (const IsolatedRoot& root : roots) {
     if (Compare(cuts.back(), root) < 0 && Compare(root, to) < 0) cuts.push_back(root);
   }
@@ -95,21 +97,22 @@ std::vector<IsolatedRoot> Cuts(const IsolatedRoot& from, std::vector<IsolatedRoo
 }
 
 void StripBuilder::AddSlab(const IsolatedRoot& from, const IsolatedRoot& to,
-                           const std::vector<CurvePair>& between) {
-  std::vector<std::size_t> slab;
+                           const CurvePairs& between) {
+  Slab slab;
   for (const auto& [first, last] : between) {
-    const auto same = std::find_if(last_slab_.begin(), last_slab_.end(), [&](std::size_t i) {
-      return cells_[i].first == first && cells_[i].last == last;
-    });
-    if (same != last_slab_.end()) {
-      cells_[*same].to = to;
-      slab.push_back(*same);
+    std::size_t cell = cells_.size();
+    for (std::size_t k = 0; k < last_slab_.size; ++k) {
+      const StripCell& before = cells_[last_slab_.cells[k]];
+      if (before.first == first && before.last == last) cell = last_slab_.cells[k];
+    }
+    if (cell < cells_.size()) {
+      cells_[cell].to = to;
     } else {
-      slab.push_back(cells_.size());
       cells_.push_back({from, to, first, last});
     }
+    slab.cells[slab.size++] = cell;
   }
-  last_slab_ = std::move(slab);
+  last_slab_ = slab;
 }
 
 }  // namespace farhorizon

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -56,6 +57,24 @@ struct StripCell {
 /// The directions from one curve counter-clockwise to another.
 using CurvePair = std::pair<BoundaryCurve, BoundaryCurve>;
 
+/// None, one or two of them.
+class CurvePairs {
+ public:
+  CurvePairs() = default;
+  CurvePairs(const BoundaryCurve& first, const BoundaryCurve& last) { Add(first, last); }
+
+  /// Requires: there are no more than two.
+  void Add(const BoundaryCurve& first, const BoundaryCurve& last) {
+    pairs_[size_++] = {first, last};
+  }
+  [[nodiscard]] const CurvePair* begin() const { return pairs_.data(); }
+  [[nodiscard]] const CurvePair* end() const { return pairs_.data() + size_; }
+
+ private:
+  std::array<CurvePair, 2> pairs_;
+  std::size_t size_ = 0;
+};
+
 /// 1 where b is counter-clockwise of a around the point, -1 where it is clockwise, 0 where the two
 /// are one direction for all t. Exact. Requires: they do not cross at the point; they may touch
 /// there.
@@ -95,12 +114,16 @@ class StripBuilder {
 
   /// between: the pairs of curves that bound the cells of the slab from `from` to `to`.
   /// Requires: `from` is the `to` of the slab before.
-  void AddSlab(const IsolatedRoot& from, const IsolatedRoot& to,
-               const std::vector<CurvePair>& between);
+  void AddSlab(const IsolatedRoot& from, const IsolatedRoot& to, const CurvePairs& between);
 
  private:
+  /// Numbers of cells.
+  struct Slab {
+    std::array<std::size_t, 2> cells{};
+    std::size_t size = 0;
+  };
   std::vector<StripCell>& cells_;
-  std::vector<std::size_t> last_slab_;  // numbers of the cells that the last slab made or extended
+  Slab last_slab_;  // the cells that the last slab made or extended
 };
 
 }  // namespace farhorizon

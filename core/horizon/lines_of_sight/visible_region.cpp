@@ -28,6 +28,10 @@ namespace farhorizon {
 
 namespace {
 
+// In decisions (work_budget.h), about: finding what an occluder takes, or what is left of a cell,
+// are some quadratics, their roots and an exact sample for each.
+constexpr std::int64_t kExactStep = 50;
+
 // A side of the wedge as a curve: in lowest terms, so that it is equal to CurveOf's for an edge of
 // the same face (occluded_cells.cpp).
 BoundaryCurve SideOf(const ShortVector& v) {
@@ -73,6 +77,7 @@ std::optional<std::vector<StripCell>> VisibleRegion::Difference(const StripCell&
     return std::nullopt;
   }
   std::vector<IsolatedRoot> roots;
+  roots.reserve(4);
   for (const BoundaryCurve& side : {occluded.first, occluded.last}) {
     AppendCrossings(side, cell.first, from.lo, to.hi, roots);
     AppendCrossings(side, cell.last, from.lo, to.hi, roots);
@@ -81,24 +86,22 @@ std::optional<std::vector<StripCell>> VisibleRegion::Difference(const StripCell&
   bool changed = false;
   std::vector<StripCell> difference;
   StripBuilder strip(difference);
-  if (Compare(cell.from, from) < 0) strip.AddSlab(cell.from, from, {{cell.first, cell.last}});
+  if (Compare(cell.from, from) < 0) strip.AddSlab(cell.from, from, {cell.first, cell.last});
   for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
     const SamplePoint point = PointBetween(cuts[i], cuts[i + 1]);
-    std::vector<CurvePair> remaining;
+    CurvePairs remaining;
     if (Order(occluded.first, cell.last, point) <= 0 ||
         Order(cell.first, occluded.last, point) <= 0) {
-      remaining.emplace_back(cell.first, cell.last);
+      remaining.Add(cell.first, cell.last);
     } else {
       changed = true;
-      if (Order(cell.first, occluded.first, point) > 0)
-        remaining.emplace_back(cell.first, occluded.first);
-      if (Order(occluded.last, cell.last, point) > 0)
-        remaining.emplace_back(occluded.last, cell.last);
+      if (Order(cell.first, occluded.first, point) > 0) remaining.Add(cell.first, occluded.first);
+      if (Order(occluded.last, cell.last, point) > 0) remaining.Add(occluded.last, cell.last);
     }
     strip.AddSlab(cuts[i], cuts[i + 1], remaining);
   }
   if (!changed) return std::nullopt;
-  if (Compare(to, cell.to) < 0) strip.AddSlab(to, cell.to, {{cell.first, cell.last}});
+  if (Compare(to, cell.to) < 0) strip.AddSlab(to, cell.to, {cell.first, cell.last});
   return difference;
 }
 
@@ -107,6 +110,7 @@ void VisibleRegion::Subtract(const StripCell& occluded) {
   std::vector<StripCell> replacements;
   for (std::size_t i = 0; i < cells_.size();) {
     if (bounds_[i].from_slope < bounds.to_slope && bounds_[i].to_slope > bounds.from_slope) {
+      work_ += kExactStep;
       if (const std::optional<std::vector<StripCell>> remaining = Difference(cells_[i], occluded)) {
         replacements.insert(replacements.end(), remaining->begin(), remaining->end());
         Remove(i);
@@ -146,10 +150,12 @@ void VisibleRegion::Insert(StripCell cell) {
 }
 
 void VisibleRegion::AddOccluder(const SegmentIndex::Item& item) {
-  if (item.high.z <= edge_.low.z) return;
+  if (item.high.z <= edge_.low.z || work_ >= work_limit_) return;
+  work_ += std::ssize(cells_);
   const std::array<StripFilter::Corner, 2> ends = {filter_.CornerAt(item.low.x, item.low.y),
                                                    filter_.CornerAt(item.high.x, item.high.y)};
   if (!MayOcclude(ends, item.high.z)) return;
+  work_ += kExactStep;
   for (const StripCell& occluded : CellsOccludedBy(item, edge_)) Subtract(occluded);
 }
 
@@ -158,11 +164,12 @@ void VisibleRegion::AddOccluders(const SegmentIndex& index, std::int32_t except)
     const std::array<StripFilter::Corner, 4> box = {
         filter_.CornerAt(node.min_x, node.min_y), filter_.CornerAt(node.max_x, node.min_y),
         filter_.CornerAt(node.max_x, node.max_y), filter_.CornerAt(node.min_x, node.max_y)};
+    work_ += std::ssize(cells_);
     return MayOcclude(box, node.top);
   };
   const auto add = [this, except](std::int32_t id, const SegmentIndex::Item& item) {
     if (id != except) AddOccluder(item);
-    return true;
+    return work_ < work_limit_;
   };
   index.VisitNearFirst(0.5 * (edge_.low.x + static_cast<double>(edge_.high.x)),
                        0.5 * (edge_.low.y + static_cast<double>(edge_.high.y)),

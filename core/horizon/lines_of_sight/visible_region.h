@@ -9,6 +9,7 @@
 #include "core/horizon/visibility/face_wedge.h"
 #include "core/horizon/visibility/segment_index.h"
 #include "core/horizon/visibility/target_segment.h"
+#include "core/horizon/work_budget.h"
 
 namespace farhorizon {
 
@@ -26,6 +27,12 @@ class VisibleRegion {
   /// terrain (core/horizon/README.md, theorem 7).
   explicit VisibleRegion(const TargetSegment& edge,
                          const std::optional<FaceWedge>& wedge = std::nullopt);
+
+  /// The most decisions (work_budget.h) that adding occluders may take; unset: any number. Past it
+  /// none is added any more, and the region says nothing.
+  void LimitWork(std::int64_t decisions) { work_limit_ = decisions; }
+  /// Decisions so far. Requires for a region that says something: less than the limit.
+  [[nodiscard]] std::int64_t work() const { return work_; }
 
   /// Adds all members of `index` except one, the nearest first: then others are skipped sooner.
   void AddOccluders(const SegmentIndex& index, std::int32_t except);
@@ -51,6 +58,8 @@ class VisibleRegion {
   StripFilter filter_;
   std::vector<StripCell> cells_;
   std::vector<StripFilter::CellBounds> bounds_;  // of cells_, in step
+  std::int64_t work_limit_ = WorkBudget::kMost;
+  std::int64_t work_ = 0;
 };
 
 }  // namespace farhorizon

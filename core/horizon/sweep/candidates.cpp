@@ -1,20 +1,22 @@
 // The edges that can be horizon edges, after three culls. The first two need the edge and the merge
-// tree only; survivors of these go to the checkpoint of the sweep before their own place in its
-// order. From each checkpoint on, the changes of the sweep are replayed, and each survivor is
-// compared with the hulls at its place. A sloped edge has its place after its upper vertex: ground
-// at that height occludes the rest of the edge. A horizontal edge has it before the first vertex of
-// its height: only ground strictly above occludes it.
+// tree only. The third one compares each survivor of these with the hulls of the ground at or above
+// some height, its *place* in the sweep: that of the upper end of a sloped edge, because ground at
+// that height occludes the rest of the edge; one quantum more for a horizontal edge, which only
+// ground strictly above occludes. Survivors go to the last state of the sweep's history before
+// their place, from which its changes are replayed.
 #include "core/horizon/sweep/candidates.h"
 
 #include <algorithm>
 #include <cstdint>
-#include <limits>
 #include <optional>
+#include <span>
 #include <tuple>
+#include <utility>
 
 #include "core/base/parallel_for.h"
+#include "core/horizon/budgeted_work.h"
 #include "core/horizon/sweep/edge_occlusion.h"
-#include "core/horizon/sweep/hull_scene.h"
+#include "core/horizon/sweep/hull_history.h"
 
 namespace farhorizon {
 
@@ -43,69 +45,51 @@ bool InsideHull(const Terrain& terrain, const HullMergeTree& hulls, Edge edge) {
   return hulls.Occludes(edge.a, edge.b, a == b ? a + 1 : std::max(a, b));
 }
 
-// A place in the order of the sweep, right after a vertex: keys rise by falling height, then by
-// rising number of the vertex.
-using SweepKey = std::uint64_t;
-
-SweepKey KeyAfter(std::int32_t height, VertexId v) {
-  const std::int64_t depth = std::int64_t{std::numeric_limits<std::int32_t>::max()} - height;
-  return (static_cast<SweepKey>(depth) << 32) | static_cast<SweepKey>(v + 1);
-}
-
-SweepKey KeyBefore(std::int32_t height) { return KeyAfter(height, -1); }
-
-// An edge that the first two culls leave, and where in the sweep the third one takes place.
+// An edge that the first two culls leave, and the least height of the ground whose hulls the third
+// one compares it with.
 struct Survivor {
-  SweepKey key;
+  std::int32_t place;
   VertexId high;  // the upper end
   VertexId low;
 
   friend bool operator<(const Survivor& a, const Survivor& b) {
-    return std::tie(a.key, a.high, a.low) < std::tie(b.key, b.high, b.low);
+    return std::tie(b.place, a.high, a.low) < std::tie(a.place, b.high, b.low);
   }
 };
 
 class CandidateSearch {
  public:
   CandidateSearch(const Terrain& terrain, const HullSweep& sweep)
-      : terrain_(terrain), sweep_(sweep), columns_(terrain.dem().columns) {
-    for (const HullSweep::Checkpoint& checkpoint : sweep.checkpoints) {
-      checkpoint_keys_.push_back(KeyAfter(Height(checkpoint.vertex), checkpoint.vertex));
-    }
-  }
+      : terrain_(terrain), sweep_(sweep), columns_(terrain.dem().columns) {}
 
-  // The survivors among the edges from posts of these rows to later posts, by checkpoint.
+  // The survivors among the edges from posts of these rows to later posts, by the states of the
+  // history from which they are reached.
   [[nodiscard]] std::vector<std::vector<Survivor>> SurvivorsOf(std::int32_t first_row,
                                                                std::int32_t end_row) const {
-    std::vector<std::vector<Survivor>> survivors(checkpoint_keys_.size());
+    std::vector<std::vector<Survivor>> survivors(sweep_.history.state_count());
     for (VertexId v = first_row * columns_; v < end_row * columns_; ++v) {
       for (const VertexId n : terrain_.NeighboursOf(v)) {
         if (n < v) continue;
         const Edge edge{v, n};
         if (InsideHull(terrain_, sweep_.hulls, edge) || !IsRidge(terrain_, edge)) continue;
-        const bool horizontal = Height(v) == Height(n);
         const VertexId high = Height(n) > Height(v) ? n : v;
-        const SweepKey key = horizontal ? KeyBefore(Height(high)) : KeyAfter(Height(high), high);
-        survivors[CheckpointBefore(key)].push_back({key, high, high == v ? n : v});
+        const std::int32_t place = Height(v) == Height(n) ? Height(v) + 1 : Height(high);
+        survivors[StateBefore(place)].push_back({place, high, high == v ? n : v});
       }
     }
     return survivors;
   }
 
-  // Those of the checkpoint's survivors that the third cull leaves.
-  [[nodiscard]] Candidates CandidatesOf(std::size_t checkpoint,
-                                        std::vector<Survivor>& survivors) const {
-    std::sort(survivors.begin(), survivors.end());
+  // Those of some survivors of the state that the third cull leaves. Requires: they are in order.
+  // Each may take `limit` decisions; spent: receives those of all.
+  [[nodiscard]] Candidates CandidatesOf(std::size_t state, std::span<const Survivor> survivors,
+                                        std::int64_t limit, std::int64_t& spent) const {
     Candidates found;
-    HullScene scene = sweep_.checkpoints[checkpoint].scene;
-    std::size_t next = sweep_.checkpoints[checkpoint].next_change;
+    HullHistory::Replay replay(sweep_.history, state);
+    std::vector<std::int32_t> likely;
     for (const Survivor& survivor : survivors) {
-      for (; next < sweep_.changes.size(); ++next) {
-        const HullSweep::Change& change = sweep_.changes[next];
-        if (KeyAfter(Height(change.by), change.by) > survivor.key) break;
-        scene.Apply(change.hulls);
-      }
-      AddUnlessOccluded(survivor, scene, found);
+      replay.ApplyWhile([&](VertexId v) { return Height(v) >= survivor.place; });
+      spent += AddUnlessOccluded(survivor, replay.scene(), limit, likely, found);
     }
     return found;
   }
@@ -115,69 +99,89 @@ class CandidateSearch {
     return terrain_.dem().heights[static_cast<std::size_t>(v)];
   }
 
-  // The last checkpoint at or before the key, or the first one.
-  [[nodiscard]] std::size_t CheckpointBefore(SweepKey key) const {
-    const auto later = std::upper_bound(checkpoint_keys_.begin(), checkpoint_keys_.end(), key);
-    const auto before = later == checkpoint_keys_.begin() ? later : later - 1;
-    return static_cast<std::size_t>(before - checkpoint_keys_.begin());
+  // The last state, or the first one, before which the plane has passed no ground below `place`.
+  [[nodiscard]] std::size_t StateBefore(std::int32_t place) const {
+    std::size_t low = 0;
+    std::size_t high = sweep_.history.state_count();
+    while (high - low > 1) {
+      const std::size_t middle = (low + high) / 2;
+      (Height(sweep_.history.VertexAt(middle)) >= place ? low : high) = middle;
+    }
+    return low;
   }
 
-  void AddUnlessOccluded(const Survivor& survivor, const HullScene& scene,
-                         Candidates& found) const {
+  // Returns the decisions that it takes, `limit` or a few more at most.
+  std::int64_t AddUnlessOccluded(const Survivor& survivor, const HullScene& scene,
+                                 std::int64_t limit, std::vector<std::int32_t>& likely,
+                                 Candidates& found) const {
     const Edge edge = MakeEdge(survivor.high, survivor.low);
     const Point3i high = terrain_.Point(survivor.high);
     const Point3i low = terrain_.Point(survivor.low);
     EdgeOcclusion occlusion({low.x, low.y}, {high.x, high.y}, WedgeOf(terrain_, edge));
-    AddHulls(scene, {high.x, high.y}, occlusion);
-    if (occlusion.Finish()) return;
+    const std::int64_t spent = AddHulls(scene, {high.x, high.y}, limit, likely, occlusion);
+    if (occlusion.IsOccluded()) return spent;
     const std::size_t first = found.virtual_occluders.size();
-    // The hulls before a horizontal edge's place are at least a quantum higher than the edge.
-    occlusion.AppendVirtualOccluders(high.z == low.z ? high.z + 1 : high.z,
-                                     found.virtual_occluders);
+    occlusion.AppendVirtualOccluders(survivor.place, found.virtual_occluders);
     found.edges.push_back({edge, first, found.virtual_occluders.size() - first});
+    return spent;
   }
 
   // Adds hulls until all directions are occluded, those that occlude most first: the hull around
-  // the upper end, hulls near it, all others.
-  static void AddHulls(const HullScene& scene, Point2i high, EdgeOcclusion& occlusion) {
+  // the upper end, those that occluded the edge before, which is near as a rule, then large and
+  // near ones. Returns the decisions that it takes.
+  // likely: slots, any; receives those of the hulls that occlude this edge.
+  static std::int64_t AddHulls(const HullScene& scene, Point2i high, std::int64_t limit,
+                               std::vector<std::int32_t>& likely, EdgeOcclusion& occlusion) {
+    // A look at a box or a cell takes about as long as a decision, a hull as four.
+    constexpr std::int64_t kPerHull = 4;
+    std::int64_t spent = 0;
+    std::vector<std::int32_t> occluding;
+    const auto add = [&](std::int32_t slot) {
+      spent += kPerHull;
+      if (occlusion.Add(scene.hull(slot))) occluding.push_back(slot);
+    };
     const HullIndex& index = scene.index();
     const std::int32_t own =
         index.Find(high, high, [&](std::int32_t slot) { return scene.hull(slot).Contains(high); });
-    if (own >= 0) occlusion.Add(scene.hull(own));
-    const Point2i least{high.x - kNear, high.y - kNear};
-    const Point2i most{high.x + kNear, high.y + kNear};
-    const auto add = [&](std::int32_t slot) {
-      if (slot != own) occlusion.Add(scene.hull(slot));
-      return occlusion.IsOccluded();
-    };
-    if (index.Find(least, most, add) >= 0) return;
-    const auto hulls = static_cast<std::int32_t>(scene.hulls().size());
-    for (std::int32_t slot = 0; slot < hulls && !occlusion.IsOccluded(); ++slot) {
-      if (!index.BoxIntersects(slot, least, most)) occlusion.Add(scene.hull(slot));
+    if (own >= 0) add(own);
+    for (const std::int32_t slot : likely) {
+      if (slot == own || slot >= std::ssize(scene.hulls()) || occlusion.IsOccluded()) continue;
+      const ConvexPolygon& hull = scene.hull(slot);
+      if (occlusion.MayOcclude(hull.least(), hull.most())) add(slot);
     }
+    if (!occlusion.IsOccluded()) {
+      index.VisitNearFirst(
+          high,
+          [&](Point2i least, Point2i most) {
+            return ++spent < limit && occlusion.MayOcclude(least, most);
+          },
+          [&](std::int32_t slot, Point2i least, Point2i most) {
+            ++spent;
+            if (slot != own && least != most && occlusion.MayOcclude(least, most)) add(slot);
+            return spent < limit && !occlusion.IsOccluded();
+          });
+    }
+    if (occlusion.IsOccluded()) likely = std::move(occluding);
+    return spent;
   }
-
-  // In posts. Any value is sound; with this one most edges need no other hulls.
-  static constexpr std::int32_t kNear = 24;
 
   const Terrain& terrain_;
   const HullSweep& sweep_;
   std::int32_t columns_;
-  std::vector<SweepKey> checkpoint_keys_;
 };
 
 // All candidates, by rising edge.
-Candidates Joined(const std::vector<Candidates>& by_checkpoint) {
+Candidates Joined(const std::vector<Candidates>& parts) {
   Candidates all;
   std::size_t edges = 0;
   std::size_t virtual_occluders = 0;
-  for (const Candidates& some : by_checkpoint) {
+  for (const Candidates& some : parts) {
     edges += some.edges.size();
     virtual_occluders += some.virtual_occluders.size();
   }
   all.edges.reserve(edges);
   all.virtual_occluders.reserve(virtual_occluders);
-  for (const Candidates& some : by_checkpoint) {
+  for (const Candidates& some : parts) {
     for (const Candidate& c : some.edges) {
       all.edges.push_back({c.edge, c.first_virtual_occluder + all.virtual_occluders.size(),
                            c.virtual_occluder_count});
@@ -190,11 +194,31 @@ Candidates Joined(const std::vector<Candidates>& by_checkpoint) {
   return all;
 }
 
+std::vector<std::vector<Survivor>> SortedByState(
+    std::vector<std::vector<std::vector<Survivor>>> bands, const HullSweep& sweep) {
+  std::vector<std::vector<Survivor>> all(sweep.history.state_count());
+  for (std::vector<std::vector<Survivor>>& band : bands) {
+    for (std::size_t state = 0; state < band.size(); ++state) {
+      all[state].insert(all[state].end(), band[state].begin(), band[state].end());
+    }
+    band = {};
+  }
+  for (std::vector<Survivor>& survivors : all) std::sort(survivors.begin(), survivors.end());
+  return all;
+}
+
 }  // namespace
 
 Result<Candidates> FindCandidates(const Terrain& terrain, const HullSweep& sweep, int threads,
-                                  const RunControl& control) {
+                                  WorkBudget& budget, const RunControl& control) {
   constexpr std::size_t kRows = 32;
+  constexpr std::size_t kTask = 1 << 15;
+  // Of one survivor. Any value is sound: where it ends the search, the edge stays a candidate, which
+  // the exact decision deals with. On real DEMs it ends hardly any.
+  constexpr std::int64_t kMostDecisions = 2048;
+  // Of what is left of a budget that is short, one part in so many is for candidates.
+  constexpr std::int64_t kShare = 8;
+  const Error stopped{ErrorCode::kCancelled, "stopped while looking for candidates"};
   constexpr double kSurvivors = 0.15;  // their share of the stage's time
   control.Report(Stage::kCandidates, 0);
   const CandidateSearch search(terrain, sweep);
@@ -204,23 +228,49 @@ Result<Candidates> FindCandidates(const Terrain& terrain, const HullSweep& sweep
     bands[begin / kRows] =
         search.SurvivorsOf(static_cast<std::int32_t>(begin), static_cast<std::int32_t>(end));
   };
-  std::vector<Candidates> by_checkpoint(sweep.checkpoints.size());
-  const auto find_candidates = [&](std::size_t begin, std::size_t end, std::size_t /*thread*/) {
-    for (std::size_t i = begin; i < end; ++i) {
-      std::vector<Survivor> survivors;
-      for (const auto& band : bands) {
-        survivors.insert(survivors.end(), band[i].begin(), band[i].end());
-      }
-      by_checkpoint[i] = search.CandidatesOf(i, survivors);
-    }
-  };
   if (!ParallelForBatches(rows, kRows, threads, Stage::kCandidates, control.Between(0, kSurvivors),
-                          find_survivors) ||
-      !ParallelForBatches(by_checkpoint.size(), 1, threads, Stage::kCandidates,
-                          control.Between(kSurvivors, 1), find_candidates)) {
-    return Error{ErrorCode::kCancelled, "stopped while looking for candidates"};
+                          find_survivors)) {
+    return stopped;
   }
-  return Joined(by_checkpoint);
+  const std::vector<std::vector<Survivor>> survivors = SortedByState(std::move(bands), sweep);
+  // The survivors of a state are divided where they are many: level ground has all in one place.
+  struct Task {
+    std::size_t state;
+    std::span<const Survivor> survivors;
+  };
+  std::vector<Task> tasks;
+  std::int64_t count = 0;
+  for (std::size_t state = 0; state < survivors.size(); ++state) {
+    const std::span<const Survivor> all(survivors[state]);
+    count += std::ssize(all);
+    for (std::size_t i = 0; i < all.size(); i += kTask) {
+      tasks.push_back({state, all.subspan(i, std::min(kTask, all.size() - i))});
+    }
+  }
+  std::vector<Candidates> parts(tasks.size());
+  // Each survivor may take `limit` decisions. ends: where the budget is exceeded.
+  const auto find_candidates = [&](std::int64_t limit, bool ends) {
+    const auto find = [&](std::size_t begin, std::size_t end, std::size_t /*thread*/) {
+      for (std::size_t i = begin; i < end; ++i) {
+        if (ends && budget.IsExceeded()) return;
+        std::int64_t spent = 0;
+        parts[i] = search.CandidatesOf(tasks[i].state, tasks[i].survivors, limit, spent);
+        budget.Spend(spent);
+      }
+    };
+    return ParallelForBatches(tasks.size(), 1, threads, Stage::kCandidates,
+                              control.Between(kSurvivors, 1), find);
+  };
+  const std::int64_t before = budget.spent();
+  if (!find_candidates(kMostDecisions, true)) return stopped;
+  if (budget.IsExceeded()) {
+    if (!budget.approximate()) return OverBudget("looking for candidates", budget);
+    budget.Rewind(before);
+    if (!find_candidates(budget.left() / kShare / std::max<std::int64_t>(count, 1), false)) {
+      return stopped;
+    }
+  }
+  return Joined(parts);
 }
 
 }  // namespace farhorizon

@@ -8,6 +8,7 @@
 #include "core/base/run_control.h"
 #include "core/geometry/segment.h"
 #include "core/horizon/sweep/hull_sweep.h"
+#include "core/horizon/work_budget.h"
 #include "core/terrain/terrain.h"
 
 namespace farhorizon {
@@ -37,10 +38,12 @@ struct Candidates {
 /// (theorem 5), and the hulls at the height of their upper end do not occlude all directions
 /// (theorem 6; edge_occlusion.h).
 ///
-/// The changes of the sweep are replayed, from each checkpoint to the next by one thread. The same
-/// for any number of threads. Errors: kCancelled.
-/// Cost: O(n) and, for each edge that the first two culls leave, the number of hulls.
+/// The same for any number of threads. Where the budget is approximate and does not suffice, each
+/// edge is compared with fewer hulls, and more stay candidates.
+/// Errors: kCancelled; kResourceExhausted, kind work-budget, where it is not approximate.
+/// Cost: O(n) and, for each edge that the first two culls leave, the hulls that it takes to occlude
+/// all directions, some hundreds at most.
 Result<Candidates> FindCandidates(const Terrain& terrain, const HullSweep& sweep, int threads,
-                                  const RunControl& control);
+                                  WorkBudget& budget, const RunControl& control);
 
 }  // namespace farhorizon

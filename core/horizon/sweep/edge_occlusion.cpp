@@ -15,8 +15,7 @@
 //     B  all but from its left corner             to its right corner, seen from high
 //
 // The left and right corner of a silhouette are those at its counter-clockwise and clockwise end.
-// What is left is kept as one interval of slopes. Occluded intervals inside it wait until one of
-// its ends reaches them, so a free interval between two of them is found at the end (Finish).
+// What is left are a few intervals of slopes; hulls in other directions are skipped.
 #include "core/horizon/sweep/edge_occlusion.h"
 
 #include <algorithm>
@@ -34,28 +33,26 @@ constexpr double kInfinite = 1;  // the numerator over a denominator of 0
 }  // namespace
 
 EdgeOcclusion::EdgeOcclusion(Point2i low, Point2i high, const std::optional<FaceWedge>& wedge)
-    : low_(low),
-      high_(high),
-      dx_(high.x - low.x),
-      dy_(high.y - low.y),
-      free_{{-kInfinite, 0}, {kInfinite, 0}} {
+    : low_(low), high_(high), dx_(high.x - low.x), dy_(high.y - low.y) {
+  SlopeInterval free{{-kInfinite, 0}, {kInfinite, 0}};
   if (wedge) {
     const Slope first =
         SlopeOf(static_cast<double>(wedge->first.x), static_cast<double>(wedge->first.y));
     const Slope last =
         SlopeOf(static_cast<double>(wedge->last.x), static_cast<double>(wedge->last.y));
-    if (first.denominator > 0) free_.from = first;
-    if (last.denominator > 0) free_.to = last;
+    if (first.denominator > 0) free.from = first;
+    if (last.denominator > 0) free.to = last;
   }
-  UpdateBounds();
+  AppendFree(free, free_);
 }
 
 // Exact in doubles for all slopes that are compared. With a post's slope: a product of integers
 // below 2^35 and 2^18 is below 2^53. With an infinite slope: the products are 0 and a numerator.
-// The two slopes of the wedge are compared by IsOccluded only. Each is of climb * to - rise * along
-// with cross(along, to) = 1 for one face and -1 for the other, so both have the denominator
-// `climb`; their numerators, integers below 2^35, differ by more than 2^-35 of themselves if at
-// all, and products with one factor keep their order through a rounding of 2^-53.
+// The two slopes of the wedge are compared with each other at the start only, where nothing is
+// occluded yet. Each is of climb * to - rise * along with cross(along, to) = 1 for one face and -1
+// for the other, so both have the denominator `climb`; their numerators, integers below 2^35,
+// differ by more than 2^-35 of themselves if at all, and products with one factor keep their order
+// through a rounding of 2^-53.
 bool EdgeOcclusion::Less(const Slope& a, const Slope& b) {
   if (a.denominator == 0 && b.denominator == 0) return a.numerator < b.numerator;
   return a.numerator * b.denominator < b.numerator * a.denominator;
@@ -90,57 +87,65 @@ EdgeOcclusion::SilhouetteSlopes EdgeOcclusion::SlopesFrom(
   return slopes;
 }
 
-void EdgeOcclusion::UpdateBounds() {
-  const auto vector_of = [this](const Slope& slope) -> PlanVector {
-    const double size = std::abs(slope.numerator) + slope.denominator;
-    const double along = -slope.numerator / size;
-    const double across = slope.denominator / size;
-    return {along * dx_ - across * dy_, along * dy_ + across * dx_};
-  };
-  first_free_ = vector_of(free_.from);
-  last_free_ = vector_of(free_.to);
+EdgeOcclusion::PlanVector EdgeOcclusion::VectorOf(const Slope& slope) const {
+  const double size = std::abs(slope.numerator) + slope.denominator;
+  const double along = -slope.numerator / size;
+  const double across = slope.denominator / size;
+  return {along * dx_ - across * dy_, along * dy_ + across * dx_};
 }
 
-// The interval is occluded from all points: it cuts off an end of what is free, or waits until it
-// does.
-void EdgeOcclusion::Occlude(const SlopeInterval& interval) {
-  if (!Less(interval.from, interval.to)) return;
-  const bool cuts_first = !Less(free_.from, interval.from);
-  const bool cuts_last = !Less(interval.to, free_.to);
-  if (!cuts_first && !cuts_last) {
-    inner_.push_back(interval);
-    return;
+void EdgeOcclusion::AppendFree(const SlopeInterval& slopes,
+                               std::vector<FreeInterval>& intervals) const {
+  if (!Less(slopes.from, slopes.to)) return;
+  intervals.push_back({slopes, VectorOf(slopes.from), VectorOf(slopes.to)});
+}
+
+// The interval is occluded from all points.
+bool EdgeOcclusion::Occlude(const SlopeInterval& interval) {
+  if (!Less(interval.from, interval.to)) return false;
+  bool removed = false;
+  next_free_.clear();
+  for (const FreeInterval& free : free_) {
+    const auto& [from, to] = free.slopes;
+    if (!Less(from, interval.to) || !Less(interval.from, to)) {
+      next_free_.push_back(free);
+      continue;
+    }
+    removed = true;
+    if (Less(from, interval.from)) AppendFree({from, interval.from}, next_free_);
+    if (Less(interval.to, to)) AppendFree({interval.to, to}, next_free_);
   }
-  if (cuts_first && Less(free_.from, interval.to)) free_.from = interval.to;
-  if (cuts_last && Less(interval.from, free_.to)) free_.to = interval.from;
-  UpdateBounds();
+  free_.swap(next_free_);
+  return removed;
 }
 
-// Whether, from some point of the edge, part of the hull's box may lie in a free direction. It does
-// not if the box, widened by the edge, is on one side of both lines that bound the free directions.
-bool EdgeOcclusion::MayOcclude(const ConvexPolygon& hull) const {
+// Whether, from some point of the edge, part of the box may lie in a free direction. It does not if
+// the box, widened by the edge, is on one side of both lines that bound the free directions.
+bool EdgeOcclusion::MayOcclude(Point2i least, Point2i most) const {
   // Any value is sound: hulls that are left out only leave more candidates. This one is above what
   // rounding does, less than 2^-30 with coordinates below 2^17 and vectors that are 2^-50 off, so
   // it leaves out no hull that matters; and it is far below the distance of two posts.
   constexpr double kMargin = 1e-6;
-  const double x = 0.5 * (hull.least().x + hull.most().x - low_.x - high_.x);
-  const double y = 0.5 * (hull.least().y + hull.most().y - low_.y - high_.y);
-  const double half_width = 0.5 * (hull.most().x - hull.least().x + std::abs(dx_));
-  const double half_height = 0.5 * (hull.most().y - hull.least().y + std::abs(dy_));
+  const double x = 0.5 * (least.x + most.x - low_.x - high_.x);
+  const double y = 0.5 * (least.y + most.y - low_.y - high_.y);
+  const double half_width = 0.5 * (most.x - least.x + std::abs(dx_));
+  const double half_height = 0.5 * (most.y - least.y + std::abs(dy_));
   const auto side_of = [&](const PlanVector& v) -> int {
     const double center = v.x * y - v.y * x;
     const double reach = std::abs(v.x) * half_height + std::abs(v.y) * half_width + kMargin;
     return static_cast<int>(center > reach) - static_cast<int>(center < -reach);
   };
-  const int side = side_of(first_free_);
-  return side == 0 || side_of(last_free_) != side;
+  return std::any_of(free_.begin(), free_.end(), [&](const FreeInterval& free) {
+    const int side = side_of(free.first);
+    return side == 0 || side_of(free.last) != side;
+  });
 }
 
-void EdgeOcclusion::Add(const ConvexPolygon& hull) {
-  if (hull.corners().size() < 2 || IsOccluded() || !MayOcclude(hull)) return;
+bool EdgeOcclusion::Add(const ConvexPolygon& hull) {
+  if (hull.corners().size() < 2 || IsOccluded()) return false;
   const bool has_low = hull.Contains(low_);
   const bool has_high = hull.Contains(high_);
-  if (has_low && has_high) return;
+  if (has_low && has_high) return false;
   // A hull that contains one end occludes least as seen from the other end.
   const Point2i from_low = has_low ? high_ : low_;
   const Point2i from_high = has_high ? low_ : high_;
@@ -148,32 +153,24 @@ void EdgeOcclusion::Add(const ConvexPolygon& hull) {
   silhouettes_.push_back(silhouette);
   const SilhouetteSlopes low = SlopesFrom(from_low, silhouette);
   const SilhouetteSlopes high = SlopesFrom(from_high, hull.SilhouetteFrom(from_high));
-  if (low.position != high.position) return;
+  if (low.position != high.position) return false;
   switch (low.position) {
     case Position::kLeft:
       return Occlude({high.right, low.left});
     case Position::kRight:
       return Occlude({low.right, high.left});
-    case Position::kAhead:
-      Occlude({{-kInfinite, 0}, low.left});
-      return Occlude({low.right, {kInfinite, 0}});
-    case Position::kBehind:
-      Occlude({{-kInfinite, 0}, high.left});
-      return Occlude({high.right, {kInfinite, 0}});
+    case Position::kAhead: {
+      const bool first = Occlude({{-kInfinite, 0}, low.left});
+      return Occlude({low.right, {kInfinite, 0}}) || first;
+    }
+    case Position::kBehind: {
+      const bool first = Occlude({{-kInfinite, 0}, high.left});
+      return Occlude({high.right, {kInfinite, 0}}) || first;
+    }
     case Position::kInLine:
-      return;
+      return false;
   }
-}
-
-// By rising starts, one pass is enough: where an interval begins beyond free_.from, no later one
-// occludes the slopes between the two.
-bool EdgeOcclusion::Finish() {
-  std::sort(inner_.begin(), inner_.end(),
-            [](const SlopeInterval& a, const SlopeInterval& b) { return Less(a.from, b.from); });
-  const std::vector<SlopeInterval> intervals = std::move(inner_);
-  inner_.clear();
-  for (const SlopeInterval& interval : intervals) Occlude(interval);
-  return IsOccluded();
+  return false;
 }
 
 void EdgeOcclusion::AppendVirtualOccluders(std::int32_t height,

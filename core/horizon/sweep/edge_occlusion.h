@@ -24,17 +24,16 @@ class EdgeOcclusion {
   /// Requires: low and high are neighbours in the grid. wedge: WedgeOf(low, high).
   EdgeOcclusion(Point2i low, Point2i high, const std::optional<FaceWedge>& wedge);
 
-  /// Removes the directions that `hull` occludes. Add hulls that occlude most first: later ones
-  /// then cost less. A hull that contains both ends is ignored: theorem 5 has ruled out such edges.
+  /// Removes the directions that `hull` occludes; whether there are some. Add hulls that occlude most first: later ones
+  /// then cost less. A hull that contains both ends is ignored: theorem 5 rules out such edges.
   /// Cost: the hull's corners, where a direction is left in which the hull can be seen.
-  void Add(const ConvexPolygon& hull);
+  bool Add(const ConvexPolygon& hull);
 
-  /// Whether all directions are occluded, by what is known so far.
-  [[nodiscard]] bool IsOccluded() const { return !Less(free_.from, free_.to); }
+  /// False only if no hull in the box [least, most] occludes a direction that is left.
+  [[nodiscard]] bool MayOcclude(Point2i least, Point2i most) const;
 
-  /// Applies what Add has put off; whether all directions are occluded. Requires: no hull is added
-  /// after it.
-  [[nodiscard]] bool Finish();
+  /// Whether all directions are occluded.
+  [[nodiscard]] bool IsOccluded() const { return free_.empty(); }
 
   /// Appends virtual occluders at `height` for the hulls that could be seen in a direction that was
   /// left (virtual_occluders.h).
@@ -62,23 +61,29 @@ class EdgeOcclusion {
     double x;
     double y;
   };
+  /// An open interval of slopes, and the directions of its ends.
+  struct FreeInterval {
+    SlopeInterval slopes;
+    PlanVector first;
+    PlanVector last;
+  };
 
   static bool Less(const Slope& a, const Slope& b);
   [[nodiscard]] Slope SlopeOf(double x, double y) const;
   [[nodiscard]] SilhouetteSlopes SlopesFrom(Point2i viewpoint,
                                             const ConvexPolygon::Silhouette& silhouette) const;
-  [[nodiscard]] bool MayOcclude(const ConvexPolygon& hull) const;
-  void Occlude(const SlopeInterval& interval);
-  void UpdateBounds();
+  /// False where no direction was left in the interval.
+  bool Occlude(const SlopeInterval& interval);
+  /// Appends the open interval to `intervals` unless it is empty.
+  void AppendFree(const SlopeInterval& slopes, std::vector<FreeInterval>& intervals) const;
+  [[nodiscard]] PlanVector VectorOf(const Slope& slope) const;
 
   Point2i low_;
   Point2i high_;
   double dx_;
   double dy_;
-  SlopeInterval free_;                ///< all directions outside it are occluded
-  PlanVector first_free_;             ///< in the direction free_.from
-  PlanVector last_free_;              ///< in the direction free_.to
-  std::vector<SlopeInterval> inner_;  ///< occluded, with free directions on both sides
+  std::vector<FreeInterval> free_;  ///< rising, disjoint; all directions outside them are occluded
+  std::vector<FreeInterval> next_free_;  ///< of Occlude, to spare allocations
   std::vector<ConvexPolygon::Silhouette> silhouettes_;
 };
 

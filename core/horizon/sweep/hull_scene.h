@@ -19,12 +19,24 @@ struct HullChange {
   Point2i post;            ///< kStart, kExtension
 };
 
+/// The hulls of a scene in little memory: the corners of each, by slots.
+struct HullSnapshot {
+  std::vector<Point2i> corners;
+  std::vector<std::uint32_t> ends;  ///< of each hull's corners
+
+  [[nodiscard]] std::size_t bytes() const {
+    return corners.size() * sizeof(Point2i) + ends.size() * sizeof(std::uint32_t);
+  }
+};
+
 /// The merged hulls of the ground at or above one height, which are disjoint: a state of the sweep.
 /// The same changes lead to the same state, slots included.
 class HullScene {
  public:
   /// No hulls, over a DEM of columns x rows posts.
   HullScene(std::int32_t columns, std::int32_t rows) : index_(columns, rows) {}
+  /// The hulls of a snapshot, in the same slots.
+  HullScene(std::int32_t columns, std::int32_t rows, const HullSnapshot& snapshot);
 
   [[nodiscard]] const std::vector<ConvexPolygon>& hulls() const { return hulls_; }
   [[nodiscard]] const ConvexPolygon& hull(std::int32_t slot) const {
@@ -32,6 +44,8 @@ class HullScene {
   }
 
   [[nodiscard]] const HullIndex& index() const { return index_; }
+
+  [[nodiscard]] HullSnapshot Snapshot() const;
 
   /// Cost: O(c) for an extension, O(c log c) for a merge, for hulls of c corners.
   void Apply(const HullChange& change);

@@ -102,7 +102,7 @@ class Sweeper {
 
   void Change(const HullChange& change) {
     scene_.Apply(change);
-    result_.changes.push_back({change, v_});
+    result_.history.Append(v_, change);
   }
 
   void StartHull(VertexId v) {
@@ -118,24 +118,11 @@ class Sweeper {
     EnclosePosts(HullOf(node), node);
   }
 
-  // Joins two hulls under the node of the one with more corners, with all hulls that the joined
-  // hull meets; returns the node.
+  // Joins two hulls, and all that the joined hull meets; returns the node.
   NodeId Merge(NodeId a, NodeId b) {
-    a = RootOf(a);
-    b = RootOf(b);
-    if (a == b) return a;
-    if (HullOf(a).corners().size() < HullOf(b).corners().size()) std::swap(a, b);
-    const std::int32_t absorbed = SlotOf(b);
-    Change({HullChange::Kind::kMerge, SlotOf(a), absorbed, {}});
-    nodes_[static_cast<std::size_t>(absorbed)] = nodes_.back();
-    SlotOf(nodes_.back()) = absorbed;
-    nodes_.pop_back();
-    roots_[static_cast<std::size_t>(b)] = a;
-    result_.hulls.Merge(b, a, height_);
-    ++result_.statistics.merges;
-    const ConvexPolygon hull = HullOf(a);
-    EnclosePosts(hull, a);
-    return MergeAllThatMeet(a, hull);
+    std::vector<ConvexPolygon> grown;
+    const NodeId node = Join(a, b, grown);
+    return MergeAllThatMeet(node, std::move(grown));
   }
 
   void ExtendHull(NodeId node, Point2i p) {
@@ -147,19 +134,69 @@ class Sweeper {
     const auto at = static_cast<std::size_t>(std::find(ring.begin(), ring.end(), p) - ring.begin());
     std::vector<Point2i> corners = {ring[(at + ring.size() - 1) % ring.size()], p,
                                     ring[(at + 1) % ring.size()]};
-    const ConvexPolygon added = ConvexPolygon::HullOf(corners);
-    EnclosePosts(added, node);
-    MergeAllThatMeet(node, added);
+    std::vector<ConvexPolygon> grown = {ConvexPolygon::HullOf(corners)};
+    EnclosePosts(grown.front(), node);
+    MergeAllThatMeet(node, std::move(grown));
   }
 
-  // Merges into the hull `node` all others that meet `added`, the new part of the hull; returns the
-  // node after the last merge.
-  NodeId MergeAllThatMeet(NodeId node, const ConvexPolygon& added) {
-    const std::int32_t own = SlotOf(node);
-    const std::int32_t other = scene_.index().Find(
-        added.least(), added.most(),
-        [&](std::int32_t slot) { return slot != own && scene_.hull(slot).Meets(added); });
-    return other < 0 ? node : Merge(node, nodes_[static_cast<std::size_t>(other)]);
+  // Joins two hulls under the node of the one with more corners and returns the node. Appends to
+  // `grown` a polygon of the joined hull that contains all of it that is in neither.
+  NodeId Join(NodeId a, NodeId b, std::vector<ConvexPolygon>& grown) {
+    a = RootOf(a);
+    b = RootOf(b);
+    if (a == b) return a;
+    if (HullOf(a).corners().size() < HullOf(b).corners().size()) std::swap(a, b);
+    const std::int32_t absorbed = SlotOf(b);
+    std::vector<Point2i> absorbed_corners = HullOf(b).corners();
+    Change({HullChange::Kind::kMerge, SlotOf(a), absorbed, {}});
+    nodes_[static_cast<std::size_t>(absorbed)] = nodes_.back();
+    SlotOf(nodes_.back()) = absorbed;
+    nodes_.pop_back();
+    roots_[static_cast<std::size_t>(b)] = a;
+    result_.hulls.Merge(b, a, height_);
+    ++result_.statistics.merges;
+    grown.push_back(GrownPart(HullOf(a).corners(), std::move(absorbed_corners)));
+    EnclosePosts(grown.back(), a);
+    return a;
+  }
+
+  // Where the hull of corners `ring` is larger than the two that it was joined from. Corners of the
+  // absorbed hull come in runs along the ring, between corners of the other one:
+  //
+  //        the other   a1 .----. b    absorbed       What is new lies in the polygons of a run and
+  //        one's old   |    )   `.                   of the two corners beside it: the other hull
+  //        border      |    )    : b                 is convex, so all of it beyond the line from
+  //                    a2 '----'                     a1 to a2 is old. The hull of these corners
+  //                                                  contains the polygons.
+  static ConvexPolygon GrownPart(const std::vector<Point2i>& ring, std::vector<Point2i> absorbed) {
+    std::sort(absorbed.begin(), absorbed.end());
+    std::vector<Point2i> corners = absorbed;
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      if (!std::binary_search(absorbed.begin(), absorbed.end(), ring[i])) continue;
+      corners.push_back(ring[(i + ring.size() - 1) % ring.size()]);
+      corners.push_back(ring[(i + 1) % ring.size()]);
+    }
+    return ConvexPolygon::HullOf(corners);
+  }
+
+  // Joins to the hull `node` all others that meet one of `grown`, new parts of the hull, or what is
+  // new by these merges; returns the node after the last merge. Each part is compared once: only
+  // this hull grows.
+  NodeId MergeAllThatMeet(NodeId node, std::vector<ConvexPolygon> grown) {
+    std::vector<NodeId> met;
+    while (!grown.empty()) {
+      const ConvexPolygon part = std::move(grown.back());
+      grown.pop_back();
+      met.clear();
+      const std::int32_t own = SlotOf(node);
+      scene_.index().ForEach(part.least(), part.most(), [&](std::int32_t slot) {
+        if (slot != own && scene_.hull(slot).Meets(part)) {
+          met.push_back(nodes_[static_cast<std::size_t>(slot)]);
+        }
+      });
+      for (const NodeId other : met) node = Join(node, other, grown);
+    }
+    return node;
   }
 
   // Enters the posts in `polygon` that no hull encloses yet.
@@ -195,9 +232,9 @@ class Sweeper {
 }  // namespace
 
 Result<HullSweep> SweepHulls(const Terrain& terrain, int threads, const RunControl& control) {
-  // Any values are sound. So few checkpoints take little memory beside the terrain, and they keep
-  // many threads busy; the vertex so far ahead is in the cache when its turn comes.
-  constexpr std::size_t kCheckpoints = 64;
+  // Any values are sound. So many states keep many threads busy; the vertex so far ahead is in the
+  // cache when its turn comes.
+  constexpr std::size_t kStates = 64;
   constexpr std::size_t kAhead = 16;
   constexpr double kOrder = 0.1;  // the share of the stage's time that finding the order takes
   const Error stopped{ErrorCode::kCancelled, "stopped during the sweep"};
@@ -207,15 +244,15 @@ Result<HullSweep> SweepHulls(const Terrain& terrain, int threads, const RunContr
   if (!order) return stopped;
   const RunControl inserting = control.Between(kOrder, 1);
   const std::vector<VertexId>& vertices = order->vertices;
-  const std::size_t stride = (vertices.size() + kCheckpoints - 1) / kCheckpoints;
-  HullSweep sweep;
+  const std::size_t stride = (vertices.size() + kStates - 1) / kStates;
+  HullSweep sweep{HullHistory(terrain.dem().columns, terrain.dem().rows), {}, {}};
   Sweeper sweeper(terrain, *order, sweep);
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     if (i % stride == 0) {
       if (control.StopRequested()) return stopped;
       inserting.Report(Stage::kSweep,
                        static_cast<double>(i) / static_cast<double>(vertices.size()));
-      sweep.checkpoints.push_back({vertices[i], sweep.changes.size(), sweeper.scene()});
+      sweep.history.OfferState(vertices[i], sweeper.scene());
     }
     if (i + kAhead < vertices.size()) sweeper.Prefetch(vertices[i + kAhead]);
     sweeper.Insert(vertices[i]);

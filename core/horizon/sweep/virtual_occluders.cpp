@@ -52,6 +52,7 @@ void SelectVirtualOccluders(Point2i viewpoint, std::int32_t height,
   });
   std::vector<SilhouetteArc> kept;
   for (const SilhouetteArc& arc : arcs) {
+    if (kept.size() == kMostVirtualOccluders) break;
     if (IsInsideOneOf(kept, arc)) continue;
     kept.push_back(arc);
     const ConvexPolygon::Silhouette& s = *arc.silhouette;

@@ -107,15 +107,16 @@ bool PointQuery::FitsDouble(const WideDyadic& t) const {
 template <typename Int>
 PointAnswer PointQuery::AnswerFrom(BasicPointView<Int>& view, const BasicDyadic<Int>& t) {
   occluders_.clear();
-  if (view.Evaluate(t, likely_) == PointOutcome::kVisible) {
-    return {MakeWitness(from_high_, t, view.direction()),
-            MiddleOf(view.free_arc().from, view.free_arc().to),
-            {}};
+  const PointOutcome outcome = view.Evaluate(t, likely_);
+  if (outcome == PointOutcome::kGaveUp) return {.gave_up = true};
+  if (outcome == PointOutcome::kVisible) {
+    return {.witness = MakeWitness(from_high_, t, view.direction()),
+            .free_direction = MiddleOf(view.free_arc().from, view.free_arc().to)};
   }
   const OccludedRange occluded = OccludedRangeAround(view, occluders_);
   // Occluders of one point are likely to occlude the next.
   if (!occluders_.empty()) likely_ = occluders_;
-  return {std::nullopt, {}, occluded};
+  return {.occluded = occluded};
 }
 
 }  // namespace farhorizon

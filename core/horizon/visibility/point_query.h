@@ -15,17 +15,18 @@ namespace farhorizon {
 
 /// What is known of one point of a segment: a witness, or the range around it that is occluded.
 struct PointAnswer {
-  std::optional<Witness> witness;
+  std::optional<Witness> witness = std::nullopt;
   /// Where there is a witness: about the middle of the widest free arc, in columns and rows.
   std::array<double, 2> free_direction = {};
-  OccludedRange occluded;  ///< where there is none
+  OccludedRange occluded = {};  ///< where there is none
+  bool gave_up = false;         ///< the query's decision limit was reached: neither has a meaning
 };
 
 /// Asks points of one segment whether they are visible over the members of an index, each in the
 /// smallest numbers that suffice. Occluders of one point are tried first at the next.
 class PointQuery {
  public:
-  /// Of the query, decision_limit and want_occluders do not matter here.
+  /// Of the query, want_occluders does not matter here; decision_limit is for all points together.
   /// Requires: both outlive this.
   PointQuery(const SegmentIndex& index, const VisibilityQuery& query);
   PointQuery(const PointQuery&) = delete;

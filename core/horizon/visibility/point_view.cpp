@@ -103,6 +103,10 @@ bool BasicPointView<Int>::AddMembers(std::span<const OccluderId> likely) {
 template <typename Int>
 bool BasicPointView<Int>::AddUnlessOccluded(OccluderId id, const SegmentIndex::Item& item) {
   if (item.high.z < least_top_ || id == query_.except || SurelyOccluded(item)) return true;
+  if (query_.decision_limit && counts_->Sum() >= *query_.decision_limit) {
+    outcome_ = PointOutcome::kGaveUp;
+    return false;
+  }
   return AddOccluder(id, item);
 }
 

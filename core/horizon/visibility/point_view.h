@@ -43,6 +43,7 @@ enum class PointOutcome {
   kOccluded,       ///< `arcs` together cover all directions
   kOccludedByOne,  ///< `arcs` has one arc, whose occluder passes over the point in plan
   kAmbiguous,      ///< the point is, in plan, at an end of an occluder or on one: ask another t
+  kGaveUp,         ///< the query's decision limit ended the search
 };
 
 /// The directions that occluders leave free at one point of a target (core/horizon/README.md,
@@ -55,8 +56,8 @@ class BasicPointView {
   using Arc = BasicOccluderArc<Int>;
   using FreeArc = typename BasicDirectionSet<Int>::FreeArc;
 
-  /// Of the query, only `except` and the hints other than `likely` are used.
-  /// Requires: all four outlive the view.
+  /// Of the query, only `except`, `decision_limit`, for all that `counts` has, and the hints other
+  /// than `likely` are used. Requires: all four outlive the view.
   BasicPointView(const SegmentIndex& index, const TargetSegment& target,
                  const VisibilityQuery& query, PredicateCounts* counts);
 

@@ -42,6 +42,10 @@ Visibility FindLineOfSight(const SegmentIndex& segments, const VisibilityQuery& 
     const std::optional<WideDyadic> t = Between(range.from, range.to);
     if (!t) continue;
     PointAnswer point = points.AnswerAt(*t);
+    if (point.gave_up) {
+      answer.gave_up = true;
+      break;
+    }
     if (point.witness) {
       const bool plain = IsPlain(*point.witness);
       if (plain || !answer.witness || IsSimpler(*point.witness, *answer.witness)) {

@@ -38,8 +38,8 @@ struct VisibilityQuery {
   Ties ties = Ties::kPass;
   std::optional<OccluderId> except = std::nullopt;  ///< a member to ignore: often the segment
   OcclusionHints hints = {};
-  /// The most decisions, as PredicateCounts counts them, before the search gives up. It is checked
-  /// between points of the segment, so the last point may exceed it.
+  /// The most decisions, as PredicateCounts counts them, before the search gives up; one occluder
+  /// more is decided at most.
   std::optional<std::int64_t> decision_limit = std::nullopt;
   bool want_occluders = false;  ///< whether Visibility::occluders is filled
 };

@@ -90,7 +90,8 @@ Html ClaimList(const Report& report, bool has_geojson) {
   if (has_geojson) {
     list += Item("Each horizon edge has a witness."_html,
                  "<code>horizon.geojson</code> has a line of sight for each that touches it and "
-                 "nowhere meets higher ground. Anyone can shoot it."_html);
+                 "nowhere meets higher ground. Anyone can shoot it. Where no number is fine enough "
+                 "to write one, it says so."_html);
   }
   return list + LevelClaim(report) +
          Item("Errors are those of the files."_html,

@@ -58,6 +58,20 @@ void VerifyDem(const DemReport& claimed, const DemReport& found, Claims& claims)
   claims.Same("dem height quantum", claimed.height_quantum_m, found.height_quantum_m);
 }
 
+// True where no format of the level's mesh was asked for: nothing of it can be measured again.
+bool WasNotWritten(const LevelReport& level) {
+  return level.glb_bytes == 0 && level.drc_bytes == 0;
+}
+
+// A level without files must have none, and then claims nothing that this could measure.
+void VerifyAbsence(const fs::path& directory, const LevelReport& level, Claims& claims) {
+  const std::string name = "lod" + std::to_string(level.level);
+  std::error_code failure;
+  claims.Add(!fs::exists(directory / (name + ".glb"), failure) &&
+                 !fs::exists(directory / (name + ".drc"), failure),
+             name + " has no bytes in the report and no file: its numbers cannot be measured");
+}
+
 void VerifyLevels(const LevelContext& context, const fs::path& directory, const Report& report,
                   const std::optional<PublishedEdges>& published, Claims& claims) {
   const RunControl& control = context.control;
@@ -69,6 +83,10 @@ void VerifyLevels(const LevelContext& context, const fs::path& directory, const 
     LevelControl(control.Between(kVerifiedWithSights, 1), level, report.levels.size())
         .Report(Stage::kVerify, 0);
     const LevelReport& claimed = report.levels[level];
+    if (WasNotWritten(claimed)) {
+      VerifyAbsence(directory, claimed, claims);
+      continue;
+    }
     const std::vector<Edge> edges =
         VerifyLevel(context.With(level_control), directory, claimed, claims);
     claims.Add(
@@ -92,7 +110,8 @@ void VerifyLevels(const LevelContext& context, const fs::path& directory, const 
     }
     claims.Same("lod" + std::to_string(level) + " horizon edges", claimed.horizon_edges, here);
   }
-  if (published) {
+  const bool all_written = std::none_of(report.levels.begin(), report.levels.end(), WasNotWritten);
+  if (published && all_written) {
     claims.Add(kept == published->level_kept,
                "horizon.geojson: level_kept is the coarsest level that still has the edge");
   }
@@ -124,12 +143,12 @@ void VerifyTileset(const TerrainInput& input, const fs::path& directory, const R
   claims.Add(off < 1e-6, "tileset.json places the local frame where the DEM is");
 }
 
-// With the report's budget, which alone decides what is left undecided.
-Result<Horizon> FindAsClaimed(const TerrainInput& input, const Report& report, int threads,
-                              const RunControl& control) {
-  HorizonOptions options{.threads = threads, .approximate = report.statistics.undecided > 0};
+// The report's budget alone decides what is left open: where it suffices, it makes no difference
+// that it may be approximate.
+HorizonOptions OptionsAsClaimed(const Report& report, int threads) {
+  HorizonOptions options{.threads = threads, .approximate = true};
   if (report.statistics.work_budget > 0) options.work_budget = report.statistics.work_budget;
-  return FindHorizon(input.terrain(), options, control);
+  return options;
 }
 
 // True where the report says that some level has bytes of this kind: the format was asked for.
@@ -158,7 +177,9 @@ Result<std::vector<ClaimCheck>> VerifyArtifacts(const fs::path& dem, const fs::p
   if (report->dem.columns != (*input)->dem().columns || report->dem.rows != (*input)->dem().rows) {
     return std::move(claims).Take();
   }
-  Result<Horizon> horizon = FindAsClaimed(**input, *report, options.threads, control);
+  const HorizonOptions claimed = OptionsAsClaimed(*report, options.threads);
+  WorkBudget budget = WorkBudgetOf((*input)->terrain(), claimed);
+  Result<Horizon> horizon = FindHorizon((*input)->terrain(), claimed, budget, control);
   if (!horizon) return std::move(horizon.error());
   claims.Same("undecided edges", report->statistics.undecided, horizon->statistics.undecided);
   claims.Same("terrain edges", report->statistics.terrain_edges, (*input)->terrain().CountEdges());
@@ -178,8 +199,8 @@ Result<std::vector<ClaimCheck>> VerifyArtifacts(const fs::path& dem, const fs::p
     VerifySet(published->edges, *horizon, claims);
     claims.Same("horizon.geojson edges that are undecided", report->statistics.undecided,
                 published->undecided);
-    Result<std::vector<ClaimCheck>> edges =
-        VerifyEdges(**input, *horizon, *features, options.threads, control);
+    Result<std::vector<ClaimCheck>> edges = VerifyEdges(
+        **input, *horizon, *features, {.budget = budget, .threads = options.threads}, control);
     if (!edges) return std::move(edges.error());
     claims.Append(*std::move(edges));
   } else {  // no edge's lines of sight are there to be compared

@@ -13,7 +13,6 @@
 #include <utility>
 
 #include "core/horizon/lines/grid_line_query.h"
-#include "core/pipeline/edge_measures.h"
 #include "core/pipeline/verify/claims.h"
 #include "core/pipeline/verify/published_set.h"
 #include "core/pipeline/verify/random_line.h"
@@ -36,15 +35,22 @@ bool Close(const std::vector<Interval>& a, const std::vector<Interval>& b, doubl
                     });
 }
 
+// By how much a skyline drop may be too small, metres.
+double SkylineDropMargin(double drop_m) {
+  return std::max(kSkylineDropStep, kSkylineDropShare * drop_m);
+}
+
 // Measures of another build may round to the next step; half a step more is for the text.
 bool Same(const EdgeMeasures& claimed, const EdgeMeasures& found) {
   constexpr double kRelative = 1e-6;
-  return Close(claimed.azimuths, found.azimuths, 1.5 * kAzimuthStep) &&
+  return claimed.sights == found.sights && claimed.drop == found.drop &&
+         Close(claimed.azimuths, found.azimuths, 1.5 * kAzimuthStep) &&
          Close(claimed.spans, found.spans, 1.5 * kSpanStep) &&
          Close(claimed.angular_share, found.angular_share, kRelative) &&
          Close(claimed.line_measure_m, found.line_measure_m,
                kRelative * (1 + found.line_measure_m)) &&
-         Close(claimed.skyline_drop_m, found.skyline_drop_m, 1.5 * kSkylineDropStep);
+         Close(claimed.skyline_drop_m, found.skyline_drop_m,
+               1.5 * SkylineDropMargin(found.skyline_drop_m));
 }
 
 bool IsIn(const std::vector<Interval>& intervals, double value, double margin) {
@@ -67,29 +73,30 @@ LineCounts CountLines(const Terrain& terrain, const Horizon& horizon, const Publ
   // middle; far below what a wrong one would be off by.
   constexpr double kAzimuthMargin = 1e-4;
   constexpr double kSpanMargin = 1e-6;
-  // The search stops a step short of the truth, and the text is rounded to less than another.
-  constexpr double kSkylineDropMargin = 2 * kSkylineDropStep + 1e-6;
   const GridLineQuery ground(terrain);
   std::mt19937_64 random(1841);
   LineCounts counts;
   for (int i = 0; i < kRandomLines; ++i) {
     const PlanLine line = RandomLine(terrain.dem(), random);
     const std::optional<PublishedSet::EdgePoint> highest = set.HighestOver(line);
-    if (!highest || features[highest->edge].undecided) continue;
+    if (!highest) continue;
     const EdgeMeasures& claimed = features[highest->edge].measures;
     double azimuth = steps[highest->edge].ToAzimuth(line.dc, line.dr);
     if (azimuth < 0) azimuth += 180;
     const bool inside = (IsIn(claimed.azimuths, azimuth, kAzimuthMargin) ||
                          IsIn(claimed.azimuths, azimuth + 180, kAzimuthMargin)) &&
                         IsIn(claimed.spans, highest->t, kSpanMargin);
-    counts.outside += inside ? 0 : 1;
+    counts.outside += inside || claimed.sights != Known::kYes ? 0 : 1;
+    if (claimed.drop != Known::kYes) continue;
     const Edge edge = horizon.edges[highest->edge].edge;
     const std::optional<HighestEdge> other =
-        ground.HighestEdgeOver(edge, line.x / 2.0, line.y / 2.0, line.dc, line.dr);
+        ground.HighestEdgeOver(edge, {line.x / 2.0, line.y / 2.0, 1.0 * line.dc, 1.0 * line.dr});
     const double low = terrain.Point(edge.a).z;
     const double own = low + highest->t * (terrain.Point(edge.b).z - low);
     const double lower_m = other ? (own - other->height) * terrain.dem().quantum_m : 0;
-    counts.beyond_skyline_drop += lower_m > claimed.skyline_drop_m + kSkylineDropMargin ? 1 : 0;
+    // The search stops short of the truth, and the text is rounded to no more than as much again.
+    const double margin_m = 2 * SkylineDropMargin(lower_m) + 1e-6;
+    counts.beyond_skyline_drop += lower_m > claimed.skyline_drop_m + margin_m ? 1 : 0;
   }
   return counts;
 }
@@ -127,7 +134,7 @@ VisibilityCounts CountVisibility(const PublishedSet& set,
   const std::size_t stride = std::max<std::size_t>(features.size() / kMostEdgesTried, 1);
   for (std::size_t i = 0; i < features.size(); i += stride) {
     const std::vector<Interval>& azimuths = features[i].measures.azimuths;
-    if (azimuths.empty()) continue;  // undecided, or counted as different
+    if (azimuths.empty()) continue;  // not afforded, or counted as different
     const auto share = [&](const Interval& interval) {
       return set.VisibleShare(i,
                               steps[i].ToGrid(interval[0] + kWithin * (interval[1] - interval[0])));
@@ -143,7 +150,8 @@ VisibilityCounts CountVisibility(const PublishedSet& set,
 
 Result<std::vector<ClaimCheck>> VerifyEdges(const TerrainInput& input, const Horizon& horizon,
                                             const std::vector<HorizonFeature>& features,
-                                            int threads, const RunControl& control) {
+                                            const MeasureOptions& measuring,
+                                            const RunControl& control) {
   Claims claims;
   const Terrain& terrain = input.terrain();
   const Dem& dem = terrain.dem();
@@ -156,7 +164,7 @@ Result<std::vector<ClaimCheck>> VerifyEdges(const TerrainInput& input, const Hor
   claims.Add(in_order, "horizon.geojson has the horizon edges by rising posts, each once");
   if (!in_order) return std::move(claims).Take();
   Result<std::vector<EdgeMeasures>> found =
-      MeasureEdges(terrain, horizon, input.georeference(), threads, control);
+      MeasureEdges(terrain, horizon, input.georeference(), measuring, control);
   if (!found) return std::move(found.error());
   control.Report(Stage::kVerify, kVerifiedBeforeSights);
   std::vector<std::array<double, 2>> middles;

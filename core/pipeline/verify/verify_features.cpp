@@ -10,7 +10,9 @@
 #include <random>
 #include <string>
 
+#include "core/geometry/plan.h"
 #include "core/horizon/lines/highest_over_line.h"
+#include "core/horizon/visibility/occluder_set.h"
 #include "core/horizon/witness.h"
 #include "core/pipeline/verify/random_line.h"
 
@@ -34,6 +36,33 @@ int LinesAboveTheSet(const Terrain& terrain, const std::vector<Segment>& set) {
   return above;
 }
 
+// True where a face beside the edge bends: an edge between coplanar faces is no horizon edge.
+bool IsCrease(const Terrain& terrain, Edge edge, const Terrain::Faces& faces) {
+  return !faces.left || !faces.right ||
+         RidgeSign(terrain.Point(edge.a), terrain.Point(edge.b), terrain.Point(*faces.left),
+                   terrain.Point(*faces.right)) != 0;
+}
+
+// The number of edges that are not on the horizon, by the definition itself: over all edges of the
+// terrain, with none of the sweep's candidates. Exact.
+std::int64_t CountOccluded(const Terrain& terrain, const std::vector<Edge>& edges) {
+  if (edges.empty()) return 0;
+  const auto segment_of = [&terrain](Edge e) {
+    return Segment{terrain.Point(e.a), terrain.Point(e.b)};
+  };
+  const std::vector<Edge> all = terrain.Edges();
+  OccluderSet ground(terrain.dem().columns, terrain.dem().rows);
+  for (const Edge e : all) ground.Insert(segment_of(e));
+  return std::count_if(edges.begin(), edges.end(), [&](Edge edge) {
+    const auto at = std::lower_bound(all.begin(), all.end(), edge);
+    if (at == all.end() || *at != edge || !IsCrease(terrain, edge, terrain.FacesOf(edge))) {
+      return true;
+    }
+    const auto own = static_cast<OccluderId>(at - all.begin());
+    return !ground.FindLineOfSight({.segment = segment_of(edge), .except = own}).witness;
+  });
+}
+
 }  // namespace
 
 PublishedEdges VerifyFeatures(const TerrainInput& input,
@@ -43,6 +72,7 @@ PublishedEdges VerifyFeatures(const TerrainInput& input,
   std::vector<VertexId> ends;
   std::int64_t misplaced = 0;
   std::int64_t unwitnessed = 0;
+  std::vector<Edge> without_witness;
   std::vector<Segment> set;
   for (const HorizonFeature& f : features) {
     const auto inside = [&dem](const std::array<std::int32_t, 2>& p) {
@@ -53,9 +83,11 @@ PublishedEdges VerifyFeatures(const TerrainInput& input,
       continue;
     }
     const Edge edge{f.a[1] * dem.columns + f.a[0], f.b[1] * dem.columns + f.b[0]};
+    const bool has_witness = !f.undecided && f.witness.exact;
     const bool holds =
-        edge.a < edge.b && (f.undecided || WitnessHolds(input.terrain(), edge, f.witness));
+        edge.a < edge.b && (!has_witness || WitnessHolds(input.terrain(), edge, f.witness));
     unwitnessed += holds ? 0 : 1;
+    if (!f.undecided && !f.witness.exact) without_witness.push_back(edge);
     published.undecided += f.undecided ? 1 : 0;
     published.edges.push_back(edge);
     published.level_kept.push_back(f.level_kept.value_or(-1));
@@ -77,6 +109,8 @@ PublishedEdges VerifyFeatures(const TerrainInput& input,
   claims.Same("horizon.geojson edges that are not where their posts are", std::int64_t{0},
               misplaced);
   claims.Same("horizon.geojson witnesses that meet higher ground", std::int64_t{0}, unwitnessed);
+  claims.Same("horizon.geojson edges without a witness that no line of sight touches",
+              std::int64_t{0}, CountOccluded(input.terrain(), without_witness));
   claims.Same(
       std::to_string(kRandomLines) + " random lines of sight with ground above every horizon edge",
       0, LinesAboveTheSet(input.terrain(), set));

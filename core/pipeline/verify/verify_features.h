@@ -19,7 +19,8 @@ struct PublishedEdges {
   std::int64_t undecided = 0;
 };
 
-/// Checks each feature by itself: its posts and their positions, its witness; and that random lines
+/// Checks each feature by itself: its posts and their positions, its witness, or, where that could
+/// not be written, whether a line of sight touches it; and that random lines
 /// have their skyline on the set.
 /// Cost: O(columns + rows) a witness; 1000 times the terrain's edges.
 PublishedEdges VerifyFeatures(const TerrainInput& input,

@@ -9,7 +9,7 @@ namespace farhorizon {
 namespace {
 
 // The signs of q between its roots, by points between them.
-std::vector<int> SignsBetween(const Quadratic& q, const std::vector<IsolatedRoot>& roots) {
+std::vector<int> SignsBetween(const Quadratic& q, const RootPair& roots) {
   std::vector<IsolatedRoot> cuts = {IsolatedRoot::Zero()};
   cuts.insert(cuts.end(), roots.begin(), roots.end());
   cuts.push_back(IsolatedRoot::One());
@@ -22,7 +22,7 @@ std::vector<int> SignsBetween(const Quadratic& q, const std::vector<IsolatedRoot
 
 // The sign at every multiple of 1/1024 is that of the interval between roots, and signs alternate.
 void ExpectAllSignChanges(const Quadratic& q) {
-  const std::vector<IsolatedRoot> roots = SignChanges(q);
+  const RootPair roots = SignChanges(q);
   std::size_t interval = 0;
   const std::vector<int> signs = SignsBetween(q, roots);
   for (std::size_t i = 0; i + 1 < signs.size(); ++i) ASSERT_EQ(signs[i] * signs[i + 1], -1);
@@ -85,7 +85,7 @@ TEST(IsolatedRoot, IsExactWhereTwoNearlyCoincide) {
   // (a t - b)^2 = 1 with a = 2^49, b = a / 3: roots 2^-48 apart.
   const Int128 a = Int128{1} << 49;
   const Int128 b = a / 3;
-  const std::vector<IsolatedRoot> roots = SignChanges({b * b - 1, -2 * a * b, a * a});
+  const RootPair roots = SignChanges({b * b - 1, -2 * a * b, a * a});
   ASSERT_EQ(roots.size(), 2U);
   EXPECT_EQ(Compare(roots[0], roots[1]), -1);
   EXPECT_NEAR(roots[0].ToDouble(), 1.0 / 3, 1e-14);

@@ -48,11 +48,12 @@ TEST(FinerHeights, FromTheLeastAreAsFineAsAskedForWhereThereIsRoom) {
   for (const HeightRange& range : kRanges) {
     const FinerHeights heights = FinerHeights::FromLeast(range, 0.01);
     const double span = static_cast<double>(range.greatest) - range.least;
-    EXPECT_LE(heights.Quanta(1), std::max(0.01, std::ldexp(span, -28)));
+    EXPECT_LE(heights.Quanta(1), std::max(0.01, std::ldexp(span, -30)));
     EXPECT_EQ(heights.Scale({0, 0, range.least}).z, 0);
     const Point3i top = heights.Scale({3, 4, range.greatest});
-    EXPECT_LE(top.z, 1 << 29) << "so an edge lowered by the range stays above -2^29";
-    EXPECT_NEAR(heights.Quanta(top.z), span, heights.Quanta(0.5));
+    EXPECT_EQ(heights.Quanta(top.z), span) << "exact, whatever the tolerance";
+    EXPECT_GE(heights.most_steps, top.z) << "so an edge lowered by the range is held";
+    EXPECT_EQ(FinerHeights::FromLeast(range, 1000).bits, 0) << "never coarser than heights";
     EXPECT_EQ(top.x, 3);
     EXPECT_EQ(top.y, 4);
   }

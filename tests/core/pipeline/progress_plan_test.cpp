@@ -109,7 +109,8 @@ TEST_F(RealRuns, TheHorizonByEitherEngineRises) {
   for (const auto& [engine, workflow] : {std::pair(Engine::kAdaptive, Workflow::kHorizon),
                                          std::pair(Engine::kKinetic, Workflow::kKineticHorizon)}) {
     for (const char* file : {"edges.geojson", "edges.fgb"}) {
-      Status written = WriteHorizonEdges(dem_, folder_ / file, options_, Recording(), engine);
+      Status written = WriteHorizonEdges(dem_, folder_ / file,
+                                         {.build = options_, .engine = engine}, Recording());
       ASSERT_TRUE(written) << written.error().message;
       EXPECT_THAT(OffencesAgainstPlan(workflow, reports_), IsEmpty()) << file;
     }
@@ -120,7 +121,8 @@ TEST_F(RealRuns, AnApproximateHorizonRisesWhetherOrNotTheBudgetSuffices) {
   options_.approximate = true;
   for (const std::int64_t budget : {3'000, 10'000'000}) {
     options_.work_budget = budget;
-    Status written = WriteHorizonEdges(dem_, folder_ / "edges.geojson", options_, Recording());
+    Status written =
+        WriteHorizonEdges(dem_, folder_ / "edges.geojson", {.build = options_}, Recording());
     ASSERT_TRUE(written) << written.error().message;
     EXPECT_THAT(OffencesAgainstPlan(Workflow::kHorizon, reports_), IsEmpty()) << budget;
   }

@@ -48,11 +48,16 @@ testing::AssertionResult AgreesWithTheDefinition(const Dem& dem, int lines, std:
     }
     const std::optional<ExactHeight> height = HighestOver(others, line);
     const std::optional<HighestEdge> found =
-        query.HighestEdgeOver(except, line.x / 2.0, line.y / 2.0, line.dc, line.dr);
+        query.HighestEdgeOver(except, {line.x / 2.0, line.y / 2.0, 1.0 * line.dc, 1.0 * line.dr});
     if (found.has_value() != height.has_value()) {
       return testing::AssertionFailure() << DrawAscii(dem) << "one of them finds no edge";
     }
     if (!found) continue;
+    const GridLineQuery::Line same{line.x / 2.0, line.y / 2.0, 1.0 * line.dc, 1.0 * line.dr};
+    if (query.HighestEdgeOver(except, same, found->height) ||
+        !query.HighestEdgeOver(except, same, found->height - 1e-3)) {
+      return testing::AssertionFailure() << DrawAscii(dem) << "a floor is not kept";
+    }
     const Segment highest{terrain->Point(found->edge.a), terrain->Point(found->edge.b)};
     const std::optional<ExactHeight> of_edge = HeightOver(highest, line);
     if (std::abs(found->height - ToDouble(*height)) > 1e-6 || found->edge == except || !of_edge ||

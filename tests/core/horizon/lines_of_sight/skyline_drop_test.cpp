@@ -17,19 +17,21 @@
 namespace farhorizon {
 namespace {
 
-// The tolerance is 1 / kUnits quanta.
-constexpr int kUnits = 64;
+// By how much a drop may be too small.
+double Tolerated(double tolerance, double drop) {
+  return std::max(tolerance, SkylineDrops::kRelativeTolerance * drop) * (1 + 1e-9);
+}
 
-// Every edge is visible over all others when it is lowered by a unit less than its skyline drop,
-// and is not when lowered by a unit more.
-testing::AssertionResult ArePrecise(const Dem& dem) {
+// Every edge is visible over all others when it is lowered by its skyline drop, and is not when it
+// is lowered by the tolerance more. The depths that are tried are whole units, 2^-unit_bits quanta.
+testing::AssertionResult ArePrecise(const Dem& dem, double tolerance, int unit_bits) {
   Result<Terrain> terrain = Terrain::Build(dem);
   if (!terrain) return testing::AssertionSuccess();
   const Horizon horizon = *FindHorizon(*terrain, {}, {});
-  const SkylineDrops skyline_drops(*terrain, horizon, 1.0 / kUnits);
+  const SkylineDrops skyline_drops(*terrain, horizon, tolerance);
   const auto scaled = [&](VertexId v, std::int32_t lowered) {
     const Point3i p = terrain->Point(v);
-    return Point3i{p.x, p.y, p.z * kUnits - lowered};
+    return Point3i{p.x, p.y, p.z * (1 << unit_bits) - lowered};
   };
   for (std::size_t i = 0; i < horizon.edges.size(); ++i) {
     const Edge edge = horizon.edges[i].edge;
@@ -37,20 +39,26 @@ testing::AssertionResult ArePrecise(const Dem& dem) {
     for (const Edge e : terrain->Edges()) {
       if (e != edge) others.push_back({scaled(e.a, 0), scaled(e.b, 0)});
     }
-    const auto is_visible = [&](std::int32_t depth) {
+    const auto is_visible = [&](double quanta) {
+      const auto depth = static_cast<std::int32_t>(quanta);
       const Segment lowered{scaled(edge.a, depth), scaled(edge.b, depth)};
       return LineOfSightByBruteForce(lowered, others, Ties::kPass).has_value();
     };
-    const double units = skyline_drops.Of(i) * kUnits;
-    const auto depth = static_cast<std::int32_t>(units);
-    if (units != depth || depth < 0 || (depth > 0 && !is_visible(depth - 1)) ||
-        is_visible(depth + 1)) {
-      return testing::AssertionFailure() << DrawAscii(dem) << edge.a << '-' << edge.b << ": "
-                                         << units << " / " << kUnits << " quanta";
+    const double drop = skyline_drops.Of(i);
+    const double units = std::ldexp(drop, unit_bits);
+    const double beyond = std::ldexp(
+        drop + std::max(Tolerated(tolerance, drop), std::ldexp(1.0, -unit_bits)), unit_bits);
+    // Lowered by exactly the drop, an edge may touch others on all lines.
+    if (drop < 0 || (units >= 1 && !is_visible(std::ceil(units) - 1)) ||
+        is_visible(std::ceil(beyond))) {
+      return testing::AssertionFailure()
+             << DrawAscii(dem) << edge.a << '-' << edge.b << ": " << drop << " quanta";
     }
   }
   return testing::AssertionSuccess();
 }
+
+testing::AssertionResult ArePrecise(const Dem& dem) { return ArePrecise(dem, 1.0 / 64, 6); }
 
 TEST(SkylineDrop, IsTheGreatestDepthAtWhichAnEdgeIsVisible) {
   std::mt19937 random(5);
@@ -69,6 +77,56 @@ TEST(SkylineDropLong, OfLandscapes) {
   for (int i = 0; i < Rounds(60); ++i) ASSERT_TRUE(ArePrecise(AnyLandscape(8, 14, random)));
 }
 
+// Where quanta are finer than the tolerance, heights stay as they are: they were rounded to multiples
+// of it, and drops were up to half a tolerance too great, or nearly two too small.
+TEST(SkylineDrop, OfHeightsThatAreFinerThanTheTolerance) {
+  std::mt19937 random(8);
+  for (int i = 0; i < Rounds(300); ++i) {
+    const auto most = static_cast<std::int32_t>(1000 << (random() % 12));
+    const Dem dem =
+        MakeDem(3 + static_cast<std::int32_t>(random() % 3), 4, [&](std::int32_t, std::int32_t) {
+          return static_cast<std::int32_t>(random() % static_cast<std::uint32_t>(most));
+        });
+    ASSERT_TRUE(ArePrecise(dem, 1 + static_cast<double>(random() % 300), 0));
+  }
+}
+
+// Heights with the whole range that a DEM admits: the lowered edge is below all of them.
+TEST(SkylineDrop, OfTheWholeRangeOfHeights) {
+  std::mt19937 random(9);
+  constexpr std::int32_t kMost = (1 << 30) - 1;
+  for (int i = 0; i < Rounds(200); ++i) {
+    const Dem dem =
+        MakeDem(3, 3 + static_cast<std::int32_t>(random() % 2), [&](std::int32_t, std::int32_t) {
+          const auto little = static_cast<std::int32_t>(random() % 1000);
+          return random() % 2 == 0 ? kMost - little : little - kMost;
+        });
+    const Terrain terrain = *Terrain::Build(dem);
+    const Horizon horizon = *FindHorizon(terrain, {}, {});
+    const SkylineDrops skyline_drops(terrain, horizon, 100);
+    const GridLineQuery lines(terrain);
+    std::uniform_real_distribution<double> share(0, 1);
+    for (std::size_t k = 0; k < horizon.edges.size(); ++k) {
+      const Edge edge = horizon.edges[k].edge;
+      const Point3i a = terrain.Point(edge.a);
+      const Point3i b = terrain.Point(edge.b);
+      const double drop = skyline_drops.Of(k);
+      ASSERT_GE(drop, 0);
+      ASSERT_LE(drop, 2.0 * kMost);
+      for (int shot = 0; shot < 20; ++shot) {
+        const double t = share(random);
+        const double angle = 3.141592653589793 * share(random);
+        const std::optional<HighestEdge> other = lines.HighestEdgeOver(
+            edge, {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), std::cos(angle), std::sin(angle)});
+        const double clearance =
+            other ? a.z + t * (static_cast<double>(b.z) - a.z) - other->height : 0;
+        ASSERT_LE(clearance, drop + Tolerated(100, clearance) + 2 * lines.HeightError())
+            << DrawAscii(dem) << edge.a << '-' << edge.b;
+      }
+    }
+  }
+}
+
 // A ridge of height 10 on a plain: some lines cross it as near to a post as you like, and otherwise
 // the plain only.
 TEST(SkylineDrop, OfARidgeOnAPlain) {
@@ -81,12 +139,12 @@ TEST(SkylineDrop, OfARidgeOnAPlain) {
   for (std::size_t i = 0; i < horizon.edges.size(); ++i) {
     if (horizon.edges[i].edge == MakeEdge(2 * 9 + 4, 2 * 9 + 5)) {
       EXPECT_LE(skyline_drops.Of(i), 10);
-      EXPECT_GE(skyline_drops.Of(i), 10 - 1e-3);
+      EXPECT_GE(skyline_drops.Of(i), 10 - Tolerated(1e-3, 10));
     }
   }
 }
 
-// Heights with so great a range that steps are coarser than quanta.
+// Heights with so great a range that steps are no finer than quanta.
 TEST(SkylineDrop, OfGreatHeights) {
   const std::int32_t most = (1 << 30) - 1;
   const Dem dem = MakeDem(5, 5, [most](std::int32_t column, std::int32_t row) {
@@ -110,7 +168,7 @@ TEST(SkylineDrop, IsNotExceededOnAnyLineOfADem) {
   const Dem dem = std::move(*ReadDem(path, {}));
   const Terrain terrain = *Terrain::Build(dem);
   const Horizon horizon = *FindHorizon(terrain, {.threads = 2}, {});
-  const double tolerance = 1.0 / kUnits;
+  const double tolerance = 1.0 / 64;
   const SkylineDrops skyline_drops(terrain, horizon, tolerance);
   const GridLineQuery lines(terrain);
   std::mt19937 random(7);
@@ -125,10 +183,10 @@ TEST(SkylineDrop, IsNotExceededOnAnyLineOfADem) {
       const double t = share(random);
       const double angle = 3.141592653589793 * share(random);
       const std::optional<HighestEdge> other = lines.HighestEdgeOver(
-          edge, a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), std::cos(angle), std::sin(angle));
+          edge, {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), std::cos(angle), std::sin(angle)});
       if (other) greatest = std::max(greatest, a.z + t * (b.z - a.z) - other->height);
     }
-    EXPECT_LE(greatest, skyline_drop + tolerance) << edge.a << '-' << edge.b;
+    EXPECT_LE(greatest, skyline_drop + Tolerated(tolerance, greatest)) << edge.a << '-' << edge.b;
   }
 }
 

@@ -103,7 +103,7 @@ TEST(EdgeOcclusion, OccludesAllOnlyWhereEveryLineMeetsAHull) {
     for (const ConvexPolygon& hull : scene.others) occlusion.Add(hull);
     const bool is_free = SomeLineIsFree(scene, wedge);
     occluded += static_cast<int>(!is_free);
-    if (!occlusion.Finish()) continue;
+    if (!occlusion.IsOccluded()) continue;
     ++complete;
     ASSERT_FALSE(is_free) << "round " << round;
   }

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <functional>
 #include <string>
 
@@ -80,6 +82,74 @@ class Built : public ::testing::Test {
 using Verify = Built;
 
 TEST_F(Verify, EveryClaimOfABuildHolds) { EXPECT_TRUE(False().empty()) << False().front(); }
+
+// Levels are planned and measured whatever is written: without files, nothing of them is claimed.
+TEST_F(Verify, LevelsThatWereNotWrittenClaimNothing) {
+  for (const std::vector<std::string>& formats :
+       {std::vector<std::string>{"geojson"}, {"flatgeobuf"}, {"3dtiles"}, {"drc", "geojson"}}) {
+    options_.formats = formats;
+    std::filesystem::remove_all(folder_ / "out");
+    ASSERT_TRUE(BuildArtifacts(folder_ / "hills.asc", folder_ / "out", options_, control_));
+    const std::vector<std::string> lines = False();
+    EXPECT_TRUE(lines.empty()) << formats.front() << ": " << lines.front();
+  }
+  SpillFile(folder_ / "out" / "lod1.glb", "not asked for");
+  EXPECT_TRUE(False().empty()) << "with a .drc, the .glb is no file of the level's";
+  options_.formats = {"geojson"};
+  ASSERT_TRUE(BuildArtifacts(folder_ / "hills.asc", folder_ / "out", options_, control_));
+  SpillFile(folder_ / "out" / "lod1.drc", "not asked for");
+  EXPECT_TRUE(Names(False(), "lod1 has no bytes in the report and no file"));
+}
+
+// Heights whose quantum is far finer than skyline drops are searched to.
+TEST_F(Verify, EveryClaimHoldsWhereHeightsHaveAllTheBitsOfADouble) {
+  std::string text = "ncols 9\nnrows 7\nxllcorner 500000\nyllcorner 5100000\ncellsize 30\n";
+  for (int r = 0; r < 7; ++r) {
+    for (int c = 0; c < 9; ++c) {
+      const double height = 500 + 60 * std::sin(c * c / 3.0) + 40 * std::cos(r * 2.5 + c / 8.0);
+      char written[40];
+      std::snprintf(written, sizeof written, "%.17g%c", height, c < 8 ? ' ' : '\n');
+      text += written;
+    }
+  }
+  SpillFile(folder_ / "hills.asc", text);
+  std::filesystem::remove_all(folder_ / "out");
+  options_.levels = 1;
+  Status built = BuildArtifacts(folder_ / "hills.asc", folder_ / "out", options_, control_);
+  ASSERT_TRUE(built) << built.error().message;
+  const std::vector<std::string> lines = False();
+  EXPECT_TRUE(lines.empty()) << lines.front();
+  const Report report = *ReadReport(SlurpFile(folder_ / "out" / "report.json"));
+  EXPECT_LT(report.dem.height_quantum_m, 1e-4);
+}
+
+// One edge whose line of sight no double can write does not refuse the DEM.
+TEST_F(Verify, AnEdgeWithoutWitnessIsDecidedByItself) {
+  SpillFile(folder_ / "hills.asc",
+            "ncols 4\nnrows 4\nxllcorner 500000\nyllcorner 5100000\ncellsize 30\n"
+            "536870913 3 32770 536870912\n536870915 32770 536870915 536870912\n"
+            "536870915 536870912 1 32768\n536870914 3 3 32771\n");
+  std::filesystem::remove_all(folder_ / "out");
+  options_.formats = {"geojson"};
+  Status built = BuildArtifacts(folder_ / "hills.asc", folder_ / "out", options_, control_);
+  ASSERT_TRUE(built) << built.error().message;
+  EXPECT_NE(SlurpFile(folder_ / "out" / "horizon.geojson").find(R"("witness":null)"),
+            std::string::npos);
+  const std::vector<std::string> lines = False();
+  EXPECT_TRUE(lines.empty()) << lines.front();
+}
+
+TEST_F(Verify, AnEdgeWithoutWitnessThatIsNotOnTheHorizonIsFound) {
+  Result<std::vector<HorizonFeature>> features =
+      ReadHorizonGeoJson(SlurpFile(folder_ / "out" / "horizon.geojson"));
+  for (HorizonFeature& f : *features) f.witness.exact = false;
+  SpillFile(folder_ / "out" / "horizon.geojson", WriteHorizonGeoJson(*features));
+  EXPECT_FALSE(Names(False(), "that no line of sight touches"));
+  features->front().b = {features->front().a[0], features->front().a[1] + 9};  // no edge
+  SpillFile(folder_ / "out" / "horizon.geojson", WriteHorizonGeoJson(*features));
+  EXPECT_TRUE(
+      Names(False(), "without a witness that no line of sight touches: claimed 0, found 1"));
+}
 
 TEST_F(Verify, AzimuthsThatAreNotTheEdgesAreFound) {
   // Turns every edge's azimuths by a quarter turn.
