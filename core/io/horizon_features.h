@@ -74,11 +74,11 @@ struct HorizonFeature {
 /// `undecided`, and each of them has `undecided` instead of measures and witness. A measure that
 /// the work budget did not suffice for is null; one that was not asked for is left out.
 /// A witness that no double and two integers can write (witness.h) is null, and the edge has
-/// `too_narrow`. Others are printed without loss: t as the shortest text of its double, directions as
-/// integers. Directions are below 2^53, which every JSON reader keeps, except where cliffs of 2^26
-/// quanta and more differ by single quanta. There a few are up to 2^62; a reader that takes all
-/// numbers for doubles, as JavaScript's JSON.parse does, rounds them to a line that may not be a
-/// witness.
+/// `too_narrow`. Others are printed without loss: t as the shortest text of its double, directions
+/// as integers. Directions are below 2^53, which every JSON reader keeps, except where cliffs of
+/// 2^26 quanta and more differ by single quanta. There a few are up to 2^62; a reader that takes
+/// all numbers for doubles, as JavaScript's JSON.parse does, rounds them to a line that may not be
+/// a witness.
 std::string WriteHorizonGeoJson(const std::vector<HorizonFeature>& features);
 
 /// Reads back the text of WriteHorizonGeoJson. Errors: kUnsupportedData, kind "bad-geojson", with

@@ -128,8 +128,8 @@ SmallFraction NearestFraction(double x) {
   return last;
 }
 
-// The azimuth of `view`, in the turn of `asked`, to 10^-9 degrees: far less than any DEM's georeference
-// is good for, and as a rule what was asked.
+// The azimuth of `view`, in the turn of `asked`, to 10^-9 degrees: far less than any DEM's
+// georeference is good for, and as a rule what was asked.
 double AzimuthOf(const ViewDirection& view, const GroundStep& step, double asked) {
   constexpr double kPerDegree = 1e9;
   const double off = std::remainder(step.ToAzimuth(view.dc, view.dr) - asked, 360);

@@ -36,9 +36,9 @@ constexpr double kAlongFamily = 1e-12;
 // less than that for the rounding of a height, which is below 2^31 quanta. The bound is twice their
 // sum.
 constexpr double kShareError = 0x1p-28;
-// Blocks have 2^2 posts a side, and large blocks 2^4: any sizes are sound, these are fast. A piece of
-// a line that is no longer than a block is wide, with its middle in the block, stays in the block
-// and those around it, and so do the ends of the edges that it crosses.
+// Blocks have 2^2 posts a side, and large blocks 2^4: any sizes are sound, these are fast. A piece
+// of a line that is no longer than a block is wide, with its middle in the block, stays in the
+// block and those around it, and so do the ends of the edges that it crosses.
 constexpr int kBlockBits = 2;
 constexpr int kLargeBlockBits = 4;
 constexpr double kPiece = 1 << kBlockBits;
@@ -226,13 +226,16 @@ std::optional<HighestEdge> GridLineQuery::HighestEdgeOver(Edge except, const Lin
         walk.highest().height) {
       return;
     }
-    for (int k = 0; k < kPiecesInLarge && from < end; ++k, from += kPiece) {
+    // One at least: a line may touch the grid in one point.
+    int pieces = 0;
+    do {
       const double to = std::min(from + kPiece, end);
       const Point2i post = walk.PostAt((from + to) / 2 * sense);
       if (tops_.At(post.x >> kBlockBits, post.y >> kBlockBits) > walk.highest().height) {
         walk.Walk(from * sense, to * sense);
       }
-    }
+      from += kPiece;
+    } while (++pieces < kPiecesInLarge && from < end);
   };
   for (const double sense : {1.0, -1.0}) {
     const double end = std::max(sense > 0 ? walk.to() : -walk.from(), 0.0);

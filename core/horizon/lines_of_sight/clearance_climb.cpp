@@ -17,8 +17,8 @@ namespace farhorizon {
 
 namespace {
 
-// A step that is tried goes up to this far: at first a quarter of the edge, and of a radian, and half
-// of each at most. Any lengths are sound, these are fast.
+// A step that is tried goes up to this far: at first a quarter of the edge, and of a radian, and
+// half of each at most. Any lengths are sound, these are fast.
 constexpr double kFirstReach = 0.25;
 constexpr double kMostReach = 0.5;
 // Where steps get shorter than this, the line is at a summit as far as doubles need to tell.
@@ -60,7 +60,8 @@ void ClearanceClimb::Add(Edge edge) {
 }
 
 double ClearanceClimb::ClearanceOver(const Line& line) {
-  // A line query passes about a block of posts, as long as a decision, for so many columns and rows.
+  // A line query passes about a block of posts, as long as a decision, for so many columns and
+  // rows.
   constexpr std::int64_t kBlock = 8;
   work_ += (terrain_.dem().columns + terrain_.dem().rows) / kBlock + 1;
   const double known = ClearanceOverObstacles(line);

@@ -67,8 +67,8 @@ class ClearanceClimb {
   double ClearanceOver(const Line& line);
   /// The clearance over the obstacles alone.
   [[nodiscard]] double ClearanceOverObstacles(const Line& line) const;
-  /// The plane of an obstacle, as if it went on beyond its ends; nullopt where it is parallel to the
-  /// line, or crossed only by lines beyond `reach` of it.
+  /// The plane of an obstacle, as if it went on beyond its ends; nullopt where it is parallel to
+  /// the line, or crossed only by lines beyond `reach` of it.
   [[nodiscard]] std::optional<Plane> PlaneOf(const Obstacle& obstacle, const Line& line,
                                              double reach) const;
   [[nodiscard]] Step BestStep(const Line& line, double reach) const;

@@ -1,9 +1,9 @@
 // An edge is lowered as long as it is visible over all others; the depth reached is its drop. How
 // deep that is, is found in doubles: by climbing to a line of sight with the greatest clearance
-// (clearance_climb.h). It is then proved once that the edge is occluded everywhere when it is lowered
-// by the tolerance more. A point of the edge that is occluded is so with a whole range of t around
-// it, and remains so however low the edge gets: so each range of t is settled once. Where the proof
-// meets a point that is visible all the same, the climb goes on from there.
+// (clearance_climb.h). It is then proved once that the edge is occluded everywhere when it is
+// lowered by the tolerance more. A point of the edge that is occluded is so with a whole range of t
+// around it, and remains so however low the edge gets: so each range of t is settled once. Where
+// the proof meets a point that is visible all the same, the climb goes on from there.
 //
 //      edge            o--------------o
 //                      :  clearance   :          depth
@@ -16,9 +16,9 @@
 // than the lowered edge: those are found by the climb's line queries, and added.
 //
 // Heights of other edges and of the lowered one are in steps (core/geometry/finer_heights.h). They
-// span up to 2^32 steps, twice what an occluder set admits, but plan coordinates are those of a DEM,
-// half of what it admits: the vectors of a TargetSegment, sums of two products of the two, are below
-// 2^(15 + 32 + 1), so within MovingVector's limit.
+// span up to 2^32 steps, twice what an occluder set admits, but plan coordinates are those of a
+// DEM, half of what it admits: the vectors of a TargetSegment, sums of two products of the two, are
+// below 2^(15 + 32 + 1), so within MovingVector's limit.
 #include "core/horizon/lines_of_sight/skyline_drop.h"
 
 #include <algorithm>
@@ -51,8 +51,8 @@ class SkylineDrops::LoweredEdge {
   // Decisions, of the climbs' line queries too.
   [[nodiscard]] std::int64_t spent() const { return spent_ + climb_.work(); }
 
-  // The greatest depth at which the edge is known to be visible, in quanta. Has no meaning where the
-  // limit is spent.
+  // The greatest depth at which the edge is known to be visible, in quanta. Has no meaning where
+  // the limit is spent.
   double FindDepth() {
     const Witness& witness = all_.horizon_.edges[static_cast<std::size_t>(i_)].witness;
     // A witness that is not exact is rounded: near a line of sight all the same.
@@ -134,8 +134,8 @@ class SkylineDrops::LoweredEdge {
       const std::size_t known = climb_.obstacles().size();
       const bool deeper = Climb(ClearanceClimb::LineThrough(
           point.witness->t, point.free_direction[0], point.free_direction[1]));
-      // Line queries are rounded. Where one tells nothing new, the exact answer counts: at the depth
-      // of the proof the edge is visible.
+      // Line queries are rounded. Where one tells nothing new, the exact answer counts: at the
+      // depth of the proof the edge is visible.
       if (!deeper && climb_.obstacles().size() == known) depth_ = all_.heights_.Quanta(steps);
     }
     spent_ = std::max(spent_, limit_);

@@ -50,7 +50,10 @@ testing::AssertionResult AgreesWithTheDefinition(const Dem& dem, int lines, std:
     const std::optional<HighestEdge> found =
         query.HighestEdgeOver(except, {line.x / 2.0, line.y / 2.0, 1.0 * line.dc, 1.0 * line.dr});
     if (found.has_value() != height.has_value()) {
-      return testing::AssertionFailure() << DrawAscii(dem) << "one of them finds no edge";
+      return testing::AssertionFailure()
+             << DrawAscii(dem) << "one of them finds no edge: line " << line.x << " " << line.y
+             << " " << line.dc << " " << line.dr << " except " << except.a << "-" << except.b
+             << " def " << height.has_value();
     }
     if (!found) continue;
     const GridLineQuery::Line same{line.x / 2.0, line.y / 2.0, 1.0 * line.dc, 1.0 * line.dr};

@@ -77,8 +77,8 @@ TEST(SkylineDropLong, OfLandscapes) {
   for (int i = 0; i < Rounds(60); ++i) ASSERT_TRUE(ArePrecise(AnyLandscape(8, 14, random)));
 }
 
-// Where quanta are finer than the tolerance, heights stay as they are: they were rounded to multiples
-// of it, and drops were up to half a tolerance too great, or nearly two too small.
+// Where quanta are finer than the tolerance, heights stay as they are: they were rounded to
+// multiples of it, and drops were up to half a tolerance too great, or nearly two too small.
 TEST(SkylineDrop, OfHeightsThatAreFinerThanTheTolerance) {
   std::mt19937 random(8);
   for (int i = 0; i < Rounds(300); ++i) {
