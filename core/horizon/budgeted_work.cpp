@@ -78,16 +78,16 @@ class Rounds {
   double done_ = 0;  // of the stage's progress
 };
 
-Error OverBudget(const BudgetedWork& work, const WorkBudget& budget) {
+}  // namespace
+
+Error OverBudget(const std::string& what, const WorkBudget& budget) {
   return {ErrorCode::kResourceExhausted,
-          work.what + " takes more than what is left of the work budget of " +
+          what + " takes more than what is left of the work budget of " +
               std::to_string(budget.limit()) +
               " decisions: white noise and forests of spikes are hard without end; keep what stays "
               "undecided (approximate), raise the work budget, or smooth the heights",
           "work-budget"};
 }
-
-}  // namespace
 
 Result<std::vector<std::size_t>> WorkThrough(const BudgetedWork& work, int threads,
                                              WorkBudget& budget, const RunControl& control) {
@@ -100,7 +100,7 @@ Result<std::vector<std::size_t>> WorkThrough(const BudgetedWork& work, int threa
       control.Report(work.stage, 1);
       return std::vector<std::size_t>();
     }
-    if (!budget.approximate()) return OverBudget(work, budget);
+    if (!budget.approximate()) return OverBudget(work.what, budget);
     budget.Rewind(before);
     rounds.Restart();
   }

@@ -39,6 +39,10 @@ struct BudgetedWork {
   std::function<void()> restart = {};
 };
 
+/// The error of a run whose budget is exceeded: kResourceExhausted, kind work-budget. what: what it
+/// was doing, as BudgetedWork has it.
+Error OverBudget(const std::string& what, const WorkBudget& budget);
+
 /// Works on all items and returns those that stay open, rising: none, unless the budget is
 /// approximate and does not suffice.
 ///

@@ -16,21 +16,21 @@ CandidateDecider::CandidateDecider(const Terrain& terrain, const Candidates& can
   for (const Candidate& candidate : candidates_.edges) occluders_.Insert(SegmentOf(candidate));
 }
 
-Status CandidateDecider::Decide(int threads, WorkBudget& budget, const RunControl& control) {
-  constexpr double kShare = 0.5;
+Status CandidateDecider::Decide(const Options& options, WorkBudget& budget,
+                                const RunControl& control) {
   const BudgetedWork work{
       .count = candidates_.edges.size(),
       .attempt = [this](std::span<const std::size_t> batch,
                         std::int64_t limit) { return DecideBatch(batch, limit); },
       .stage = Stage::kDecide,
       .what = "deciding " + std::to_string(candidates_.edges.size()) + " candidate edges",
-      .share = kShare,
+      .share = options.budget_share,
       .restart =
           [this] {
             counts_ = {};
             std::fill(witnesses_.begin(), witnesses_.end(), std::nullopt);
           }};
-  Result<std::vector<std::size_t>> undecided = WorkThrough(work, threads, budget, control);
+  Result<std::vector<std::size_t>> undecided = WorkThrough(work, options.threads, budget, control);
   if (!undecided) return std::move(undecided.error());
   undecided_ = *std::move(undecided);
   return Ok{};

@@ -25,10 +25,14 @@ class CandidateDecider {
   /// Requires: both outlive it.
   CandidateDecider(const Terrain& terrain, const Candidates& candidates);
 
-  /// Decides all candidates, or as many as WorkThrough can afford. Where the budget is short, it
-  /// takes half of what is left: the rest is for what is said of the edges.
+  /// What of the options of FindHorizon matters here.
+  struct Options {
+    int threads = 1;
+    double budget_share = 1;
+  };
+  /// Decides all candidates, or as many as WorkThrough can afford.
   /// Errors: those of WorkThrough. Requires: it is called once.
-  Status Decide(int threads, WorkBudget& budget, const RunControl& control);
+  Status Decide(const Options& options, WorkBudget& budget, const RunControl& control);
 
   /// Candidates that Decide left undecided.
   [[nodiscard]] std::int64_t undecided() const { return std::ssize(undecided_); }

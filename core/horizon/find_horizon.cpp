@@ -37,9 +37,12 @@ std::string ApproximationWarning(const Horizon& horizon) {
 // Removes the candidates that the kinetic engine does not find. Those that stay make the same
 // skyline as the terrain, so they suffice as occluders, too.
 Result<EventCounts> KeepKineticEdges(const Terrain& terrain, Candidates& candidates,
-                                     const RunControl& control,
-                                     std::optional<std::int64_t> work_budget) {
-  Result<KineticHorizon> kinetic = FindHorizonKinetic(terrain, control, work_budget);
+                                     const RunControl& control, const HorizonOptions& options) {
+  const KineticOptions kinetic_options{.work_budget = options.work_budget,
+                                       .hull = options.engine == Engine::kKineticTree
+                                                   ? HullCertificates::kTree
+                                                   : HullCertificates::kTurns};
+  Result<KineticHorizon> kinetic = FindHorizonKinetic(terrain, control, kinetic_options);
   if (!kinetic) return std::move(kinetic.error());
   std::erase_if(candidates.edges, [&](const Candidate& candidate) {
     return !std::binary_search(kinetic->edges.begin(), kinetic->edges.end(), candidate.edge);
@@ -57,7 +60,7 @@ void SetCounts(HorizonStatistics& statistics, const EventCounts& events) {
   statistics.minima = events.minimum;
   statistics.merges = events.merge;
   statistics.hull_changes = events.hull;
-  statistics.bitangents = events.bitangent;
+  statistics.bitangents = events.Bitangents();
   statistics.clusters_max = events.clusters_max;
   statistics.queue_max = events.queue_max;
 }
@@ -73,7 +76,7 @@ std::int64_t DefaultWorkBudget(std::int64_t terrain_edges) {
 WorkBudget WorkBudgetOf(const Terrain& terrain, const HorizonOptions& options) {
   // The option counts the kinetic engine's own steps.
   const std::optional<std::int64_t> given =
-      options.engine == Engine::kKinetic ? std::nullopt : options.work_budget;
+      options.engine != Engine::kAdaptive ? std::nullopt : options.work_budget;
   return WorkBudget(given ? *given : DefaultWorkBudget(terrain.CountEdges()), options.approximate);
 }
 
@@ -97,17 +100,17 @@ Result<Horizon> FindHorizon(const Terrain& terrain, const HorizonOptions& option
     horizon.hulls = std::move(sweep->hulls);
   }
   horizon.statistics.candidates = std::ssize(candidates.edges);
-  const bool kinetic = options.engine == Engine::kKinetic;
+  const bool kinetic = options.engine != Engine::kAdaptive;
   if (kinetic) {
-    Result<EventCounts> events =
-        KeepKineticEdges(terrain, candidates, control, options.work_budget);
+    Result<EventCounts> events = KeepKineticEdges(terrain, candidates, control, options);
     if (!events) return std::move(events.error());
     SetCounts(horizon.statistics, *events);
   }
   horizon.statistics.work_budget = budget.limit();
   control.Report(Stage::kDecide, 0);
   CandidateDecider decider(terrain, candidates);
-  Status decided = decider.Decide(options.threads, budget, control);
+  Status decided = decider.Decide(
+      {.threads = options.threads, .budget_share = options.budget_share}, budget, control);
   if (!decided) return std::move(decided.error());
   horizon.statistics.predicates = decider.counts();
   horizon.statistics.undecided = decider.undecided();

@@ -13,8 +13,9 @@ namespace farhorizon {
 
 /// The algorithm that finds the edges. Both find the same ones. kKinetic is the thesis's own
 /// (kinetic_horizon.h) and has its limits; it uses the adaptive decision for witnesses only, and an
-/// edge without a witness is an InternalError.
-enum class Engine { kAdaptive, kKinetic };
+/// edge without a witness is an InternalError. kKineticTree is the same with hulls certified by the
+/// tree of [BaschGuibasHershberger97].
+enum class Engine { kAdaptive, kKinetic, kKineticTree };
 
 struct HorizonOptions {
   int threads = 1;  ///< never changes the answer
@@ -27,6 +28,9 @@ struct HorizonOptions {
   /// marked; the edges are a superset of the horizon edges with the same skyline. Where the budget
   /// suffices, no difference.
   bool approximate = false;
+  /// Where the budget is approximate and short: the share of what is left of it that deciding edges
+  /// may take. The rest is for what is said of them.
+  double budget_share = 1;
 };
 
 /// 2000 decisions for each edge of the terrain, at least 10^9 in all: some eighty times what the

@@ -10,6 +10,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/base/parallel_for.h"
 #include "core/measure/facet_look.h"
 #include "core/measure/ground_walk.h"
 #include "core/measure/line_sampling.h"
@@ -155,6 +156,39 @@ MeshMeasurer::~MeshMeasurer() = default;
 
 Result<MeshError> MeshMeasurer::Measure(const PlacedMesh& mesh, const RunControl& control) {
   control.Report(Stage::kMeasure, 0);
+  Status prepared = dem_->Prepare(control);
+  if (!prepared) return std::move(prepared.error());
+  return MeasurePrepared(mesh, control);
+}
+
+Result<std::vector<MeshError>> MeshMeasurer::MeasureAll(std::span<const PlacedMesh> meshes,
+                                                        int threads, const RunControl& control) {
+  control.Report(Stage::kMeasure, 0);
+  Status prepared = dem_->Prepare(control);
+  if (!prepared) return std::move(prepared.error());
+  std::vector<std::optional<Result<MeshError>>> found(meshes.size());
+  const auto share = [&](std::size_t n) {
+    return static_cast<double>(n) / static_cast<double>(meshes.size());
+  };
+  const bool done = ParallelForBatches(meshes.size(), 1, threads, Stage::kMeasure, control,
+                                       [&](std::size_t i, std::size_t end, std::size_t thread) {
+                                         RunControl piece = control.Between(share(i), share(end));
+                                         if (thread > 0)
+                                           piece.progress =
+                                               nullptr;  // reports come from one thread
+                                         found[i] = MeasurePrepared(meshes[i], piece);
+                                       });
+  if (!done) return Error{ErrorCode::kCancelled, "stopped while measuring"};
+  std::vector<MeshError> errors;
+  for (std::optional<Result<MeshError>>& error : found) {
+    if (!*error) return std::move(error->error());
+    errors.push_back(**error);
+  }
+  return errors;
+}
+
+Result<MeshError> MeshMeasurer::MeasurePrepared(const PlacedMesh& mesh,
+                                                const RunControl& control) const {
   Result<PlacedMesh> welded = WeldedMesh(mesh);
   if (!welded) return std::move(welded.error());
   const GridMesh& grid = welded->grid;
@@ -172,8 +206,6 @@ Result<MeshError> MeshMeasurer::Measure(const PlacedMesh& mesh, const RunControl
   error.needle_share = look.needle_share;
   control.Report(Stage::kMeasure, kPosts);
 
-  Status prepared = dem_->Prepare(control);
-  if (!prepared) return std::move(prepared.error());
   const farhorizon::Dem& dem = dem_->terrain->dem();
   const GroundWalk first =
       WalkGround(*dem_->terrain, *dem_->horizon, dem_->index, grid, sides, posts->rise, kInfinity);

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "core/base/result.h"
@@ -112,8 +113,16 @@ class MeshMeasurer {
   ///   call also samples the DEM.
   [[nodiscard]] Result<MeshError> Measure(const PlacedMesh& mesh, const RunControl& control);
 
+  /// Measures several meshes, one a thread at a time.
+  /// threads: never changes the result. Errors: those of Measure, of the first mesh that has one.
+  [[nodiscard]] Result<std::vector<MeshError>> MeasureAll(std::span<const PlacedMesh> meshes,
+                                                          int threads, const RunControl& control);
+
  private:
   struct Dem;
+  [[nodiscard]] Result<MeshError> MeasurePrepared(const PlacedMesh& mesh,
+                                                  const RunControl& control) const;
+
   std::unique_ptr<Dem> dem_;
 };
 

@@ -110,6 +110,7 @@ Result<WrittenLevels> WriteLevels(const LevelContext& context, const LevelPlan& 
                                   ArtifactWriter& writer, ReportPage& page) {
   WrittenLevels written = {{}, MeshRegion(context.georeference)};
   std::vector<LevelReport>& reports = written.reports;
+  std::vector<PlacedMesh> decoded;
   for (std::size_t i = 0; i < chain.size(); ++i) {
     const RunControl control = LevelControl(context.control, i, chain.size());
     const LevelStorage storage = {plan.finest_side_m, CoarsenessOf(plan, context.terrain.dem(), i),
@@ -127,14 +128,23 @@ Result<WrittenLevels> WriteLevels(const LevelContext& context, const LevelPlan& 
       Status added = writer.Add(name + ".drc", AsText(level->drc));
       if (!added) return std::move(added.error());
     }
-    // Clients refine towards smaller errors: no level may claim a smaller error than a finer one.
-    if (i > 0) {
-      level->report.geometric_error_m =
-          std::max(level->report.geometric_error_m, reports.back().geometric_error_m);
-    }
+    Result<PlacedMesh> placed = PlaceLevel(context, level->mesh);
+    if (!placed) return std::move(placed.error()).WithContext("level " + std::to_string(i));
+    decoded.push_back(*std::move(placed));
     reports.push_back(level->report);
     if (Status added = written.region.Add(level->mesh); !added) return std::move(added.error());
     if (Status drawn = page.AddLevel(level->mesh); !drawn) return std::move(drawn.error());
+  }
+  Result<std::vector<MeshError>> errors =
+      context.measurer.MeasureAll(decoded, options.threads, context.control);
+  if (!errors) return std::move(errors.error());
+  for (std::size_t i = 0; i < reports.size(); ++i) {
+    ReportErrors((*errors)[i], reports[i]);
+    // Clients refine towards smaller errors: no level may claim a smaller error than a finer one.
+    if (i > 0) {
+      reports[i].geometric_error_m =
+          std::max(reports[i].geometric_error_m, reports[i - 1].geometric_error_m);
+    }
   }
   return written;
 }

@@ -263,7 +263,8 @@ Result<BuildOptions> ParseOptions(const std::map<std::string, std::string>& para
 HorizonOptions HorizonOptionsOf(const BuildOptions& options) {
   return {.threads = options.threads,
           .work_budget = options.work_budget,
-          .approximate = options.approximate};
+          .approximate = options.approximate,
+          .budget_share = 0.5};
 }
 
 }  // namespace farhorizon

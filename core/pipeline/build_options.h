@@ -16,7 +16,7 @@ namespace farhorizon {
 struct BuildOptions {
   int levels = 5;                     ///< at most
   std::optional<double> max_error_m;  ///< of level 0; unset: as LevelPlan has it
-  double silhouette_error_m = 0;      ///< of level 0
+  double silhouette_error_m = 0;      ///< by how much level 0 may rise above the skyline
   /// For each level the most triangles that it may have, falling, instead of the three above; empty
   /// where those say what the levels are.
   std::vector<std::int64_t> triangles;
@@ -50,7 +50,8 @@ std::string FlagOf(std::string_view parameter);
 ///   `triangles` comes with a parameter that it takes the place of; those of CheckOptions.
 Result<BuildOptions> ParseOptions(const std::map<std::string, std::string>& parameters);
 
-/// The options of FindHorizon for a build.
+/// The options of FindHorizon for a build: where the work budget is short, half of it is for what
+/// is said of the edges.
 HorizonOptions HorizonOptionsOf(const BuildOptions& options);
 
 }  // namespace farhorizon

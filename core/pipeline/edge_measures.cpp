@@ -180,6 +180,22 @@ Status WeighEdges(const Terrain& terrain, const Horizon& horizon, const MeasureO
   return Ok{};
 }
 
+// Says what an approximate budget did not suffice for.
+void WarnOfGaps(const Horizon& horizon, const std::vector<EdgeMeasures>& measures,
+                const RunControl& control) {
+  std::int64_t sights = 0;
+  std::int64_t drops = 0;
+  for (std::size_t i = 0; i < measures.size(); ++i) {
+    if (horizon.edges[i].undecided) continue;
+    sights += measures[i].sights == Known::kNotAfforded ? 1 : 0;
+    drops += measures[i].drop == Known::kNotAfforded ? 1 : 0;
+  }
+  if (sights + drops == 0) return;
+  control.Warn("approximate: the work budget leaves " + std::to_string(sights) +
+               " edges without their lines of sight and " + std::to_string(drops) +
+               " without a skyline drop; these are null");
+}
+
 std::array<double, 2> MiddleOf(const Segment& edge) {
   return {(edge.a.x + edge.b.x) / 2.0, (edge.a.y + edge.b.y) / 2.0};
 }
@@ -230,6 +246,7 @@ Result<std::vector<EdgeMeasures>> MeasureEdges(const Terrain& terrain, const Hor
         WeighEdges(terrain, horizon, options, control.Between(kSightsShare, 1), measures);
     if (!weighed) return std::move(weighed.error());
   }
+  WarnOfGaps(horizon, measures, control);
   control.Report(Stage::kEdgeMeasures, 1);
   return measures;
 }

@@ -1,6 +1,6 @@
 // One level from posts to bytes and back: positions in the local frame, Draco, GLB; then the bytes
-// are decoded again and measured against the DEM, so that the report holds for what is stored,
-// rounding included.
+// are decoded again, and what they decode to is measured against the DEM, so that the report holds
+// for what is stored, rounding included.
 #include "core/pipeline/level_artifact.h"
 
 #include <algorithm>
@@ -116,8 +116,7 @@ Result<Encoded> Encode(const LocalMesh& mesh, const QuantizationLattice& lattice
 
 }  // namespace
 
-Result<LevelReport> MeasureLevel(const LevelContext& context, const LocalMesh& decoded, int level,
-                                 double step_m) {
+Result<PlacedMesh> PlaceLevel(const LevelContext& context, const LocalMesh& decoded) {
   const VertexId post_count = context.terrain.post_count();
   PlacedMesh mesh;
   std::vector<VertexId> posts;
@@ -143,20 +142,16 @@ Result<LevelReport> MeasureLevel(const LevelContext& context, const LocalMesh& d
   }
   Status covers = CheckCovers(context.terrain, mesh.grid, posts);
   if (!covers) return std::move(covers.error());
-  Result<MeshError> error = context.measurer.Measure(mesh, context.control);
-  if (!error) return std::move(error.error());
-  LevelReport report;
-  report.level = level;
-  report.triangles = static_cast<std::int64_t>(decoded.triangles.size());
-  report.vertices = static_cast<std::int64_t>(decoded.positions.size());
-  report.vertical = {RoundUp(error->vertical.max_m), RoundUp(error->vertical.rms_m)};
-  report.silhouette = {RoundUp(error->silhouette.max_m), RoundUp(error->silhouette.rms_m)};
-  report.rim_m = RoundUp(error->rim_m);
-  report.facet_angle_deg = RoundUp(error->facet_angle_rms_deg);
-  report.needle_share = RoundUp(error->needle_share);
+  return mesh;
+}
+
+void ReportErrors(const MeshError& error, LevelReport& report) {
+  report.vertical = {RoundUp(error.vertical.max_m), RoundUp(error.vertical.rms_m)};
+  report.silhouette = {RoundUp(error.silhouette.max_m), RoundUp(error.silhouette.rms_m)};
+  report.rim_m = RoundUp(error.rim_m);
+  report.facet_angle_deg = RoundUp(error.facet_angle_rms_deg);
+  report.needle_share = RoundUp(error.needle_share);
   report.geometric_error_m = report.vertical.max_m;
-  report.quantization_step_m = step_m;
-  return report;
 }
 
 Result<LevelArtifact> EncodeLevel(const LevelContext& context, const Lod& lod, int level,
@@ -178,11 +173,11 @@ Result<LevelArtifact> EncodeLevel(const LevelContext& context, const Lod& lod, i
   }
   artifact.drc = std::move(encoded->drc);
   context.control.Report(Stage::kEncode, 1);
-  Result<LevelReport> report = MeasureLevel(context, encoded->decoded.mesh, level, lattice->step_m);
-  if (!report) {
-    return std::move(report.error()).WithContext("level " + std::to_string(level));
-  }
-  artifact.report = *std::move(report);
+  const LocalMesh& mesh = encoded->decoded.mesh;
+  artifact.report.level = level;
+  artifact.report.triangles = static_cast<std::int64_t>(mesh.triangles.size());
+  artifact.report.vertices = static_cast<std::int64_t>(mesh.positions.size());
+  artifact.report.quantization_step_m = lattice->step_m;
   artifact.report.exact = lod.exact;
   artifact.report.side_step_m = steps.sides_m;
   artifact.report.horizon_edges = static_cast<std::int64_t>(lod.kept.size());

@@ -49,24 +49,25 @@ struct LevelStorage {
   bool drc = true;
 };
 
-/// A level as it is stored, and the measures of the mesh that it decodes to.
+/// A level as it is stored.
 struct LevelArtifact {
   std::vector<std::uint8_t> drc;  ///< empty where it is not asked for
   std::vector<std::uint8_t> glb;  ///< likewise
   LocalMesh mesh;                 ///< what both decode to
-  LevelReport report;             ///< all but `asked`
+  LevelReport report;             ///< all but what is measured, and `asked`
 };
 
-/// Encodes one level and measures it on the decoded mesh.
-/// Errors: those of Georeference::ToEnu, RoundToLattice, EncodeDraco and MeasureLevel.
+/// Encodes one level and decodes it again.
+/// Errors: those of Georeference::ToEnu, RoundToLattice and EncodeDraco.
 Result<LevelArtifact> EncodeLevel(const LevelContext& context, const Lod& lod, int level,
                                   const LevelStorage& storage);
 
-/// The three errors and the counts of a decoded mesh; exact, horizon_edges, bytes and what was
-/// asked are left to the caller.
+/// A decoded mesh as it is measured.
 /// Errors: kUnsupportedData where a vertex names no post, or the mesh has a hole or a flipped
-///   triangle; kCancelled; those of Georeference::ToGrid.
-Result<LevelReport> MeasureLevel(const LevelContext& context, const LocalMesh& decoded, int level,
-                                 double step_m);
+///   triangle; those of Georeference::ToGrid.
+Result<PlacedMesh> PlaceLevel(const LevelContext& context, const LocalMesh& decoded);
+
+/// Puts what was measured of a level into its report, rounded up.
+void ReportErrors(const MeshError& error, LevelReport& report);
 
 }  // namespace farhorizon

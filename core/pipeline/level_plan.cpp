@@ -82,6 +82,7 @@ Result<LevelPlan> PlanLevels(const TerrainInput& input, const BuildOptions& opti
   Result<std::vector<Enu>> reach = ReachOf(input.terrain(), input.georeference());
   if (!reach) return std::move(reach.error());
   const double step_m = ChooseLattice(*reach, plan.finest_side_m).step_m;
+  plan.lods.threads = options.threads;
   plan.lods.triangles = options.triangles;
   if (!options.triangles.empty()) return plan;
 

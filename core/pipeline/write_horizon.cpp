@@ -25,6 +25,7 @@ Status WriteHorizonEdges(const std::filesystem::path& dem, const std::filesystem
   control.Report(Stage::kRead, 1);
   HorizonOptions horizon_options = HorizonOptionsOf(options.build);
   horizon_options.engine = options.engine;
+  if (options.weights == Weights::kNone) horizon_options.budget_share = 1;
   WorkBudget budget = WorkBudgetOf((*input)->terrain(), horizon_options);
   Result<Horizon> horizon = FindHorizon((*input)->terrain(), horizon_options, budget, control);
   if (!horizon) return std::move(horizon.error());

@@ -18,6 +18,7 @@ namespace farhorizon {
 /// levels: how many by size, at most.
 /// max_error_m: what level 0 by size may be off at a post.
 /// silhouette_error_m: by how much level 0 by size may rise above the DEM's skyline; 0: not at all.
+/// threads: never changes the chain.
 /// column_bend, row_bend: the Earth's drop, metres, at one column or row from the tile's middle: it
 ///   grows with the square of the distance. Edges are straight in the tile's frame.
 struct LodPlan {
@@ -27,6 +28,7 @@ struct LodPlan {
   double silhouette_error_m = 0;
   double column_bend = 0;
   double row_bend = 0;
+  int threads = 1;
 };
 
 /// One level of detail.

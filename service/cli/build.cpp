@@ -22,19 +22,19 @@ int Run(const BuildArguments& arguments) {
 
 }  // namespace
 
-void AddBuild(CLI::App& app, SelectedCommand& selected) {
+void AddBuild(Command& program, SelectedCommand& selected) {
   const auto arguments = std::make_shared<BuildArguments>();
-  CLI::App* command = app.add_subcommand("build", "Make the artifacts of a DEM in a folder");
-  AddDem(*command, arguments->dem);
-  command
-      ->add_option("-o,--output", arguments->directory, "folder for the artifacts; made if missing")
-      ->required()
-      ->type_name("DIR");
-  AddBuildFlags(*command, arguments->dem.flags);
-  AddRunFlags(*command, arguments->dem);
-  AddTimings(*command, arguments->dem,
-             "write seconds by stage, as JSON, and into report.html, too");
-  command->callback([arguments, &selected] { selected = [arguments] { return Run(*arguments); }; });
+  Command command = program.AddCommand("build", "Make the artifacts of a DEM in a folder");
+  AddDem(command, arguments->dem);
+  command.Add({.names = "-o,--output",
+               .type = "DIR",
+               .help = "folder for the artifacts; made if missing",
+               .required = true},
+              arguments->directory);
+  AddBuildFlags(command, arguments->dem.flags);
+  AddRunFlags(command, arguments->dem);
+  AddTimings(command, arguments->dem, "write seconds by stage, as JSON, and into report.html, too");
+  command.Select(selected, [arguments] { return Run(*arguments); });
 }
 
 }  // namespace farhorizon

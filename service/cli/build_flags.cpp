@@ -9,30 +9,22 @@ namespace farhorizon {
 namespace {
 
 // Adds the flag of `parameter`.
-void Add(CLI::App& command, BuildFlags& flags, const char* parameter, const char* type,
+void Add(Command& command, BuildFlags& flags, const char* parameter, const char* type,
          const char* help) {
-  command
-      .add_option_function<std::string>(
-          FlagOf(parameter),
-          [&flags, parameter](const std::string& value) { flags.parameters[parameter] = value; },
-          help)
-      ->type_name(type);
+  command.Add(
+      {.names = FlagOf(parameter), .type = type, .help = help},
+      [&flags, parameter](const std::string& value) { flags.parameters[parameter] = value; });
 }
 
 // Likewise, for one that may be given more than once; commas separate the values of the parameter.
-void AddList(CLI::App& command, BuildFlags& flags, const char* parameter, const char* type,
+void AddList(Command& command, BuildFlags& flags, const char* parameter, const char* type,
              const char* help) {
-  command
-      .add_option_function<std::vector<std::string>>(
-          FlagOf(parameter),
-          [&flags, parameter](const std::vector<std::string>& values) {
-            std::string joined;
-            for (const std::string& value : values) joined.append(",").append(value);
-            flags.parameters[parameter] = joined.substr(1);
-          },
-          help)
-      ->allow_extra_args(false)  // one value after each flag: the next word may be the DEM
-      ->type_name(type);
+  command.AddList({.names = FlagOf(parameter), .type = type, .help = help},
+                  [&flags, parameter](const std::vector<std::string>& values) {
+                    std::string joined;
+                    for (const std::string& value : values) joined.append(",").append(value);
+                    flags.parameters[parameter] = joined.substr(1);
+                  });
 }
 
 }  // namespace
@@ -47,7 +39,7 @@ Result<BuildOptions> BuildFlags::Options() const {
   return options;
 }
 
-void AddBuildFlags(CLI::App& command, BuildFlags& flags) {
+void AddBuildFlags(Command& command, BuildFlags& flags) {
   Add(command, flags, "levels", "N",
       "number of levels of detail, 1 to 12; level 0 is the finest, each further one has 2/5 of the "
       "triangles of the one before; fewer where the next would have less than 500 (5)");
@@ -55,17 +47,20 @@ void AddBuildFlags(CLI::App& command, BuildFlags& flags) {
       "vertical error that level 0 may have at a post, metres (the lesser of an eighth of the cell "
       "size and a 64th of the relief, but what the heights and the encoding can tell)");
   Add(command, flags, "silhouetteError", "M",
-      "silhouette error that level 0 may have, metres; 0 keeps every horizon edge (0)");
-  AddList(command, flags, "triangles", "A,B,...",
-          "instead of the three above: a level for each number, with at most that many triangles; "
-          "its skyline is exact where every horizon edge fits in");
+      "by how much level 0 may rise above the skyline, metres; it keeps every horizon edge in "
+      "either "
+      "case (0)");
+  AddList(
+      command, flags, "triangles", "A,B,...",
+      "instead of the three above: a level for each number, with at most that many triangles, in "
+      "any order; exact where every horizon edge fits in");
   Add(command, flags, "formats", "a,b,...",
       "of 3dtiles, drc, geojson, flatgeobuf (3dtiles,drc,geojson)");
   AddReadFlags(command, flags);
   AddWorkFlags(command, flags);
 }
 
-void AddReadFlags(CLI::App& command, BuildFlags& flags) {
+void AddReadFlags(Command& command, BuildFlags& flags) {
   Add(command, flags, "crs", "CRS", "reference system, instead of the file's");
   Add(command, flags, "verticalDatum", "CRS",
       "vertical reference system, instead of the file's: a code, a datum's name such as EGM96, or "
@@ -80,21 +75,21 @@ void AddReadFlags(CLI::App& command, BuildFlags& flags) {
           "given more than once");
 }
 
-void AddWorkFlags(CLI::App& command, BuildFlags& flags) {
+void AddWorkFlags(Command& command, BuildFlags& flags) {
   Add(command, flags, "workBudget", "N",
       "decisions about edges after which to give up (2000 for each edge of the terrain, at least a "
       "billion)");
-  command.add_flag_callback(
-      "--approximate", [&flags] { flags.parameters["approximate"] = "true"; },
-      "where the work budget does not suffice, keep what is undecided, marked as such");
+  command.AddSwitch(
+      "--approximate",
+      "where the work budget does not suffice, keep what is undecided, marked as such",
+      [&flags] { flags.parameters["approximate"] = "true"; });
 }
 
-void AddThreads(CLI::App& command, BuildFlags& flags) {
-  command
-      .add_option("--threads", flags.threads,
-                  "threads to work with; never changes a byte of the result (all cores)")
-      ->check(CLI::Range(1, 1024))
-      ->type_name("N");
+void AddThreads(Command& command, BuildFlags& flags) {
+  command.Add({.names = "--threads",
+               .type = "N",
+               .help = "threads to work with; never changes a byte of the result (all cores)"},
+              flags.threads, 1, 1024);
 }
 
 }  // namespace farhorizon

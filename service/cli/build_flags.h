@@ -1,11 +1,8 @@
 #pragma once
 
-#include <string>
-
-#include <CLI/CLI.hpp>
-
 #include "core/base/result.h"
 #include "core/pipeline/build.h"
+#include "service/cli/command_line.h"
 #include "service/url_query.h"
 
 namespace farhorizon {
@@ -21,12 +18,12 @@ struct BuildFlags {
 };
 
 /// Adds --levels, --max-error and all other flags of a build. Requires: `flags` outlives the parse.
-void AddBuildFlags(CLI::App& command, BuildFlags& flags);
+void AddBuildFlags(Command& command, BuildFlags& flags);
 /// Adds --crs, --vertical-datum, --height-unit, --datum-operation, --nodata.
-void AddReadFlags(CLI::App& command, BuildFlags& flags);
+void AddReadFlags(Command& command, BuildFlags& flags);
 /// Adds --work-budget, --approximate.
-void AddWorkFlags(CLI::App& command, BuildFlags& flags);
+void AddWorkFlags(Command& command, BuildFlags& flags);
 /// Adds --threads.
-void AddThreads(CLI::App& command, BuildFlags& flags);
+void AddThreads(Command& command, BuildFlags& flags);
 
 }  // namespace farhorizon

@@ -1,10 +1,7 @@
 #pragma once
 
-#include <functional>
-
-#include <CLI/CLI.hpp>
-
 #include "core/base/result.h"
+#include "service/cli/command_line.h"
 
 namespace farhorizon {
 
@@ -14,18 +11,15 @@ constexpr int kExitCall = 2;
 constexpr int kExitBug = 70;
 constexpr int kExitInterrupted = 130;
 
-/// The command that the command line names; returns the exit status. Set while CLI11 parses.
-using SelectedCommand = std::function<int()>;
-
-void AddBuild(CLI::App& app, SelectedCommand& selected);
-void AddHorizon(CLI::App& app, SelectedCommand& selected);
-void AddSkyline(CLI::App& app, SelectedCommand& selected);
-void AddCompare(CLI::App& app, SelectedCommand& selected);
-void AddVerify(CLI::App& app, SelectedCommand& selected);
-void AddServe(CLI::App& app, SelectedCommand& selected);
-void AddSubmit(CLI::App& app, SelectedCommand& selected);
-void AddHealthcheck(CLI::App& app, SelectedCommand& selected);
-void AddWorker(CLI::App& app, SelectedCommand& selected);
+void AddBuild(Command& program, SelectedCommand& selected);
+void AddHorizon(Command& program, SelectedCommand& selected);
+void AddSkyline(Command& program, SelectedCommand& selected);
+void AddCompare(Command& program, SelectedCommand& selected);
+void AddVerify(Command& program, SelectedCommand& selected);
+void AddServe(Command& program, SelectedCommand& selected);
+void AddSubmit(Command& program, SelectedCommand& selected);
+void AddHealthcheck(Command& program, SelectedCommand& selected);
+void AddWorker(Command& program, SelectedCommand& selected);
 
 /// Prints `error` to standard error; the exit status for its code.
 int ReportError(const Error& error);

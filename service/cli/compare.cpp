@@ -78,46 +78,46 @@ int Run(const CompareArguments& arguments) {
 
 }  // namespace
 
-void AddCompare(CLI::App& app, SelectedCommand& selected) {
+void AddCompare(Command& program, SelectedCommand& selected) {
   const auto arguments = std::make_shared<CompareArguments>();
-  CLI::App* command =
-      app.add_subcommand("compare", "Measure anyone's mesh against a DEM: heights, skyline, looks");
-  AddDem(*command, arguments->dem);
-  command
-      ->add_option("MESH", arguments->mesh,
-                   "GLB or glTF (also Draco, meshopt, quantised), b3dm, Draco .drc, OBJ, PLY, STL; "
-                   "or a tileset.json, of which every content is measured")
-      ->required()
-      ->type_name("");
-  command->add_flag("--json", arguments->json, "print JSON instead of a table");
-  command
-      ->add_option("-o,--output", arguments->file,
-                   "draw the first mesh that is measured: skylines in four directions over the "
-                   "DEM's with the difference enlarged, and a map of the vertical error; FILE ends "
-                   "in .svg")
-      ->type_name("FILE");
+  Command command =
+      program.AddCommand("compare", "Measure anyone's mesh against a DEM: heights, skyline, looks");
+  AddDem(command, arguments->dem);
+  command.Add({.names = "MESH",
+               .type = "",
+               .help = "GLB or glTF (also Draco, meshopt, quantised), b3dm, Draco .drc, OBJ, PLY, "
+                       "STL; or a tileset.json, of which every content is measured",
+               .required = true},
+              arguments->mesh);
+  command.AddSwitch("--json", "print JSON instead of a table", arguments->json);
+  command.Add({.names = "-o,--output",
+               .type = "FILE",
+               .help = "draw the first mesh that is measured: skylines in four directions over the "
+                       "DEM's with the difference enlarged, and a map of the vertical error; FILE "
+                       "ends in .svg"},
+              arguments->file);
   std::string frames = "what the mesh's coordinates are, where it is not found out";
   for (const MeshFrame frame : AllMeshFrames()) {
     frames += std::string("; ") + MeshFrameName(frame) + ": " + MeshFrameMeaning(frame);
   }
-  command->add_option("--mesh-frame", arguments->frame, frames)->type_name("FRAME");
-  command->add_option("--mesh-up", arguments->up, "the axis of the mesh that is up: z or y")
-      ->check(CLI::IsMember({"y", "z"}))
-      ->type_name("AXIS");
-  command
-      ->add_option("--mesh-height-offset", arguments->height_offset_m,
-                   "metres to add to the mesh's heights before they are compared")
-      ->check(CLI::Range(-20000.0, 20000.0))
-      ->type_name("M");
-  command->add_option("--tile", arguments->tile, "of a tileset, only the content with this uri")
-      ->type_name("URI");
-  AddReadFlags(*command, arguments->dem.flags);
-  AddWorkFlags(*command, arguments->dem.flags);
-  AddRunFlags(*command, arguments->dem);
-  command->footer(
+  command.Add({.names = "--mesh-frame", .type = "FRAME", .help = frames}, arguments->frame);
+  command.AddChoice(
+      {.names = "--mesh-up", .type = "AXIS", .help = "the axis of the mesh that is up: z or y"},
+      arguments->up, {"y", "z"});
+  command.Add({.names = "--mesh-height-offset",
+               .type = "M",
+               .help = "metres to add to the mesh's heights before they are compared"},
+              arguments->height_offset_m, -20000, 20000);
+  command.Add(
+      {.names = "--tile", .type = "URI", .help = "of a tileset, only the content with this uri"},
+      arguments->tile);
+  AddReadFlags(command, arguments->dem.flags);
+  AddWorkFlags(command, arguments->dem.flags);
+  AddRunFlags(command, arguments->dem);
+  command.SetFooter(
       "Exit status 1 where a mesh lies elsewhere, or is no sound surface: flipped triangles, "
       "triangles over one another, holes.");
-  command->callback([arguments, &selected] { selected = [arguments] { return Run(*arguments); }; });
+  command.Select(selected, [arguments] { return Run(*arguments); });
 }
 
 }  // namespace farhorizon

@@ -6,17 +6,17 @@
 
 namespace farhorizon {
 
-void AddDem(CLI::App& command, DemArguments& arguments, const char* help) {
-  command.add_option("DEM", arguments.path, help)->required()->type_name("");
+void AddDem(Command& command, DemArguments& arguments, const char* help) {
+  command.Add({.names = "DEM", .type = "", .help = help, .required = true}, arguments.path);
 }
 
-void AddRunFlags(CLI::App& command, DemArguments& arguments) {
+void AddRunFlags(Command& command, DemArguments& arguments) {
   AddThreads(command, arguments.flags);
   AddReporterOptions(command, arguments.reporter);
 }
 
-void AddTimings(CLI::App& command, DemArguments& arguments, const char* help) {
-  command.add_option("--timings", arguments.timings, help)->type_name("FILE");
+void AddTimings(Command& command, DemArguments& arguments, const char* help) {
+  command.Add({.names = "--timings", .type = "FILE", .help = help}, arguments.timings);
 }
 
 Status WriteTimings(const std::string& path, const StageSeconds& seconds) {

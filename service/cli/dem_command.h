@@ -4,13 +4,12 @@
 #include <type_traits>
 #include <utility>
 
-#include <CLI/CLI.hpp>
-
 #include "core/base/result.h"
 #include "core/base/run_control.h"
 #include "core/pipeline/build.h"
 #include "core/pipeline/progress_plan.h"
 #include "service/cli/build_flags.h"
+#include "service/cli/command_line.h"
 #include "service/cli/reporter.h"
 #include "service/cli/signals.h"
 #include "service/stage_timer.h"
@@ -31,11 +30,11 @@ struct DemArguments {
 };
 
 /// Adds the positional argument DEM. Requires: `arguments` outlives the parse.
-void AddDem(CLI::App& command, DemArguments& arguments, const char* help = kDemFormats);
+void AddDem(Command& command, DemArguments& arguments, const char* help = kDemFormats);
 /// Adds --threads and --progress. Requires: as above.
-void AddRunFlags(CLI::App& command, DemArguments& arguments);
+void AddRunFlags(Command& command, DemArguments& arguments);
 /// Adds --timings. Requires: as above.
-void AddTimings(CLI::App& command, DemArguments& arguments, const char* help);
+void AddTimings(Command& command, DemArguments& arguments, const char* help);
 
 /// Writes seconds by stage as JSON. Errors: kIo.
 Status WriteTimings(const std::string& path, const StageSeconds& seconds);

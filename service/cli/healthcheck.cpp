@@ -38,15 +38,16 @@ int Run(const std::string& given) {
 
 }  // namespace
 
-void AddHealthcheck(CLI::App& app, SelectedCommand& selected) {
+void AddHealthcheck(Command& program, SelectedCommand& selected) {
   const auto url = std::make_shared<std::string>();
-  CLI::App* command =
-      app.add_subcommand("healthcheck", "Ask a service whether it is alive; exit status 0 if so");
-  command
-      ->add_option("--url", *url,
-                   "the service (http:// and the address in FARHORIZON_LISTEN, or 127.0.0.1:8080)")
-      ->type_name("URL");
-  command->callback([url, &selected] { selected = [url] { return Run(*url); }; });
+  Command command =
+      program.AddCommand("healthcheck", "Ask a service whether it is alive; exit status 0 if so");
+  command.Add(
+      {.names = "--url",
+       .type = "URL",
+       .help = "the service (http:// and the address in FARHORIZON_LISTEN, or 127.0.0.1:8080)"},
+      *url);
+  command.Select(selected, [url] { return Run(*url); });
 }
 
 }  // namespace farhorizon

@@ -17,12 +17,14 @@ struct HorizonArguments {
   std::string file;
   std::string engine = "auto";
   std::string weights = "full";
+  std::string kinetic_hull = "turns";
   std::optional<double> trace_level_m;
 };
 
-Engine EngineOf(const std::string& name) {
+Engine EngineOf(const HorizonArguments& arguments) {
   // "auto" is the adaptive engine, which is the faster one on large terrain.
-  return name == "kinetic" ? Engine::kKinetic : Engine::kAdaptive;
+  if (arguments.engine != "kinetic") return Engine::kAdaptive;
+  return arguments.kinetic_hull == "bgh" ? Engine::kKineticTree : Engine::kKinetic;
 }
 
 Weights WeightsOf(const std::string& name) {
@@ -31,8 +33,7 @@ Weights WeightsOf(const std::string& name) {
 
 Workflow WorkflowOf(const HorizonArguments& arguments) {
   if (arguments.trace_level_m) return Workflow::kTrace;
-  return EngineOf(arguments.engine) == Engine::kKinetic ? Workflow::kKineticHorizon
-                                                        : Workflow::kHorizon;
+  return EngineOf(arguments) == Engine::kAdaptive ? Workflow::kHorizon : Workflow::kKineticHorizon;
 }
 
 int Run(const HorizonArguments& arguments) {
@@ -43,7 +44,7 @@ int Run(const HorizonArguments& arguments) {
                                    run.control)
                : WriteHorizonEdges(dem, arguments.file,
                                    {.build = run.options,
-                                    .engine = EngineOf(arguments.engine),
+                                    .engine = EngineOf(arguments),
                                     .weights = WeightsOf(arguments.weights)},
                                    run.control);
   }));
@@ -51,40 +52,43 @@ int Run(const HorizonArguments& arguments) {
 
 }  // namespace
 
-void AddHorizon(CLI::App& app, SelectedCommand& selected) {
+void AddHorizon(Command& program, SelectedCommand& selected) {
   const auto arguments = std::make_shared<HorizonArguments>();
-  CLI::App* command = app.add_subcommand("horizon", "Write only the horizon edges of a DEM");
-  AddDem(*command, arguments->dem);
-  command
-      ->add_option("-o,--output", arguments->file,
-                   "file to write; its ending tells the format: .geojson, .fgb, .gpkg; with "
-                   "--trace-level .svg")
-      ->required()
-      ->type_name("FILE");
-  command
-      ->add_option(
-          "--engine", arguments->engine,
-          "algorithm that finds the edges: adaptive, kinetic, or auto, which is adaptive; all "
-          "find the same ones")
-      ->check(CLI::IsMember({"adaptive", "kinetic", "auto"}).description(""))
-      ->type_name("ENGINE");
-  command
-      ->add_option(
-          "--weights", arguments->weights,
-          "what is said of each edge beside its witness: none; fast, all that follows from "
-          "its lines of sight; full, its skyline drop, too (full)")
-      ->check(CLI::IsMember({"none", "fast", "full"}).description(""))
-      ->type_name("W");
-  command
-      ->add_option("--trace-level", arguments->trace_level_m,
-                   "instead of the edges, draw the sweep at the height of Z metres: contours, "
-                   "hulls, bitangents, candidates")
-      ->type_name("Z");
-  AddReadFlags(*command, arguments->dem.flags);
-  AddWorkFlags(*command, arguments->dem.flags);
-  AddRunFlags(*command, arguments->dem);
-  AddTimings(*command, arguments->dem, "write seconds by stage, as JSON");
-  command->callback([arguments, &selected] { selected = [arguments] { return Run(*arguments); }; });
+  Command command = program.AddCommand("horizon", "Write only the horizon edges of a DEM");
+  AddDem(command, arguments->dem);
+  command.Add({.names = "-o,--output",
+               .type = "FILE",
+               .help = "file to write; its ending tells the format: .geojson, .fgb, .gpkg; with "
+                       "--trace-level .svg",
+               .required = true},
+              arguments->file);
+  command.AddChoice({.names = "--engine",
+                     .type = "ENGINE",
+                     .help = "algorithm that finds the edges: adaptive, kinetic, or auto, which is "
+                             "adaptive; all find the same ones"},
+                    arguments->engine, {"adaptive", "kinetic", "auto"});
+  command.AddChoice(
+      {.names = "--kinetic-hull",
+       .type = "HULL",
+       .help = "how --engine kinetic certifies hulls: turns, of neighbouring corners, "
+               "or bgh, the tree of Basch, Guibas and Hershberger; both find the same "
+               "edges"},
+      arguments->kinetic_hull, {"turns", "bgh"});
+  command.AddChoice({.names = "--weights",
+                     .type = "W",
+                     .help = "what is said of each edge beside its witness: none; fast, all that "
+                             "follows from its lines of sight; full, its skyline drop, too (full)"},
+                    arguments->weights, {"none", "fast", "full"});
+  command.Add({.names = "--trace-level",
+               .type = "Z",
+               .help = "instead of the edges, draw the sweep at the height of Z metres: contours, "
+                       "hulls, bitangents, candidates"},
+              arguments->trace_level_m);
+  AddReadFlags(command, arguments->dem.flags);
+  AddWorkFlags(command, arguments->dem.flags);
+  AddRunFlags(command, arguments->dem);
+  AddTimings(command, arguments->dem, "write seconds by stage, as JSON");
+  command.Select(selected, [arguments] { return Run(*arguments); });
 }
 
 }  // namespace farhorizon

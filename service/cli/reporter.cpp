@@ -14,13 +14,12 @@ constexpr int kBarWidth = 40;
 
 }  // namespace
 
-void AddReporterOptions(CLI::App& command, ReporterOptions& options) {
-  command
-      .add_option("--progress", options.form,
-                  "auto: a bar on a terminal, nothing on a pipe; json: an object a line on stderr; "
-                  "none")
-      ->check(CLI::IsMember({"auto", "json", "none"}))
-      ->capture_default_str();
+void AddReporterOptions(Command& command, ReporterOptions& options) {
+  command.AddChoice({.names = "--progress",
+                     .type = "FORM",
+                     .help = "auto: a bar on a terminal, nothing on a pipe; json: an object a line "
+                             "on stderr; none (auto)"},
+                    options.form, {"auto", "json", "none"});
 }
 
 Reporter::Reporter(const ReporterOptions& options)

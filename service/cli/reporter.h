@@ -3,11 +3,11 @@
 #include <optional>
 #include <string>
 
-#include <CLI/CLI.hpp>
 #include <nlohmann/json_fwd.hpp>
 
 #include "core/base/run_control.h"
 #include "core/pipeline/progress_plan.h"
+#include "service/cli/command_line.h"
 
 namespace farhorizon {
 
@@ -16,7 +16,7 @@ struct ReporterOptions {
   std::string form = "auto";  ///< auto: a bar on a terminal, else nothing; json; none
 };
 
-void AddReporterOptions(CLI::App& command, ReporterOptions& options);
+void AddReporterOptions(Command& command, ReporterOptions& options);
 
 /// Shows progress on standard error: a bar that each step draws over, or one JSON object a line.
 class Reporter {

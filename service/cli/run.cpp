@@ -4,6 +4,8 @@
 #include <exception>
 #include <new>
 
+#include <CLI/CLI.hpp>
+
 #include "core/pipeline/version.h"
 #include "service/cli/command.h"
 
@@ -19,16 +21,17 @@ int RunProgram(int argc, char** argv) {
   app.footer(
       "Exit status: 0 done, 1 the data or a claim is at fault, 2 the call is, 70 our own bug,\n"
       "130 interrupted. 'farhorizon COMMAND --help' tells more.");
+  Command program(app);
   SelectedCommand selected;
-  AddBuild(app, selected);
-  AddHorizon(app, selected);
-  AddSkyline(app, selected);
-  AddCompare(app, selected);
-  AddVerify(app, selected);
-  AddServe(app, selected);
-  AddSubmit(app, selected);
-  AddHealthcheck(app, selected);
-  AddWorker(app, selected);
+  AddBuild(program, selected);
+  AddHorizon(program, selected);
+  AddSkyline(program, selected);
+  AddCompare(program, selected);
+  AddVerify(program, selected);
+  AddServe(program, selected);
+  AddSubmit(program, selected);
+  AddHealthcheck(program, selected);
+  AddWorker(program, selected);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& failure) {

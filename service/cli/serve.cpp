@@ -130,25 +130,22 @@ std::string KeyTable() {
 
 }  // namespace
 
-void AddServe(CLI::App& app, SelectedCommand& selected) {
+void AddServe(Command& program, SelectedCommand& selected) {
   const auto arguments = std::make_shared<ServeArguments>();
-  CLI::App* command = app.add_subcommand("serve", "Run the job service");
-  command->add_option("--config", arguments->config_file, "configuration, a JSON file")
-      ->type_name("FILE");
+  Command command = program.AddCommand("serve", "Run the job service");
+  command.Add({.names = "--config", .type = "FILE", .help = "configuration, a JSON file"},
+              arguments->config_file);
   const auto add = [&](const char* flag, const char* key, const char* type, const char* help) {
-    command
-        ->add_option_function<std::string>(
-            flag, [arguments, key](const std::string& value) { arguments->flags[key] = value; },
-            help)
-        ->type_name(type);
+    command.Add({.names = flag, .type = type, .help = help},
+                [arguments, key](const std::string& value) { arguments->flags[key] = value; });
   };
   add("--listen", "listen", "HOST:PORT", "address to listen on (127.0.0.1:8080)");
   add("--data", "data", "DIR", "folder for jobs, uploads and artifacts (farhorizon-data)");
   add("--workers", "workers", "N", "jobs at once (as many as there are cores)");
-  command->add_flag("--print-config", arguments->print_config,
-                    "print the configuration that would be used, and stop");
-  command->footer(KeyTable());
-  command->callback([arguments, &selected] { selected = [arguments] { return Run(*arguments); }; });
+  command.AddSwitch("--print-config", "print the configuration that would be used, and stop",
+                    arguments->print_config);
+  command.SetFooter(KeyTable());
+  command.Select(selected, [arguments] { return Run(*arguments); });
 }
 
 }  // namespace farhorizon

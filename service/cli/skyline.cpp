@@ -40,26 +40,26 @@ int Run(const SkylineArguments& arguments) {
 
 }  // namespace
 
-void AddSkyline(CLI::App& app, SelectedCommand& selected) {
+void AddSkyline(Command& program, SelectedCommand& selected) {
   const auto arguments = std::make_shared<SkylineArguments>();
-  CLI::App* command = app.add_subcommand(
+  Command command = program.AddCommand(
       "skyline", "Write the horizon edges seen in one direction, from left to right");
-  AddDem(*command, arguments->dem);
-  command
-      ->add_option("--azimuth", arguments->azimuth_deg,
-                   "where to look, degrees clockwise from true north at the DEM's middle, -360 to "
-                   "360")
-      ->required()
-      ->type_name("A");
-  command
-      ->add_option("-o,--output", arguments->file,
-                   "file to write; its ending tells the format: .geojson or .svg, a picture; "
-                   "without it GeoJSON on the standard output")
-      ->type_name("FILE");
-  AddReadFlags(*command, arguments->dem.flags);
-  AddWorkFlags(*command, arguments->dem.flags);
-  AddRunFlags(*command, arguments->dem);
-  command->callback([arguments, &selected] { selected = [arguments] { return Run(*arguments); }; });
+  AddDem(command, arguments->dem);
+  command.Add({.names = "--azimuth",
+               .type = "A",
+               .help = "where to look, degrees clockwise from true north at the DEM's middle, -360 "
+                       "to 360",
+               .required = true},
+              arguments->azimuth_deg);
+  command.Add({.names = "-o,--output",
+               .type = "FILE",
+               .help = "file to write; its ending tells the format: .geojson or .svg, a picture; "
+                       "without it GeoJSON on the standard output"},
+              arguments->file);
+  AddReadFlags(command, arguments->dem.flags);
+  AddWorkFlags(command, arguments->dem.flags);
+  AddRunFlags(command, arguments->dem);
+  command.Select(selected, [arguments] { return Run(*arguments); });
 }
 
 }  // namespace farhorizon

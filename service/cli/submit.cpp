@@ -192,23 +192,23 @@ int Run(const SubmitArguments& arguments) {
 
 }  // namespace
 
-void AddSubmit(CLI::App& app, SelectedCommand& selected) {
+void AddSubmit(Command& program, SelectedCommand& selected) {
   const auto arguments = std::make_shared<SubmitArguments>();
-  CLI::App* command =
-      app.add_subcommand("submit", "Send a DEM to a service and fetch the artifacts");
-  AddDem(*command, arguments->dem,
+  Command command = program.AddCommand("submit", "Send a DEM to a service and fetch the artifacts");
+  AddDem(command, arguments->dem,
          "GeoTIFF, text grid (Arc/Info, GRASS, Surfer, x y z), SRTM HGT, also zipped, DTED, USGS "
          "DEM, Erdas Imagine or Surfer");
-  command->add_option("--url", arguments->url, "the service: http://HOST:PORT")
-      ->required()
-      ->type_name("URL");
-  command
-      ->add_option("-o,--output", arguments->directory, "folder for the artifacts; made if missing")
-      ->required()
-      ->type_name("DIR");
-  AddBuildFlags(*command, arguments->dem.flags);
-  AddReporterOptions(*command, arguments->dem.reporter);
-  command->callback([arguments, &selected] { selected = [arguments] { return Run(*arguments); }; });
+  command.Add(
+      {.names = "--url", .type = "URL", .help = "the service: http://HOST:PORT", .required = true},
+      arguments->url);
+  command.Add({.names = "-o,--output",
+               .type = "DIR",
+               .help = "folder for the artifacts; made if missing",
+               .required = true},
+              arguments->directory);
+  AddBuildFlags(command, arguments->dem.flags);
+  AddReporterOptions(command, arguments->dem.reporter);
+  command.Select(selected, [arguments] { return Run(*arguments); });
 }
 
 }  // namespace farhorizon

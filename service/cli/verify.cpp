@@ -36,18 +36,17 @@ int Run(const VerifyArguments& arguments) {
 
 }  // namespace
 
-void AddVerify(CLI::App& app, SelectedCommand& selected) {
+void AddVerify(Command& program, SelectedCommand& selected) {
   const auto arguments = std::make_shared<VerifyArguments>();
-  CLI::App* command = app.add_subcommand(
+  Command command = program.AddCommand(
       "verify", "Measure every claim of DIR/report.json again, from the files alone");
-  AddDem(*command, arguments->dem, "the DEM that the artifacts were made of");
-  command->add_option("DIR", arguments->directory, "the folder of the artifacts")
-      ->required()
-      ->type_name("");
-  AddReadFlags(*command, arguments->dem.flags);
-  AddRunFlags(*command, arguments->dem);
-  command->footer("Exit status 1, and a line a claim on stdout, where one is false.");
-  command->callback([arguments, &selected] { selected = [arguments] { return Run(*arguments); }; });
+  AddDem(command, arguments->dem, "the DEM that the artifacts were made of");
+  command.Add({.names = "DIR", .type = "", .help = "the folder of the artifacts", .required = true},
+              arguments->directory);
+  AddReadFlags(command, arguments->dem.flags);
+  AddRunFlags(command, arguments->dem);
+  command.SetFooter("Exit status 1, and a line a claim on stdout, where one is false.");
+  command.Select(selected, [arguments] { return Run(*arguments); });
 }
 
 }  // namespace farhorizon

@@ -5,12 +5,12 @@
 
 namespace farhorizon {
 
-void AddWorker(CLI::App& app, SelectedCommand& selected) {
+void AddWorker(Command& program, SelectedCommand& selected) {
   const auto probe = std::make_shared<bool>(false);
-  CLI::App* command = app.add_subcommand("worker", "What the service starts for each job");
-  command->group("");  // not in help: only the service starts it
-  command->add_flag("--probe", *probe, "only read the DEM");
-  command->callback([probe, &selected] { selected = [probe] { return RunTask(*probe); }; });
+  Command command = program.AddCommand("worker", "What the service starts for each job");
+  command.Hide();  // only the service starts it
+  command.AddSwitch("--probe", "only read the DEM", *probe);
+  command.Select(selected, [probe] { return RunTask(*probe); });
 }
 
 }  // namespace farhorizon

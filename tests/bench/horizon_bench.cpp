@@ -1,9 +1,11 @@
 // The time to find a terrain's horizon edges: on fractal terrain, where the size is ours to choose,
 // and on the real DEMs of FARHORIZON_DEM_DIR, where it is not.
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include <benchmark/benchmark.h>
@@ -67,7 +69,8 @@ void FindHorizonOf(benchmark::State& state, const std::filesystem::path& path) {
 }
 
 // Counters: the events of the kinetic engine, to be held against chapter 4 of [Archambault03].
-void FindHorizonKineticOf(benchmark::State& state, const std::filesystem::path& path) {
+void FindHorizonKineticOf(benchmark::State& state, const std::filesystem::path& path,
+                          HullCertificates hull) {
   Result<Dem> dem = ReadDem(path, {});
   if (!dem) {
     state.SkipWithError(dem.error().message.c_str());
@@ -80,7 +83,7 @@ void FindHorizonKineticOf(benchmark::State& state, const std::filesystem::path& 
   }
   EventCounts events;
   for (auto _ : state) {
-    Result<KineticHorizon> horizon = FindHorizonKinetic(*terrain, {});
+    Result<KineticHorizon> horizon = FindHorizonKinetic(*terrain, {}, {.hull = hull});
     if (!horizon) {
       state.SkipWithError(horizon.error().message.c_str());
       return;
@@ -97,10 +100,12 @@ void FindHorizonKineticOf(benchmark::State& state, const std::filesystem::path& 
   count("merge", events.merge);
   count("hull", events.hull);
   count("inside", events.inside);
-  count("two_active", events.by_kind[0]);
-  count("active_inactive", events.by_kind[1]);
-  count("active_hull", events.by_kind[2]);
-  count("inactive_hull", events.by_kind[3]);
+  for (std::size_t i = 0; i < events.tree.size(); ++i) {
+    count(std::array{"x", "yl_yr", "yt", "slt_srt", "sl_sr"}[i], events.tree[i]);
+  }
+  count("cover", events.cover);
+  count("separation", events.separation);
+  count("tangents_max", events.tangents_max);
   count("clusters_max", events.clusters_max);
   count("queue_max", events.queue_max);
 }
@@ -118,10 +123,14 @@ void RegisterRealDems() {
                                  path)
         ->UseRealTime()
         ->Unit(benchmark::kMillisecond);
-    benchmark::RegisterBenchmark(("FindHorizonKineticOf/" + path.stem().string()).c_str(),
-                                 FindHorizonKineticOf, path)
-        ->UseRealTime()
-        ->Unit(benchmark::kMillisecond);
+    for (const auto& [name, hull] :
+         {std::pair("FindHorizonKineticOf/", HullCertificates::kTurns),
+          std::pair("FindHorizonKineticTreeOf/", HullCertificates::kTree)}) {
+      benchmark::RegisterBenchmark((name + path.stem().string()).c_str(), FindHorizonKineticOf,
+                                   path, hull)
+          ->UseRealTime()
+          ->Unit(benchmark::kMillisecond);
+    }
   }
 }
 

@@ -65,6 +65,8 @@ TEST_F(HorizonE2e, EveryEngineFindsTheSameEdges) {
   const auto edges = EdgesIn("adaptive.geojson");
   EXPECT_GT(edges.size(), 100U);
   EXPECT_EQ(EdgesIn("kinetic.geojson"), edges);
+  ASSERT_EQ(Run("bgh.geojson", {"--engine", "kinetic", "--kinetic-hull", "bgh"}), 0) << Said();
+  EXPECT_EQ(EdgesIn("bgh.geojson"), edges);
   EXPECT_EQ(SlurpFile(folder_ / "auto.geojson"), SlurpFile(folder_ / "adaptive.geojson"));
   EXPECT_EQ(SlurpFile(folder_ / "unsaid.geojson"), SlurpFile(folder_ / "auto.geojson"));
   const json shape = json::parse(
@@ -131,6 +133,67 @@ TEST_F(HorizonE2e, WritesAMarkedSupersetWhereItMayBeApproximate) {
   const json shape = json::parse(
       SlurpFile(std::string(FARHORIZON_SOURCE_DIR) + "/proto/schemas/horizon.schema.json"));
   EXPECT_THAT(SchemaOffences(some, shape), testing::IsEmpty());
+}
+
+TEST_F(HorizonE2e, SaysOfEdgesWhatItIsAskedFor) {
+  ASSERT_EQ(Run("none.geojson", {"--weights", "none"}), 0) << Said();
+  ASSERT_EQ(Run("fast.geojson", {"--weights", "fast"}), 0) << Said();
+  ASSERT_EQ(Run("full.geojson", {"--weights", "full"}), 0) << Said();
+  ASSERT_EQ(Run("unsaid.geojson", {}), 0) << Said();
+  EXPECT_EQ(SlurpFile(folder_ / "unsaid.geojson"), SlurpFile(folder_ / "full.geojson"));
+  const json none = json::parse(SlurpFile(folder_ / "none.geojson"))["features"];
+  const json fast = json::parse(SlurpFile(folder_ / "fast.geojson"))["features"];
+  json full = json::parse(SlurpFile(folder_ / "full.geojson"))["features"];
+  ASSERT_GT(full.size(), 100U);
+  for (json& feature : full) feature["properties"].erase("skyline_drop_m");
+  EXPECT_EQ(fast, full);
+  for (json& feature : full) {
+    for (const char* name : {"azimuths", "spans", "angular_share", "line_measure_m"}) {
+      EXPECT_EQ(feature["properties"].erase(name), 1U);
+    }
+  }
+  EXPECT_EQ(none, full);
+  EXPECT_EQ(Run("edges.geojson", {"--weights", "some"}), 2);
+  EXPECT_THAT(Said(), HasSubstr("--weights"));
+}
+
+TEST_F(HorizonE2e, WritesItsTimesWhereAskedTo) {
+  ASSERT_EQ(Run("plain.geojson", {}), 0) << Said();
+  const std::string file = (folder_ / "times.json").string();
+  ASSERT_EQ(Run("timed.geojson", {"--timings", file}), 0) << Said();
+  EXPECT_EQ(SlurpFile(folder_ / "timed.geojson"), SlurpFile(folder_ / "plain.geojson"));
+  const json times = json::parse(SlurpFile(file));
+  for (const char* stage :
+       {"read", "sweep", "candidates", "decide", "lines-of-sight", "edge-measures", "write"}) {
+    EXPECT_GE(times.at(stage).get<double>(), 0) << stage;
+  }
+  EXPECT_EQ(Run("timed.geojson", {"--timings", (folder_ / "no" / "times.json").string()}), 1);
+  EXPECT_THAT(Said(), HasSubstr("cannot write the timings"));
+}
+
+// The set takes less than this budget, all that is said of it more.
+TEST_F(HorizonE2e, SaysWhatItCouldNotAffordOfEachEdge) {
+  const std::vector<std::string> short_of = {"--work-budget", "400000", "--approximate"};
+  EXPECT_EQ(Run("edges.geojson", {"--work-budget", "400000"}), 1);
+  EXPECT_THAT(Said(), HasSubstr("work budget of 400000"));
+  ASSERT_EQ(Run("some.geojson", short_of), 0) << Said();
+  const json some = json::parse(SlurpFile(folder_ / "some.geojson"));
+  int nulls = 0;
+  for (const json& feature : some["features"]) {
+    const json& properties = feature["properties"];
+    if (properties.contains("undecided")) continue;
+    EXPECT_TRUE(properties.contains("witness"));
+    nulls += properties.at("skyline_drop_m").is_null() ? 1 : 0;
+  }
+  EXPECT_GT(nulls, 0);
+  EXPECT_THAT(Said(), HasSubstr(std::to_string(nulls) + " without a skyline drop"));
+  const json shape = json::parse(
+      SlurpFile(std::string(FARHORIZON_SOURCE_DIR) + "/proto/schemas/horizon.schema.json"));
+  EXPECT_THAT(SchemaOffences(some, shape), testing::IsEmpty());
+  std::vector<std::string> threads = short_of;
+  threads.insert(threads.end(), {"--threads", "3"});
+  ASSERT_EQ(Run("threads.geojson", threads), 0) << Said();
+  EXPECT_EQ(SlurpFile(folder_ / "threads.geojson"), SlurpFile(folder_ / "some.geojson"));
 }
 
 TEST_F(HorizonE2e, DrawsTheSweepAtALevel) {

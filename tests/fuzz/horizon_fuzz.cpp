@@ -12,9 +12,20 @@ namespace {
 
 constexpr std::int64_t kMostPostsChecked = 36;  // larger ones would take most of the time
 
+// Tangents and hulls are kept in a way that the first height tells, so that all are tried.
+farhorizon::KineticOptions OptionsFor(const farhorizon::Terrain& terrain) {
+  const auto way = static_cast<std::uint32_t>(terrain.dem().heights.front()) % 4;
+  return {.tangents = way % 2 == 0 ? farhorizon::KineticTangents::kNeighbours
+                                   : farhorizon::KineticTangents::kAllPairs,
+          .hull = way / 2 == 0 ? farhorizon::HullCertificates::kTurns
+                               : farhorizon::HullCertificates::kTree};
+}
+
 farhorizon::Result<farhorizon::KineticHorizon> Kinetic(const farhorizon::Terrain& terrain) {
-  return terrain.post_count() <= kMostPostsChecked ? farhorizon::FindHorizonKineticChecked(terrain)
-                                                   : farhorizon::FindHorizonKinetic(terrain, {});
+  const farhorizon::KineticOptions options = OptionsFor(terrain);
+  return terrain.post_count() <= kMostPostsChecked
+             ? farhorizon::FindHorizonKineticChecked(terrain, options)
+             : farhorizon::FindHorizonKinetic(terrain, {}, options);
 }
 
 }  // namespace

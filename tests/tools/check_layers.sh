@@ -22,9 +22,12 @@ declare -A may=(
   [core/horizon/visibility]="$below_horizon core/horizon"
   [core/horizon/sweep]="$below_horizon core/horizon core/horizon/visibility"
   # A second opinion: it shares no room with what it checks.
-  [core/horizon/kinetic]="$below_horizon core/horizon"
+  [core/horizon/kinetic]="$below_horizon core/horizon core/horizon/kinetic/hulls core/horizon/kinetic/neighbours core/horizon/kinetic/bitangents"
+  [core/horizon/kinetic/hulls]="$below_horizon"
+  [core/horizon/kinetic/neighbours]="$below_horizon core/horizon/kinetic/hulls"
+  [core/horizon/kinetic/bitangents]="$below_horizon core/horizon/kinetic/hulls"
   [core/horizon/lines_of_sight]="$below_horizon core/horizon core/horizon/lines core/horizon/visibility"
-  [core/horizon/trace]="$below_horizon core/horizon core/horizon/sweep core/horizon/kinetic"
+  [core/horizon/trace]="$below_horizon core/horizon core/horizon/sweep core/horizon/kinetic core/horizon/kinetic/hulls core/horizon/kinetic/bitangents"
   [core/horizon/search]="$below_horizon core/horizon core/horizon/visibility core/horizon/sweep core/horizon/kinetic"
   # Is a segment occluded by the DEM? What makes levels and what measures them ask alike.
   [core/horizon/guard]="$below_horizon core/horizon core/horizon/visibility"
@@ -79,7 +82,7 @@ foreign=(
   'sqlite3 @ ^service/jobs/[a-z_0-9]+\.cpp$'
   'nlohmann/ @ ^core/(io|pipeline)/(compare/)?[^/]+\.cpp$ ^core/io/mesh_files/(gltf_json\.h|[^/]+\.cpp)$ ^service/[a-z_0-9]+\.(h|cpp)$ ^service/(handlers|jobs|worker|config|cli)/'
   'openssl/ @ ^core/io/[^/]+\.cpp$'
-  'CLI/ @ ^service/(main\.cpp$|cli/)'
+  'CLI/ @ ^service/cli/(command_line|run)\.cpp$'
   # The system's own: files in core/io, processes and sockets in service.
   '((sys|netinet|arpa|linux)/)?[a-z_0-9]+\.h$ @ ^core/io/[^/]+\.cpp$ ^service/'
 )

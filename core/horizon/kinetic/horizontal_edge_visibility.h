@@ -1,49 +1,48 @@
 #pragma once
 
 #include <cstdint>
-#include <utility>
+#include <optional>
 #include <vector>
 
 #include "core/geometry/point.h"
-#include "core/geometry/vector.h"
-#include "core/horizon/kinetic/moving_point.h"
-#include "core/horizon/kinetic/scene.h"
+#include "core/horizon/kinetic/hulls/moving_point.h"
+#include "core/horizon/kinetic/hulls/plan_box.h"
+#include "core/horizon/kinetic/neighbours/frozen_hulls.h"
 
 namespace farhorizon::kinetic {
 
-/// The visual gaps of a scene at one whole depth, in the limit from above: which horizontal edges
-/// of that height are horizon edges.
+/// Which horizontal edges of one whole depth are horizon edges.
 ///
 /// The scene knows the horizon at sloped edges between events. A horizontal edge is in the slice at
 /// one depth only, and only higher ground occludes it: the hulls as the plane arrives there, before
-/// anything of the edge's own height is added.
+/// anything of the edge's own height is added. These stand, and a point goes along the edge: at
+/// each of its places the hulls leave a line free, or a cover (line_pencil.h) proves that they do
+/// not, which holds until the point gets to where it fails.
+///
+/// Scene: NeighbourScene or BitangentScene.
+template <typename Scene>
 class HorizontalEdgeVisibility {
  public:
   /// Requires: the scene is past every event before depth s, and at none at s; it outlives this.
-  /// Cost: corners, active bitangents and pairs of hulls.
-  HorizontalEdgeVisibility(const Scene& scene, std::int64_t s);
+  HorizontalEdgeVisibility(const Scene& scene, std::int64_t s)
+      : scene_(scene), hulls_(scene.hulls(), s) {}
 
   /// Whether the lines that cross the inside of the horizontal edge ab and miss all higher ground
-  /// have interior points among the plan lines. Exact. Cost: the visual gaps of all hulls.
-  [[nodiscard]] bool IsVisible(Point3i a, Point3i b) const;
+  /// have interior points among the plan lines. Exact.
+  [[nodiscard]] bool IsVisible(Point3i a, Point3i b);
+
+  /// Hulls that edges were asked about so far: the work.
+  [[nodiscard]] std::int64_t looks() const { return looks_; }
 
  private:
-  // The lines through a corner whose directions are strictly between two, counter-clockwise.
-  struct VisualGap {
-    MovingPoint corner;  // which does not move
-    Vector from;
-    Vector to;
-  };
-  [[nodiscard]] Vector Towards(PointId p, PointId q) const;
-  [[nodiscard]] Vector DirectionOf(HalfTangentId half) const;
-  [[nodiscard]] bool IsOnTheRight(const VisualGap& gap, ClusterId other) const;
-  void AddVisualGaps(ClusterId c, PointId p);
-  void AddVisualGap(ClusterId c, const VisualGap& gap);
+  [[nodiscard]] std::optional<ClusterId> HullAround(const MovingPoint& p) const;
+  [[nodiscard]] std::optional<SweepDepth> WayOutOf(ClusterId c, const MovingPoint& p) const;
+  [[nodiscard]] const PlanBox& box(ClusterId c) const;
 
   const Scene& scene_;
-  std::int64_t s_;
-  std::vector<std::pair<ClusterId, ClusterId>> touching_;  // hulls that have come to intersect
-  std::vector<VisualGap> gaps_;
+  FrozenHulls hulls_;
+  std::vector<ClusterId> recent_;  // that covered the last point
+  std::int64_t looks_ = 0;
 };
 
 }  // namespace farhorizon::kinetic

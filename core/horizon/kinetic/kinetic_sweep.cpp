@@ -1,8 +1,8 @@
 // The sweep plane falls from height to height of posts; between two of these, the scene deals with
 // its own events (algorithm 3.1 of [Archambault03]). No heights are perturbed. All posts of one
 // height and all certificates that fail there are one event, and what is true just below is found
-// from the signs of the predicates just below (scene.h). So between two events each edge that is on
-// the horizon for a while is found there; for sloped edges that is definition D2
+// from the signs of the predicates just below (neighbour_scene.h). So between two events each edge
+// that is on the horizon for a while is found there; for sloped edges that is definition D2
 // (core/horizon/README.md, theorem 10), since a line that only touches an edge at an event is in no
 // open set of such lines. Horizontal edges are in the slice at one event only and are asked of the
 // scene's limit from above (horizontal_edge_visibility.h): ground of their own height does not
@@ -15,8 +15,10 @@
 #include <string>
 #include <utility>
 
+#include "core/horizon/kinetic/bitangents/bitangent_scene.h"
 #include "core/horizon/kinetic/horizontal_edge_visibility.h"
-#include "core/horizon/kinetic/hull_location.h"
+#include "core/horizon/kinetic/hulls/hull_location.h"
+#include "core/horizon/kinetic/neighbours/neighbour_scene.h"
 
 namespace farhorizon::kinetic {
 
@@ -31,12 +33,19 @@ Error TooLarge() {
 
 }  // namespace
 
-KineticSweep::KineticSweep(const Terrain& terrain, const RunControl& control,
-                           std::int64_t work_budget, bool checks)
-    : terrain_(terrain), control_(control), work_budget_(work_budget), checks_(checks) {
+template <typename Scene>
+KineticSweep<Scene>::KineticSweep(const Terrain& terrain, const RunControl& control,
+                                  const KineticOptions& options, bool checks)
+    : terrain_(terrain),
+      control_(control),
+      work_budget_(options.work_budget.value_or(DefaultKineticWorkBudget(terrain.CountEdges()))),
+      hull_certificates_(options.hull),
+      checks_(checks),
+      scene_(options.hull, work_budget_) {
   const auto posts = static_cast<std::size_t>(terrain.post_count());
   cluster_.assign(posts, -1);
-  arriving_.resize(posts);
+  inside_.assign(posts, -1);
+  arriving_.assign(posts, -1);
   for (VertexId v = 0; v < terrain.post_count(); ++v) {
     if (terrain.IsVertex(v)) order_.push_back(v);
   }
@@ -47,30 +56,33 @@ KineticSweep::KineticSweep(const Terrain& terrain, const RunControl& control,
 }
 
 // Whether the largest coefficient of any predicate, the one of an orientation, leaves room for its
-// sums (core/horizon/README.md, section 7).
-bool KineticSweep::Fits() const {
+// sums; or with trees the one of the turn of two edges (core/horizon/README.md, section 7).
+template <typename Scene>
+bool KineticSweep<Scene>::Fits() const {
   const auto extent = static_cast<unsigned>(std::max(terrain_.dem().columns, terrain_.dem().rows));
   const auto range = static_cast<unsigned>(summit_ - Height(order_.back()));
-  return 2 * std::bit_width(extent) + 3 * std::bit_width(range) + 6 <= 124;
+  const int factors = hull_certificates_ == HullCertificates::kTree ? 4 : 3;
+  return 2 * std::bit_width(extent) + factors * std::bit_width(range) + 6 <= 124;
 }
 
-bool KineticSweep::OverBudget() const {
-  return events_.work > work_budget_ ||
-         static_cast<std::int64_t>(scene_.hulls().clusters().size()) > kMostKineticHulls;
+template <typename Scene>
+bool KineticSweep<Scene>::OverBudget() const {
+  return events_.work + scene_.counts().looks > work_budget_;
 }
 
 // Why SinkPast() was false.
-Error KineticSweep::Stopped() const {
+template <typename Scene>
+Error KineticSweep<Scene>::Stopped() const {
   if (!OverBudget()) return {ErrorCode::kCancelled, "stopped during the kinetic sweep"};
   return {ErrorCode::kResourceExhausted,
           "the kinetic engine's work budget of " + std::to_string(work_budget_) +
-              " is spent, or more than " + std::to_string(kMostKineticHulls) +
-              " hulls are apart: white noise and forests of spikes do that; take the adaptive "
-              "engine, raise the work budget, or smooth the heights",
+              " is spent: white noise and forests of spikes do that; take the adaptive engine, "
+              "raise the work budget, or smooth the heights",
           "work-budget"};
 }
 
-Status KineticSweep::Run(std::int64_t last) {
+template <typename Scene>
+Status KineticSweep<Scene>::Run(std::int64_t last) {
   if (!Fits()) return TooLarge();
   if (!SinkPast(last)) return Stopped();
   return Ok{};
@@ -78,7 +90,8 @@ Status KineticSweep::Run(std::int64_t last) {
 
 // Down to depth `last`, its own events included. False where a stop was requested or the budget was
 // spent.
-bool KineticSweep::SinkPast(std::int64_t last) {
+template <typename Scene>
+bool KineticSweep<Scene>::SinkPast(std::int64_t last) {
   control_.Report(Stage::kKineticSweep, 0);
   std::size_t next = 0;
   while (next < order_.size() && DepthOf(order_[next]) <= last) {
@@ -91,6 +104,7 @@ bool KineticSweep::SinkPast(std::int64_t last) {
     scene_.Advance(SweepDepth::At(s));
     PassPosts(next, end, s);
     RestoreInvariants();
+    if (OverBudget()) return false;
     events_.queue_max = std::max(
         events_.queue_max, scene_.queue_size() + static_cast<std::int64_t>(order_.size() - end));
     next = end;
@@ -101,20 +115,22 @@ bool KineticSweep::SinkPast(std::int64_t last) {
     RestoreInvariants();
   }
   control_.Report(Stage::kKineticSweep, 1);
-  return true;
+  return !OverBudget();
 }
 
 // Every height is an event; a report a percent is enough.
-void KineticSweep::Report(double done) {
+template <typename Scene>
+void KineticSweep<Scene>::Report(double done) {
   if (done < reported_ + 0.01) return;
   reported_ = done;
   control_.Report(Stage::kKineticSweep, done);
 }
 
-KineticHorizon KineticSweep::Take() {
+template <typename Scene>
+KineticHorizon KineticSweep<Scene>::Take() {
   for (PointId p = 0; p < scene_.hulls().point_count(); ++p) {
     const std::int32_t tag = scene_.hulls().point(p).tag;
-    if (scene_.order().corner(p).on_horizon && tag >= 0) {
+    if (scene_.OnHorizon(p) && tag >= 0) {
       result_.edges.push_back(edges_[static_cast<std::size_t>(tag)]);
     }
   }
@@ -123,15 +139,20 @@ KineticHorizon KineticSweep::Take() {
   events_.merge = counts.merges;
   events_.hull = counts.hull_failures + counts.left_interior;
   events_.inside = counts.interior_failures - counts.left_interior;
+  events_.tree = scene_.hulls().tree_failures();
+  events_.cover = counts.cover_failures;
+  events_.separation = counts.separation_failures;
   events_.by_kind = counts.tangent_failures;
-  for (const std::int64_t n : counts.tangent_failures) events_.bitangent += n;
+  events_.tangents_max = counts.tangents_max;
+  events_.work += counts.looks;
   events_.clusters_max = counts.clusters_max;
   result_.events = events_;
   return std::move(result_);
 }
 
 // Deals with the scene's own events before depth s.
-bool KineticSweep::SinkTo(std::int64_t s) {
+template <typename Scene>
+bool KineticSweep<Scene>::SinkTo(std::int64_t s) {
   std::optional<SweepDepth> at = scene_.NextEvent();
   for (; at && Compare(*at, SweepDepth::At(s)) < 0; at = scene_.NextEvent()) {
     if (!MayGoOn()) return false;
@@ -141,46 +162,84 @@ bool KineticSweep::SinkTo(std::int64_t s) {
   return true;
 }
 
-void KineticSweep::RestoreInvariants() {
+template <typename Scene>
+void KineticSweep<Scene>::RestoreInvariants() {
   scene_.RestoreInvariants();
-  if (checks_) scene_.CheckAll();
+  if (checks_ && !OverBudget()) scene_.CheckAll();
 }
 
-// Counts a stop of the plane: all hulls may be changed there.
-bool KineticSweep::MayGoOn() {
-  events_.work += static_cast<std::int64_t>(scene_.hulls().clusters().size()) + 1;
+// Counts a stop of the plane.
+template <typename Scene>
+bool KineticSweep<Scene>::MayGoOn() {
+  ++events_.work;
   return !OverBudget() && !control_.StopRequested();
 }
 
-void KineticSweep::FindHorizontalEdges(std::size_t next, std::size_t end, std::int64_t s) {
-  std::optional<HorizontalEdgeVisibility> visibility;
+// Those with both ends inside one hull of higher ground are not asked of.
+template <typename Scene>
+void KineticSweep<Scene>::FindHorizontalEdges(std::size_t next, std::size_t end, std::int64_t s) {
+  std::optional<HorizontalEdgeVisibility<Scene>> visibility;
   for (std::size_t i = next; i < end; ++i) {
     const VertexId v = order_[i];
     for (const VertexId n : terrain_.NeighboursOf(v)) {
       if (n < v || Height(n) != Height(v) || !terrain_.IsRidgeOrBorder({v, n})) continue;
+      const ClusterId around = ClusterAround(v, s);
+      if (around >= 0 && IsInside(n, around, s)) continue;
       if (!visibility) visibility.emplace(scene_, s);
       if (visibility->IsVisible(terrain_.Point(v), terrain_.Point(n))) {
         result_.edges.push_back({v, n});
       }
     }
   }
+  if (visibility) events_.work += visibility->looks();
 }
 
-void KineticSweep::PassPosts(std::size_t next, std::size_t end, std::int64_t s) {
+template <typename Scene>
+void KineticSweep<Scene>::PassPosts(std::size_t next, std::size_t end, std::int64_t s) {
   containing_.clear();  // before anything is changed at this depth
   for (std::size_t i = next; i < end; ++i) {
-    const Point3i post = terrain_.Point(order_[i]);
-    containing_.push_back(
-        HasHigherNeighbour(order_[i]) ? -1 : ClusterContaining(scene_.hulls(), post.x, post.y));
+    containing_.push_back(HasHigherNeighbour(order_[i]) ? -1 : ClusterAround(order_[i], s));
   }
   for (std::size_t i = next; i < end; ++i) {
-    for (const PointId p : arriving_[static_cast<std::size_t>(order_[i])]) scene_.Remove(p);
+    for (PointId p = arriving_[static_cast<std::size_t>(order_[i])]; p >= 0;
+         p = arriving_too_[Index(p)]) {
+      scene_.Remove(p);
+    }
     Connect(order_[i], containing_[i - next]);
   }
   for (std::size_t i = next; i < end; ++i) Continue(order_[i], s);
 }
 
-bool KineticSweep::HasHigherNeighbour(VertexId v) const {
+// Whether the hull of c surely has the post inside at depth s. Hulls only grow, so what was found
+// once stays.
+template <typename Scene>
+bool KineticSweep<Scene>::IsInside(VertexId v, ClusterId c, std::int64_t s) {
+  ClusterId& inside = inside_[static_cast<std::size_t>(v)];
+  if (inside >= 0 && scene_.Find(inside) == scene_.Find(c)) return true;
+  const Point3i post = terrain_.Point(v);
+  if (!SurelyInsideAt(scene_.hulls(), c, post.x, post.y, s)) return false;
+  inside = c;
+  return true;
+}
+
+// The cluster whose hull surely has the post inside; -1: none is sure to.
+template <typename Scene>
+ClusterId KineticSweep<Scene>::ClusterAround(VertexId v, std::int64_t s) {
+  ClusterId& inside = inside_[static_cast<std::size_t>(v)];
+  if (inside >= 0) return scene_.Find(inside);
+  const Point3i post = terrain_.Point(v);
+  events_.work += static_cast<std::int64_t>(scene_.hulls().clusters().size());
+  for (const ClusterId c : scene_.hulls().clusters()) {
+    if (scene_.box(c).Contains(post.x, post.y) &&
+        SurelyInsideAt(scene_.hulls(), c, post.x, post.y, s)) {
+      return inside = c;
+    }
+  }
+  return -1;
+}
+
+template <typename Scene>
+bool KineticSweep<Scene>::HasHigherNeighbour(VertexId v) const {
   const Terrain::Neighbours around = terrain_.NeighboursOf(v);
   return std::any_of(around.begin(), around.end(),
                      [&](VertexId n) { return Height(n) > Height(v); });
@@ -188,7 +247,8 @@ bool KineticSweep::HasHigherNeighbour(VertexId v) const {
 
 // Puts v into the cluster that its neighbours are in, once joined; a peak into the one whose hull
 // contains it (-1: none), or else into a new one.
-void KineticSweep::Connect(VertexId v, ClusterId containing) {
+template <typename Scene>
+void KineticSweep<Scene>::Connect(VertexId v, ClusterId containing) {
   ClusterId mine = -1;
   bool joins = false;
   bool minimum = true;
@@ -206,24 +266,33 @@ void KineticSweep::Connect(VertexId v, ClusterId containing) {
 }
 
 // Adds a point for each convex edge down from v; at the border of the terrain, where the slice
-// ends, one that stays at v, too.
-void KineticSweep::Continue(VertexId v, std::int64_t s) {
-  const ClusterId c = cluster_[static_cast<std::size_t>(v)];
+// ends, one that stays at v, too. None for what is inside the hull and stays there: an edge that
+// ends inside never comes out.
+template <typename Scene>
+void KineticSweep<Scene>::Continue(VertexId v, std::int64_t s) {
+  const ClusterId c = scene_.Find(cluster_[static_cast<std::size_t>(v)]);
+  const bool has_hull = !scene_.hulls().hull(c).joined && !scene_.hulls().corners(c).empty();
   bool border = false;
   for (const VertexId n : terrain_.NeighboursOf(v)) {
     const Edge edge = MakeEdge(v, n);
     const Terrain::Faces faces = terrain_.FacesOf(edge);
     border = border || !faces.left || !faces.right;
     if (DepthOf(n) <= s || !terrain_.IsRidgeOrBorder(edge, faces)) continue;
+    if (has_hull && IsInside(n, c, s)) continue;
     const auto tag = static_cast<std::int32_t>(edges_.size());
     edges_.push_back(edge);
     const PointId p = scene_.Add(
         c, MovingPoint::Sliding(terrain_.Point(v), terrain_.Point(n), summit_), DepthOf(n), tag);
-    arriving_[static_cast<std::size_t>(n)].push_back(p);
+    PointId& last = arriving_[static_cast<std::size_t>(n)];
+    arriving_too_.push_back(std::exchange(last, p));
   }
-  if (border) {
+  if (border && !(has_hull && IsInside(v, c, s))) {
     scene_.Add(c, MovingPoint::Standing(terrain_.Point(v).x, terrain_.Point(v).y), kNever, -1);
+    arriving_too_.push_back(-1);
   }
 }
+
+template class KineticSweep<NeighbourScene>;
+template class KineticSweep<BitangentScene>;
 
 }  // namespace farhorizon::kinetic

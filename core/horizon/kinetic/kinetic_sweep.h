@@ -6,20 +6,24 @@
 
 #include "core/base/result.h"
 #include "core/base/run_control.h"
+#include "core/horizon/kinetic/hulls/step_marks.h"
+#include "core/horizon/kinetic/hulls/sweep_depth.h"
 #include "core/horizon/kinetic/kinetic_horizon.h"
-#include "core/horizon/kinetic/scene.h"
 #include "core/terrain/terrain.h"
 
 namespace farhorizon::kinetic {
 
 /// The sweep plane falling through the terrain, post by post, and the scene of hulls and tangents
 /// that is kept in it ([Archambault03] algorithm 3.1).
+///
+/// Scene: NeighbourScene or BitangentScene.
+template <typename Scene>
 class KineticSweep {
  public:
-  /// work_budget: most EventCounts::work to be done. checks: whether all invariants of the scene
-  /// are checked after every step. Requires: `terrain` and `control` outlive it.
-  KineticSweep(const Terrain& terrain, const RunControl& control, std::int64_t work_budget,
-               bool checks);
+  /// checks: whether all invariants of the scene are checked after every step. Requires: `terrain`
+  /// and `control` outlive it.
+  KineticSweep(const Terrain& terrain, const RunControl& control, const KineticOptions& options,
+               bool checks = false);
 
   /// Goes down to depth `last`, its own events included; to the bottom by default. Call it once.
   /// Errors: those of FindHorizonKinetic.
@@ -47,6 +51,8 @@ class KineticSweep {
   void FindHorizontalEdges(std::size_t next, std::size_t end, std::int64_t s);
   void PassPosts(std::size_t next, std::size_t end, std::int64_t s);
   [[nodiscard]] bool HasHigherNeighbour(VertexId v) const;
+  [[nodiscard]] bool IsInside(VertexId v, ClusterId c, std::int64_t s);
+  [[nodiscard]] ClusterId ClusterAround(VertexId v, std::int64_t s);
   void Connect(VertexId v, ClusterId containing);
   void Continue(VertexId v, std::int64_t s);
 
@@ -54,14 +60,17 @@ class KineticSweep {
   const RunControl& control_;
   double reported_ = 0;
   std::int64_t work_budget_;
+  HullCertificates hull_certificates_;
   bool checks_;
   Scene scene_;
   std::int32_t summit_ = 0;
-  std::vector<VertexId> order_;                 // from the summit down
-  std::vector<ClusterId> cluster_;              // per post; -1 below the plane
-  std::vector<std::vector<PointId>> arriving_;  // per post: points whose edges end there
-  std::vector<ClusterId> containing_;           // of PassPosts()
-  std::vector<Edge> edges_;                     // by tag
+  std::vector<VertexId> order_;        // from the summit down
+  std::vector<ClusterId> cluster_;     // per post; -1 below the plane
+  std::vector<ClusterId> inside_;      // per post: a cluster whose hull has it inside; -1
+  std::vector<PointId> arriving_;      // per post: the last point whose edge ends there
+  std::vector<PointId> arriving_too_;  // per point: the one before it; -1
+  std::vector<ClusterId> containing_;  // of PassPosts()
+  std::vector<Edge> edges_;            // by tag
   EventCounts events_;
   KineticHorizon result_;
 };

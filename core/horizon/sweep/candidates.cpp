@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "core/base/parallel_for.h"
+#include "core/horizon/budgeted_work.h"
 #include "core/horizon/sweep/edge_occlusion.h"
 #include "core/horizon/sweep/hull_history.h"
 
@@ -85,9 +86,10 @@ class CandidateSearch {
                                         std::int64_t limit, std::int64_t& spent) const {
     Candidates found;
     HullHistory::Replay replay(sweep_.history, state);
+    std::vector<std::int32_t> likely;
     for (const Survivor& survivor : survivors) {
       replay.ApplyWhile([&](VertexId v) { return Height(v) >= survivor.place; });
-      spent += AddUnlessOccluded(survivor, replay.scene(), limit, found);
+      spent += AddUnlessOccluded(survivor, replay.scene(), limit, likely, found);
     }
     return found;
   }
@@ -110,12 +112,13 @@ class CandidateSearch {
 
   // Returns the decisions that it takes, `limit` or a few more at most.
   std::int64_t AddUnlessOccluded(const Survivor& survivor, const HullScene& scene,
-                                 std::int64_t limit, Candidates& found) const {
+                                 std::int64_t limit, std::vector<std::int32_t>& likely,
+                                 Candidates& found) const {
     const Edge edge = MakeEdge(survivor.high, survivor.low);
     const Point3i high = terrain_.Point(survivor.high);
     const Point3i low = terrain_.Point(survivor.low);
     EdgeOcclusion occlusion({low.x, low.y}, {high.x, high.y}, WedgeOf(terrain_, edge));
-    const std::int64_t spent = AddHulls(scene, {high.x, high.y}, limit, occlusion);
+    const std::int64_t spent = AddHulls(scene, {high.x, high.y}, limit, likely, occlusion);
     if (occlusion.IsOccluded()) return spent;
     const std::size_t first = found.virtual_occluders.size();
     occlusion.AppendVirtualOccluders(survivor.place, found.virtual_occluders);
@@ -124,29 +127,41 @@ class CandidateSearch {
   }
 
   // Adds hulls until all directions are occluded, those that occlude most first: the hull around
-  // the upper end, then large ones and near ones. Returns the decisions that it takes.
+  // the upper end, those that occluded the edge before, which is near as a rule, then large and
+  // near ones. Returns the decisions that it takes.
+  // likely: slots, any; receives those of the hulls that occlude this edge.
   static std::int64_t AddHulls(const HullScene& scene, Point2i high, std::int64_t limit,
-                               EdgeOcclusion& occlusion) {
+                               std::vector<std::int32_t>& likely, EdgeOcclusion& occlusion) {
     // A look at a box or a cell takes about as long as a decision, a hull as four.
     constexpr std::int64_t kPerHull = 4;
+    std::int64_t spent = 0;
+    std::vector<std::int32_t> occluding;
+    const auto add = [&](std::int32_t slot) {
+      spent += kPerHull;
+      if (occlusion.Add(scene.hull(slot))) occluding.push_back(slot);
+    };
     const HullIndex& index = scene.index();
     const std::int32_t own =
         index.Find(high, high, [&](std::int32_t slot) { return scene.hull(slot).Contains(high); });
-    if (own >= 0) occlusion.Add(scene.hull(own));
-    std::int64_t spent = kPerHull;
-    index.VisitNearFirst(
-        high,
-        [&](Point2i least, Point2i most) {
-          return ++spent < limit && occlusion.MayOcclude(least, most);
-        },
-        [&](std::int32_t slot, Point2i least, Point2i most) {
-          ++spent;
-          if (slot != own && least != most && occlusion.MayOcclude(least, most)) {
-            occlusion.Add(scene.hull(slot));
-            spent += kPerHull;
-          }
-          return spent < limit && !occlusion.IsOccluded();
-        });
+    if (own >= 0) add(own);
+    for (const std::int32_t slot : likely) {
+      if (slot == own || slot >= std::ssize(scene.hulls()) || occlusion.IsOccluded()) continue;
+      const ConvexPolygon& hull = scene.hull(slot);
+      if (occlusion.MayOcclude(hull.least(), hull.most())) add(slot);
+    }
+    if (!occlusion.IsOccluded()) {
+      index.VisitNearFirst(
+          high,
+          [&](Point2i least, Point2i most) {
+            return ++spent < limit && occlusion.MayOcclude(least, most);
+          },
+          [&](std::int32_t slot, Point2i least, Point2i most) {
+            ++spent;
+            if (slot != own && least != most && occlusion.MayOcclude(least, most)) add(slot);
+            return spent < limit && !occlusion.IsOccluded();
+          });
+    }
+    if (occlusion.IsOccluded()) likely = std::move(occluding);
     return spent;
   }
 
@@ -192,23 +207,17 @@ std::vector<std::vector<Survivor>> SortedByState(
   return all;
 }
 
-// The decisions that one survivor may take. Any value is sound: where it ends the search, the edge
-// stays a candidate, which the exact decision deals with. On real DEMs it ends none.
-std::int64_t LimitOfEach(const std::vector<std::vector<Survivor>>& survivors,
-                         const WorkBudget& budget) {
-  constexpr std::int64_t kMost = 8192;
-  constexpr std::int64_t kShare = 8;
-  std::int64_t count = 1;
-  for (const std::vector<Survivor>& some : survivors) count += std::ssize(some);
-  return std::min(budget.left() / kShare / count, kMost);
-}
-
 }  // namespace
 
 Result<Candidates> FindCandidates(const Terrain& terrain, const HullSweep& sweep, int threads,
                                   WorkBudget& budget, const RunControl& control) {
   constexpr std::size_t kRows = 32;
   constexpr std::size_t kTask = 1 << 15;
+  // Of one survivor. Any value is sound: where it ends the search, the edge stays a candidate, for
+  // the exact decision to deal with. On real DEMs it ends hardly any.
+  constexpr std::int64_t kMostDecisions = 2048;
+  // Of what is left of a budget that is short, one part in so many is for candidates.
+  constexpr std::int64_t kShare = 8;
   const Error stopped{ErrorCode::kCancelled, "stopped while looking for candidates"};
   constexpr double kSurvivors = 0.15;  // their share of the stage's time
   control.Report(Stage::kCandidates, 0);
@@ -230,24 +239,36 @@ Result<Candidates> FindCandidates(const Terrain& terrain, const HullSweep& sweep
     std::span<const Survivor> survivors;
   };
   std::vector<Task> tasks;
+  std::int64_t count = 0;
   for (std::size_t state = 0; state < survivors.size(); ++state) {
     const std::span<const Survivor> all(survivors[state]);
+    count += std::ssize(all);
     for (std::size_t i = 0; i < all.size(); i += kTask) {
       tasks.push_back({state, all.subspan(i, std::min(kTask, all.size() - i))});
     }
   }
-  const std::int64_t limit = LimitOfEach(survivors, budget);
   std::vector<Candidates> parts(tasks.size());
-  const auto find_candidates = [&](std::size_t begin, std::size_t end, std::size_t /*thread*/) {
-    for (std::size_t i = begin; i < end; ++i) {
-      std::int64_t spent = 0;
-      parts[i] = search.CandidatesOf(tasks[i].state, tasks[i].survivors, limit, spent);
-      budget.Spend(spent);
-    }
+  // Each survivor may take `limit` decisions. ends: where the budget is exceeded.
+  const auto find_candidates = [&](std::int64_t limit, bool ends) {
+    const auto find = [&](std::size_t begin, std::size_t end, std::size_t /*thread*/) {
+      for (std::size_t i = begin; i < end; ++i) {
+        if (ends && budget.IsExceeded()) return;
+        std::int64_t spent = 0;
+        parts[i] = search.CandidatesOf(tasks[i].state, tasks[i].survivors, limit, spent);
+        budget.Spend(spent);
+      }
+    };
+    return ParallelForBatches(tasks.size(), 1, threads, Stage::kCandidates,
+                              control.Between(kSurvivors, 1), find);
   };
-  if (!ParallelForBatches(tasks.size(), 1, threads, Stage::kCandidates,
-                          control.Between(kSurvivors, 1), find_candidates)) {
-    return stopped;
+  const std::int64_t before = budget.spent();
+  if (!find_candidates(kMostDecisions, true)) return stopped;
+  if (budget.IsExceeded()) {
+    if (!budget.approximate()) return OverBudget("looking for candidates", budget);
+    budget.Rewind(before);
+    if (!find_candidates(budget.left() / kShare / std::max<std::int64_t>(count, 1), false)) {
+      return stopped;
+    }
   }
   return Joined(parts);
 }

@@ -38,10 +38,11 @@ struct Candidates {
 /// (theorem 5), and the hulls at the height of their upper end do not occlude all directions
 /// (theorem 6; edge_occlusion.h).
 ///
-/// The same for any number of threads. Errors: kCancelled.
+/// The same for any number of threads. Where the budget is approximate and does not suffice, each
+/// edge is compared with fewer hulls, and more stay candidates.
+/// Errors: kCancelled; kResourceExhausted, kind work-budget, where it is not approximate.
 /// Cost: O(n) and, for each edge that the first two culls leave, the hulls that it takes to occlude
-/// all directions. All of it together takes an eighth of what is left of the budget
-/// at most: where many edges are left, each is compared with fewer hulls, and more stay candidates.
+/// all directions, some hundreds at most.
 Result<Candidates> FindCandidates(const Terrain& terrain, const HullSweep& sweep, int threads,
                                   WorkBudget& budget, const RunControl& control);
 

@@ -101,8 +101,9 @@ void EdgeOcclusion::AppendFree(const SlopeInterval& slopes,
 }
 
 // The interval is occluded from all points.
-void EdgeOcclusion::Occlude(const SlopeInterval& interval) {
-  if (!Less(interval.from, interval.to)) return;
+bool EdgeOcclusion::Occlude(const SlopeInterval& interval) {
+  if (!Less(interval.from, interval.to)) return false;
+  bool removed = false;
   next_free_.clear();
   for (const FreeInterval& free : free_) {
     const auto& [from, to] = free.slopes;
@@ -110,10 +111,12 @@ void EdgeOcclusion::Occlude(const SlopeInterval& interval) {
       next_free_.push_back(free);
       continue;
     }
+    removed = true;
     if (Less(from, interval.from)) AppendFree({from, interval.from}, next_free_);
     if (Less(interval.to, to)) AppendFree({interval.to, to}, next_free_);
   }
   free_.swap(next_free_);
+  return removed;
 }
 
 // Whether, from some point of the edge, part of the box may lie in a free direction. It does not if
@@ -138,11 +141,11 @@ bool EdgeOcclusion::MayOcclude(Point2i least, Point2i most) const {
   });
 }
 
-void EdgeOcclusion::Add(const ConvexPolygon& hull) {
-  if (hull.corners().size() < 2 || IsOccluded()) return;
+bool EdgeOcclusion::Add(const ConvexPolygon& hull) {
+  if (hull.corners().size() < 2 || IsOccluded()) return false;
   const bool has_low = hull.Contains(low_);
   const bool has_high = hull.Contains(high_);
-  if (has_low && has_high) return;
+  if (has_low && has_high) return false;
   // A hull that contains one end occludes least as seen from the other end.
   const Point2i from_low = has_low ? high_ : low_;
   const Point2i from_high = has_high ? low_ : high_;
@@ -150,21 +153,24 @@ void EdgeOcclusion::Add(const ConvexPolygon& hull) {
   silhouettes_.push_back(silhouette);
   const SilhouetteSlopes low = SlopesFrom(from_low, silhouette);
   const SilhouetteSlopes high = SlopesFrom(from_high, hull.SilhouetteFrom(from_high));
-  if (low.position != high.position) return;
+  if (low.position != high.position) return false;
   switch (low.position) {
     case Position::kLeft:
       return Occlude({high.right, low.left});
     case Position::kRight:
       return Occlude({low.right, high.left});
-    case Position::kAhead:
-      Occlude({{-kInfinite, 0}, low.left});
-      return Occlude({low.right, {kInfinite, 0}});
-    case Position::kBehind:
-      Occlude({{-kInfinite, 0}, high.left});
-      return Occlude({high.right, {kInfinite, 0}});
+    case Position::kAhead: {
+      const bool first = Occlude({{-kInfinite, 0}, low.left});
+      return Occlude({low.right, {kInfinite, 0}}) || first;
+    }
+    case Position::kBehind: {
+      const bool first = Occlude({{-kInfinite, 0}, high.left});
+      return Occlude({high.right, {kInfinite, 0}}) || first;
+    }
     case Position::kInLine:
-      return;
+      return false;
   }
+  return false;
 }
 
 void EdgeOcclusion::AppendVirtualOccluders(std::int32_t height,

@@ -24,10 +24,11 @@ class EdgeOcclusion {
   /// Requires: low and high are neighbours in the grid. wedge: WedgeOf(low, high).
   EdgeOcclusion(Point2i low, Point2i high, const std::optional<FaceWedge>& wedge);
 
-  /// Removes the directions that `hull` occludes. Add hulls that occlude most first: later ones
-  /// then cost less. A hull that contains both ends is ignored: theorem 5 rules out such edges.
+  /// Removes the directions that `hull` occludes; returns whether there are some. Add hulls that
+  /// occlude most first: later ones then cost less. A hull that contains both ends is ignored:
+  /// theorem 5 rules out such edges.
   /// Cost: the hull's corners, where a direction is left in which the hull can be seen.
-  void Add(const ConvexPolygon& hull);
+  bool Add(const ConvexPolygon& hull);
 
   /// False only if no hull in the box [least, most] occludes a direction that is left.
   [[nodiscard]] bool MayOcclude(Point2i least, Point2i most) const;
@@ -72,7 +73,8 @@ class EdgeOcclusion {
   [[nodiscard]] Slope SlopeOf(double x, double y) const;
   [[nodiscard]] SilhouetteSlopes SlopesFrom(Point2i viewpoint,
                                             const ConvexPolygon::Silhouette& silhouette) const;
-  void Occlude(const SlopeInterval& interval);
+  /// False where no direction was left in the interval.
+  bool Occlude(const SlopeInterval& interval);
   /// Appends the open interval to `intervals` unless it is empty.
   void AppendFree(const SlopeInterval& slopes, std::vector<FreeInterval>& intervals) const;
   [[nodiscard]] PlanVector VectorOf(const Slope& slope) const;

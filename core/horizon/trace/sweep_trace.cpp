@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "core/horizon/kinetic/kinetic_horizon.h"
+#include "core/horizon/kinetic/bitangents/bitangent_scene.h"
 #include "core/horizon/kinetic/kinetic_sweep.h"
 #include "core/horizon/sweep/candidates.h"
 #include "core/horizon/sweep/hull_sweep.h"
@@ -15,8 +15,7 @@ namespace farhorizon {
 
 Result<SweepTrace> TraceSweep(const Terrain& terrain, std::int32_t height,
                               const RunControl& control) {
-  const std::int64_t budget = DefaultKineticWorkBudget(terrain.CountEdges());
-  kinetic::KineticSweep sweep(terrain, control, budget, false);
+  kinetic::KineticSweep<kinetic::BitangentScene> sweep(terrain, control, {});
   if (height > sweep.summit() || height < sweep.lowest()) {
     return Error{ErrorCode::kInvalidArgument, "the terrain has no slice at this height",
                  "no-such-level"};

@@ -4,11 +4,11 @@ namespace farhorizon {
 
 namespace {
 
+using kinetic::BitangentScene;
 using kinetic::ClusterId;
 using kinetic::KineticHulls;
 using kinetic::MovingPoint;
 using kinetic::PointId;
-using kinetic::Scene;
 using kinetic::TangentId;
 
 PlanPoint Where(const MovingPoint& p, std::int64_t s) {
@@ -21,7 +21,7 @@ PlanPoint Where(const MovingPoint& p, std::int64_t s) {
 
 }  // namespace
 
-void TraceScene(const Scene& scene, std::int64_t s, SweepTrace& trace) {
+void TraceScene(const BitangentScene& scene, std::int64_t s, SweepTrace& trace) {
   const KineticHulls& hulls = scene.hulls();
   const auto where = [&](PointId p) { return Where(hulls.point(p).path, s); };
   for (const ClusterId c : hulls.clusters()) {

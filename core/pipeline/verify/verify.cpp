@@ -146,9 +146,11 @@ void VerifyTileset(const TerrainInput& input, const fs::path& directory, const R
 // The report's budget alone decides what is left open: where it suffices, it makes no difference
 // that it may be approximate.
 HorizonOptions OptionsAsClaimed(const Report& report, int threads) {
-  HorizonOptions options{.threads = threads, .approximate = true};
+  BuildOptions options;
+  options.threads = threads;
+  options.approximate = true;
   if (report.statistics.work_budget > 0) options.work_budget = report.statistics.work_budget;
-  return options;
+  return HorizonOptionsOf(options);
 }
 
 // True where the report says that some level has bytes of this kind: the format was asked for.

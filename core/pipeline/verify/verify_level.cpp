@@ -190,6 +190,19 @@ void VerifySides(const LevelContext& context, const std::string& name, const Loc
               off);
 }
 
+// What is counted and measured of a decoded mesh.
+Result<LevelReport> MeasureLevel(const LevelContext& context, const LocalMesh& mesh) {
+  Result<PlacedMesh> placed = PlaceLevel(context, mesh);
+  if (!placed) return std::move(placed.error());
+  Result<MeshError> error = context.measurer.Measure(*placed, context.control);
+  if (!error) return std::move(error.error());
+  LevelReport found;
+  found.triangles = static_cast<std::int64_t>(mesh.triangles.size());
+  found.vertices = static_cast<std::int64_t>(mesh.positions.size());
+  ReportErrors(*error, found);
+  return found;
+}
+
 }  // namespace
 
 std::vector<Edge> VerifyLevel(const LevelContext& context, const std::filesystem::path& directory,
@@ -206,8 +219,7 @@ std::vector<Edge> VerifyLevel(const LevelContext& context, const std::filesystem
   VerifySides(context, name, mesh, claimed.side_step_m, claims);
   claims.Add(AllTurnLeft(mesh, context.georeference.frame()),
              name + ": no triangle is flipped or without area");
-  Result<LevelReport> found =
-      MeasureLevel(context, mesh, claimed.level, claimed.quantization_step_m);
+  Result<LevelReport> found = MeasureLevel(context, mesh);
   claims.Add(found.has_value(),
              name + " covers the DEM without cracks" + (found ? "" : ": " + found.error().message));
   if (!found) return {};

@@ -50,13 +50,18 @@ void HalfEdgeMesh::SetOut(std::int32_t v, std::int32_t from) {
   out_[v] = h;
 }
 
+std::int32_t HalfEdgeMesh::CornerOf(std::int32_t v, std::int32_t triangle) const {
+  std::int32_t h = 3 * triangle;
+  while (origin_[h] != v) ++h;
+  return h;
+}
+
 void HalfEdgeMesh::Collapse(const Ring& ring, std::int32_t b) {
   std::array<std::int32_t, 4> seam = {};
   std::size_t seams = 0;
   for (std::int32_t i = 0; i < ring.sides(); ++i) {
     const std::int32_t t = ring.triangle_at(i);
-    std::int32_t h = 3 * t;
-    while (origin_[h] != ring.centre) ++h;
+    const std::int32_t h = CornerOf(ring.centre, t);
     const std::int32_t p = origin_[Next(h)];
     const std::int32_t q = origin_[Previous(h)];
     if (p != b && q != b) {
@@ -74,7 +79,7 @@ void HalfEdgeMesh::Collapse(const Ring& ring, std::int32_t b) {
       seam[seams++] = inner;
     }
     ChangeDegree(p == b ? q : p, -1);
-    origin_[3 * t] = kNone;
+    origin_[3 * t] = ~origin_[3 * t];
     --triangles_;
   }
   // The rim goes on from b where it went on from the centre.
@@ -85,6 +90,45 @@ void HalfEdgeMesh::Collapse(const Ring& ring, std::int32_t b) {
     if (twin_[seam[i]] == kNone || !Stands(out_[u] / 3)) out_[u] = seam[i];
   }
   ChangeDegree(b, ring.count - (ring.closed ? 4 : 3));
+}
+
+void HalfEdgeMesh::TakeBack(std::int32_t v, std::int32_t b, std::int32_t gone) {
+  // A triangle that is gone keeps its corners, and knows its twins. What has become of the triangle
+  // beyond it does not matter: the seam's inner side knows its twin of today.
+  std::array<std::int32_t, 2> revived = {};
+  std::size_t count = 0;
+  for (std::int32_t t = gone; t != kNone;) {
+    origin_[3 * t] = ~origin_[3 * t];
+    ++triangles_;
+    const std::int32_t h = CornerOf(v, t);
+    revived[count++] = h;
+    const std::int32_t across = origin_[Next(h)] == b ? twin_[h] : twin_[Previous(h)];
+    t = count < 2 && across != kNone ? across / 3 : kNone;
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::int32_t h = revived[i];
+    const bool to_b = origin_[Next(h)] == b;
+    const std::int32_t spoke = to_b ? Previous(h) : h;
+    const std::int32_t inner = twin_[spoke];
+    SetTwins(Next(h), twin_[inner]);
+    twin_[inner] = spoke;
+    ChangeDegree(to_b ? origin_[Previous(h)] : origin_[Next(h)], 1);
+  }
+  SetOut(v, revived[0]);
+  std::int32_t triangles = 0;
+  std::int32_t g = out_[v];
+  do {
+    origin_[g] = v;
+    ++triangles;
+    g = twin_[Previous(g)];
+  } while (g != kNone && g != out_[v]);
+  ChangeDegree(b, g == kNone ? 2 - triangles : 4 - triangles);
+  for (std::size_t i = 0; i < count; ++i) {
+    for (const std::int32_t h : {Next(revived[i]), Previous(revived[i])}) {
+      out_[origin_[h]] = h;
+      if (!IsKnotted(origin_[h])) SetOut(origin_[h], h);
+    }
+  }
 }
 
 void HalfEdgeMesh::Flip(std::int32_t h) {

@@ -38,7 +38,7 @@ class HalfEdgeMesh {
   [[nodiscard]] bool IsVertex(std::int32_t v) const { return out_[v] != kNone; }
   [[nodiscard]] bool IsKnotted(std::int32_t v) const { return degree_[v] == kKnotted; }
   [[nodiscard]] bool OnRim(std::int32_t v) const { return twin_[out_[v]] == kNone; }
-  [[nodiscard]] bool Stands(std::int32_t triangle) const { return origin_[3 * triangle] != kNone; }
+  [[nodiscard]] bool Stands(std::int32_t triangle) const { return origin_[3 * triangle] >= 0; }
   [[nodiscard]] const Place& at(std::int32_t v) const { return at_[v]; }
   [[nodiscard]] float squares(std::int32_t triangle) const { return squares_[triangle]; }
   [[nodiscard]] const Ground& ground() const { return *ground_; }
@@ -53,6 +53,10 @@ class HalfEdgeMesh {
 
   /// Moves the ring's centre onto its neighbour b. Requires: all triangles stay sound.
   void Collapse(const Ring& ring, std::int32_t b);
+  /// Takes the collapse of v onto b back. gone: a triangle that went with it.
+  /// Requires: the triangles that were around v are as that collapse left them, and none has been
+  /// compacted or cut off since.
+  void TakeBack(std::int32_t v, std::int32_t b, std::int32_t gone);
   /// Turns the edge of h to the other diagonal of its two triangles. Requires: both stay sound.
   void Flip(std::int32_t h);
   /// Takes rim vertex v away and fills what its triangles covered with others between its
@@ -74,13 +78,15 @@ class HalfEdgeMesh {
   void JoinTwins();
   void MarkKnots();
   void SetTwins(std::int32_t h, std::int32_t other);
+  [[nodiscard]] std::int32_t CornerOf(std::int32_t v, std::int32_t triangle) const;
   void SetOut(std::int32_t v, std::int32_t from);
   void ChangeDegree(std::int32_t v, std::int32_t by);
 
   const Ground* ground_;
   PostSquares measure_;
-  Table<Place> at_;             // per vertex
-  Table<std::int32_t> origin_;  // per half-edge; kNone at a triangle that is gone
+  Table<Place> at_;  // per vertex
+  Table<std::int32_t>
+      origin_;  // per half-edge; the complement of the first, where a triangle is gone
   Table<std::int32_t> twin_;    // per half-edge; kNone at the rim
   Table<std::int32_t> out_;     // per vertex: a half-edge from it, the rim's at the rim
   Table<std::uint8_t> degree_;  // per vertex: neighbours; kMany: for good; kKnotted

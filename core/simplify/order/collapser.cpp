@@ -135,6 +135,7 @@ void Collapser::Collapse(std::int32_t v) {
   const std::int32_t b = target_[v];
   const std::int32_t j = PlaceInRing(b);
   HalfEdgeMesh& mesh = work_->mesh;
+  if (log_.IsOn()) log_.Record(ring_, j);
   mesh.Collapse(ring_, b);
   for (std::int32_t i = 0; i < ring_.sides(); ++i) mesh.Measure(ring_.triangle_at(i));
   work_->price.RestoreAfterCollapse(

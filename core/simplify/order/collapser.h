@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/base/result.h"
+#include "core/simplify/order/collapse_log.h"
 #include "core/simplify/work/workpiece.h"
 
 namespace farhorizon {
@@ -23,6 +24,8 @@ class Collapser {
   Status Run(std::int32_t budget, const RunControl& control, Reweigh reweigh);
   /// Collapses v at whatever price, if it can be collapsed at all.
   bool Force(std::int32_t v);
+  /// Once it has begun, it has every collapse.
+  CollapseLog& log() { return log_; }
 
  private:
   static constexpr std::int32_t kNone = -1;
@@ -41,6 +44,7 @@ class Collapser {
   Workpiece* work_;
   Table<std::int32_t> target_;  // per vertex: the neighbour that it would go to
   std::vector<std::int32_t> now_;
+  CollapseLog log_;
   Ring ring_;
 };
 

@@ -99,18 +99,18 @@ double LevelRules::HeightM(const Place& place) const {
 bool LevelRules::IsOccluded(const Place& p, const Place& q) const {
   const std::int32_t columns = ground_->columns() / kBlock + 1;
   const std::int32_t block = (p.y + q.y) / (2 * kBlock) * columns + (p.x + q.x) / (2 * kBlock);
-  return guard_.IsOccluded(LoweredEdge(p, q), likely_[static_cast<std::size_t>(block)]);
+  return !Rises(p, q, likely_[static_cast<std::size_t>(block)]);
 }
 
 bool LevelRules::Allows(const Place& p, const Place& q) const {
   if (Has(p, q, 1)) return false;
-  return !exact_ || IsOccluded(p, q);
+  return !exact_ || trusts_ || IsOccluded(p, q);
 }
 
 bool LevelRules::AllowsChord(const Ring& ring, const Place& centre, std::int32_t i,
                              std::int32_t j) const {
   if (Has(ring.at(i), ring.at(j), 1)) return false;
-  return !exact_ || RunsBelow(ring, centre, i, j) || IsOccluded(ring.at(i), ring.at(j));
+  return !exact_ || trusts_ || RunsBelow(ring, centre, i, j) || IsOccluded(ring.at(i), ring.at(j));
 }
 
 bool LevelRules::AllowsMove(const Place& from, const Place& to, const Place& other) const {

@@ -21,6 +21,8 @@ class LevelRules {
 
   /// rise_m: by how much an edge may rise above the skyline all the same.
   void BeginExact(double rise_m);
+  /// Whether an exact level's new edges are allowed unasked, until somebody asks Rises.
+  void Trust(bool trust) { trusts_ = trust; }
   /// mesh: the finer level, whose horizon edges may stay.
   void BeginSoft(const HalfEdgeMesh& mesh);
 
@@ -37,6 +39,11 @@ class LevelRules {
   }
   /// Whether a new edge, or an old one at new heights, is allowed.
   [[nodiscard]] bool Allows(const Place& p, const Place& q) const;
+  /// Whether the edge rises above the DEM's skyline by more than it may.
+  /// likely: occluders that are tried first; those of the last edge that took a search.
+  [[nodiscard]] bool Rises(const Place& p, const Place& q, std::vector<OccluderId>& likely) const {
+    return !guard_.IsOccluded(LoweredEdge(p, q), likely);
+  }
   /// The same for the edge between the places i and j of a ring that is to take the place of spokes
   /// from `centre`. Asks first whether it runs below them: then it does not rise above the skyline,
   /// as they do not.
@@ -68,6 +75,7 @@ class LevelRules {
   const Horizon* horizon_;
   SkylineGuard guard_;
   bool exact_ = false;
+  bool trusts_ = false;
   std::int32_t rise_steps_ = 0;
   std::vector<bool> locked_;  // per post
   // Per block of posts: what occluded the last edge there that took a search.

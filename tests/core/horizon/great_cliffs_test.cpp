@@ -38,7 +38,7 @@ Horizon DecideAll(const Terrain& terrain) {
   WorkBudget any(WorkBudget::kMost);
   const Candidates candidates = *FindCandidates(terrain, *SweepHulls(terrain, 1, {}), 1, any, {});
   CandidateDecider decider(terrain, candidates);
-  EXPECT_TRUE(decider.Decide(1, any, {}));
+  EXPECT_TRUE(decider.Decide({}, any, {}));
   Horizon horizon;
   decider.AppendEdges(horizon);
   return horizon;

@@ -30,6 +30,29 @@ TEST(HorizonGeoJson, MarksWhatIsUndecidedAndSaysHowMuch) {
   EXPECT_THAT(WriteHorizonGeoJson({SomeFeature()}), Not(HasSubstr("approximate")));
 }
 
+TEST(HorizonGeoJson, HasNullForWhatWasNotAffordedAndNothingForWhatWasNotAskedFor) {
+  HorizonFeature not_afforded = SomeFeature();
+  not_afforded.measures = {.sights = Known::kNotAfforded, .drop = Known::kNotAfforded};
+  HorizonFeature not_asked = SomeFeature();
+  not_asked.measures.drop = Known::kNotAsked;
+  const std::string text = WriteHorizonGeoJson({not_afforded, not_asked});
+  const nlohmann::json json = nlohmann::json::parse(text);
+  const nlohmann::json& nulls = json["features"][0]["properties"];
+  for (const char* name :
+       {"azimuths", "spans", "angular_share", "line_measure_m", "skyline_drop_m"}) {
+    EXPECT_TRUE(nulls.at(name).is_null()) << name;
+  }
+  EXPECT_TRUE(nulls.contains("witness"));
+  EXPECT_FALSE(json["features"][1]["properties"].contains("skyline_drop_m"));
+  EXPECT_TRUE(json["features"][1]["properties"].contains("azimuths"));
+  const std::vector<HorizonFeature> read = *ReadHorizonGeoJson(text);
+  EXPECT_EQ(read[0].measures.sights, Known::kNotAfforded);
+  EXPECT_EQ(read[0].measures.drop, Known::kNotAfforded);
+  EXPECT_EQ(read[1].measures.sights, Known::kYes);
+  EXPECT_EQ(read[1].measures.drop, Known::kNotAsked);
+  EXPECT_EQ(WriteHorizonGeoJson(read), text);
+}
+
 TEST(HorizonGeoJson, SaysWhereAWitnessIsTooNarrowToBeWritten) {
   HorizonFeature feature = SomeFeature();
   feature.witness.exact = false;

@@ -8,6 +8,7 @@
 #include "core/simplify/level_mesh.h"
 #include "core/simplify/lod_chain.h"
 #include "core/simplify/order/collapser.h"
+#include "core/simplify/order/take_back_rises.h"
 #include "core/simplify/polish/polish.h"
 #include "tests/support/ascii_dem.h"
 #include "tests/support/effort.h"
@@ -20,8 +21,11 @@
 namespace farhorizon {
 namespace {
 
+std::int64_t taken_back = 0;  // triangles, by all levels made at the end
+
 // An exact level with as few triangles as can be had, or as are asked for.
-Lod MakeExact(Workbench& bench, double most_m, std::int32_t triangles) {
+// at_the_end: edges are asked when all collapses have been made, and some of these taken back.
+Lod MakeExact(Workbench& bench, double most_m, std::int32_t triangles, bool at_the_end = false) {
   Workpiece& work = bench.work;
   work.mesh.measure().SetMost(static_cast<float>(most_m));
   work.rules.BeginExact(0);
@@ -33,6 +37,15 @@ Lod MakeExact(Workbench& bench, double most_m, std::int32_t triangles) {
         work.mesh.IsVertex(v) && (bench.ground.OnSide(work.mesh.at(v)) || !work.IsFree(v));
   }
   for (std::int32_t v = 0; v < work.mesh.vertices(); ++v) collapser.Consider(v);
+  if (at_the_end) {
+    work.rules.Trust(true);
+    collapser.log().Begin(work.mesh);
+    Check(collapser.Run(triangles, {}, [] {}).has_value(), "nobody stops a test");
+    work.rules.Trust(false);
+    const std::int32_t before = work.mesh.triangles();
+    Check(TakeBackRises(work, collapser.log(), 2, {}).has_value(), "nobody stops a test");
+    taken_back += work.mesh.triangles() - before;
+  }
   Check(collapser.Run(triangles, {}, [] {}).has_value(), "nobody stops a test");
   for (const auto& step : {FlipEdges, MoveVertices, FitHeights}) {
     Check(step(work, {}).has_value(), "nobody stops a test");
@@ -81,7 +94,7 @@ TEST(LodChainExact, AsFarAsTheRulesLetItOnAnySmallTerrain) {
     plan.max_error_m = kErrors[static_cast<std::size_t>(round % 4)];
     plan.column_bend = round % 3 * 0.1;
     Workbench bench(dem, {plan.column_bend, 0});
-    const Lod level = MakeExact(bench, plan.max_error_m, 0);
+    const Lod level = MakeExact(bench, plan.max_error_m, 0, round / 4 % 2 > 0);
     SCOPED_TRACE(round);
     ExpectExact(bench.terrain, bench.horizon, level, 100, random, figures);
     if (HasFatalFailure()) return;
@@ -92,6 +105,7 @@ TEST(LodChainExact, AsFarAsTheRulesLetItOnAnySmallTerrain) {
   }
   EXPECT_GT(figures.fitted, Rounds(50));
   EXPECT_GT(figures.removed, Rounds(5000));
+  EXPECT_GT(taken_back, Rounds(500));
 }
 
 TEST(LodChainExact, LevelZeroHasTheSkylineOfTheDemOnLandscapes) {

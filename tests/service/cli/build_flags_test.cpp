@@ -1,5 +1,6 @@
 #include "service/cli/build_flags.h"
 
+#include <CLI/CLI.hpp>
 #include <gtest/gtest.h>
 
 #include "service/cli/dem_command.h"
@@ -11,9 +12,10 @@ namespace {
 DemArguments Parsed(const std::string& line) {
   DemArguments arguments;
   CLI::App app;
-  AddDem(app, arguments);
-  AddBuildFlags(app, arguments.flags);
-  AddRunFlags(app, arguments);
+  Command command(app);
+  AddDem(command, arguments);
+  AddBuildFlags(command, arguments.flags);
+  AddRunFlags(command, arguments);
   app.parse(line);
   return arguments;
 }
@@ -39,8 +41,9 @@ TEST(BuildFlags, AreTheParametersOfAJob) {
 
 TEST(BuildFlags, AreThoseOfAllParameters) {
   CLI::App app;
+  Command command(app);
   BuildFlags flags;
-  AddBuildFlags(app, flags);
+  AddBuildFlags(command, flags);
   for (const std::string_view name : ParameterNames()) {
     EXPECT_NE(app.get_option_no_throw(FlagOf(name)), nullptr) << name;
   }

@@ -1,9 +1,11 @@
 // The kinetic engine against the definition, and against the adaptive engine where the brute force
-// is too slow. Runs the whole engine; the scene by itself is in scene_test.cpp.
+// is too slow. Runs the whole engine; the scene by itself is in neighbour_scene_test.cpp.
 #include "core/horizon/kinetic/kinetic_horizon.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
+#include <numeric>
 #include <random>
 #include <string>
 #include <vector>
@@ -121,6 +123,14 @@ TEST(FindHorizonKinetic, DoesNotSeeLevelEdgesThroughAContactOfTwoHulls) {
                                 Find));
 }
 
+/// Every way to keep tangents and hulls.
+std::vector<KineticOptions> AllOptions() {
+  return {{},
+          {.hull = HullCertificates::kTree},
+          {.tangents = KineticTangents::kAllPairs},
+          {.tangents = KineticTangents::kAllPairs, .hull = HullCertificates::kTree}};
+}
+
 // Throws where an invariant of the scene does not hold.
 void CheckOnRandomTerrains(std::int32_t min_side, std::int32_t max_side, int rounds,
                            std::uint32_t seed) {
@@ -130,7 +140,10 @@ void CheckOnRandomTerrains(std::int32_t min_side, std::int32_t max_side, int rou
     Result<Terrain> terrain = Terrain::Build(dem);
     if (!terrain) continue;
     SCOPED_TRACE(DrawAscii(dem));
-    ASSERT_NO_THROW({ EXPECT_EQ(FindHorizonKineticChecked(*terrain)->edges, Find(*terrain)); });
+    for (const KineticOptions& options : AllOptions()) {
+      ASSERT_NO_THROW(
+          { EXPECT_EQ(FindHorizonKineticChecked(*terrain, options)->edges, Find(*terrain)); });
+    }
   }
 }
 
@@ -152,7 +165,9 @@ TEST(FindHorizonKinetic, KeepsItsInvariantsWhereAJoinedHullHidesNoMoreOfAnEdgeBu
       . 0 1 1 . 0
       . 0 . 0 1 .
       2 2 1 . 0 1)");
-  EXPECT_NO_THROW({ EXPECT_TRUE(FindHorizonKineticChecked(*Terrain::Build(dem))); });
+  for (const KineticOptions& options : AllOptions()) {
+    EXPECT_NO_THROW({ EXPECT_TRUE(FindHorizonKineticChecked(*Terrain::Build(dem), options)); });
+  }
 }
 
 TEST(FindHorizonKinetic, AgreesWithTheAdaptiveEngineOnLargerRandomTerrains) {
@@ -180,13 +195,31 @@ TEST(FindHorizonKinetic, CountsTheEventsOfTwoSummits) {
       2 3 2 3 2
       0 1 0 2 0)");
   const Terrain terrain = *Terrain::Build(dem);
-  const EventCounts events = (*FindHorizonKinetic(terrain, {})).events;
+  const KineticOptions options{.tangents = KineticTangents::kAllPairs};
+  const EventCounts events = (*FindHorizonKinetic(terrain, {}, options)).events;
   EXPECT_EQ(events.peak + events.regular + events.saddle + events.minimum, 20);
   EXPECT_EQ(events.clusters_max, events.peak);
   EXPECT_EQ(events.merge, events.peak - 1) << "in the end all is one hull";
   EXPECT_EQ(events.by_kind[0] + events.by_kind[1] + events.by_kind[2] + events.by_kind[3],
-            events.bitangent);
+            events.Bitangents());
   EXPECT_GT(events.queue_max, 0);
+}
+
+// The tree certifies all points, so it has events at which no corner changes; those at which one
+// does are the same.
+TEST(FindHorizonKinetic, CountsTheEventsOfTheTreeBesideThoseOfTheTurns) {
+  const Terrain terrain = *Terrain::Build(FractalDem(33, 3000, 100, 8));
+  const EventCounts turns = FindHorizonKinetic(terrain, {})->events;
+  const EventCounts tree =
+      FindHorizonKinetic(terrain, {}, {.hull = HullCertificates::kTree})->events;
+  EXPECT_GT(turns.inside, 0);
+  EXPECT_EQ(tree.inside, 0) << "no point has a triangle";
+  EXPECT_GT(tree.hull, turns.hull);
+  EXPECT_EQ(std::accumulate(tree.tree.begin(), tree.tree.end(), std::int64_t{0}), tree.hull);
+  for (const std::int64_t of_kind : tree.tree) EXPECT_GT(of_kind, 0);
+  EXPECT_EQ(std::accumulate(turns.tree.begin(), turns.tree.end(), std::int64_t{0}), 0);
+  EXPECT_EQ(tree.merge, turns.merge);
+  EXPECT_EQ(tree.clusters_max, turns.clusters_max);
 }
 
 TEST(FindHorizon, GivesTheKineticEnginesEdgesWitnessesThatHold) {
@@ -220,10 +253,12 @@ TEST(FindHorizonKinetic, EndsWithAnErrorWhereTheWorkBudgetDoesNotSuffice) {
   const Dem dem = FractalDem(33, 3000, 100, 8);
   const Terrain terrain = *Terrain::Build(dem);
   const KineticHorizon whole = *FindHorizonKinetic(terrain, {});
-  Result<KineticHorizon> enough = FindHorizonKinetic(terrain, {}, whole.events.work);
+  Result<KineticHorizon> enough =
+      FindHorizonKinetic(terrain, {}, {.work_budget = whole.events.work});
   ASSERT_TRUE(enough) << enough.error().message;
   EXPECT_EQ(enough->edges, whole.edges);
-  Result<KineticHorizon> scarce = FindHorizonKinetic(terrain, {}, whole.events.work - 1);
+  Result<KineticHorizon> scarce =
+      FindHorizonKinetic(terrain, {}, {.work_budget = whole.events.work - 1});
   ASSERT_FALSE(scarce);
   EXPECT_EQ(scarce.error().code, ErrorCode::kResourceExhausted);
   EXPECT_EQ(scarce.error().kind, "work-budget");
@@ -234,15 +269,24 @@ TEST(FindHorizonKinetic, EndsWithAnErrorWhereTheWorkBudgetDoesNotSuffice) {
   EXPECT_NE(chosen.error().message.find("take the adaptive engine"), std::string::npos);
 }
 
-// Spikes three posts apart: each is a hull of its own until the plane is down.
-TEST(FindHorizonKineticLong, RefusesMoreHullsThanMemoryIsFor) {
-  const Dem dem = MakeDem(105, 105, [](std::int32_t c, std::int32_t r) {
-    return c % 3 == 1 && r % 3 == 1 ? 1'000'000 + c + 105 * r : 0;
+Dem Spikes(std::int32_t side) {
+  return MakeDem(side, side, [side](std::int32_t c, std::int32_t r) {
+    return c % 3 == 1 && r % 3 == 1 ? 1'000'000 + c + side * r : 0;
   });
-  const Terrain terrain = *Terrain::Build(dem);
-  Result<KineticHorizon> horizon = FindHorizonKinetic(terrain, {});
-  ASSERT_FALSE(horizon);
-  EXPECT_EQ(horizon.error().kind, "work-budget");
+}
+
+// Each spike is a hull of its own until the plane is down.
+TEST(FindHorizonKinetic, KeepsTheTangentsOfNeighboursOnly) {
+  const KineticHorizon horizon = *FindHorizonKinetic(*Terrain::Build(Spikes(33)), {});
+  EXPECT_EQ(horizon.events.clusters_max, 121);
+  EXPECT_LT(horizon.events.tangents_max, 4 * 121) << "of 7,260 pairs";
+}
+
+TEST(FindHorizonKineticLong, DealsWithMoreThanAThousandHulls) {
+  const Terrain terrain = *Terrain::Build(Spikes(105));
+  const KineticHorizon horizon = *FindHorizonKinetic(terrain, {});
+  EXPECT_EQ(horizon.events.clusters_max, 35 * 35);
+  EXPECT_LT(horizon.events.tangents_max, 4 * 35 * 35);
 }
 
 TEST(FindHorizonKinetic, StopsWhenAskedTo) {

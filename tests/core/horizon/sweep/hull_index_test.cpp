@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <random>
 #include <vector>
 
@@ -60,7 +61,6 @@ class HullIndexTest : public testing::Test {
       const bool apart = hull.most().x < least.x || hull.least().x > most.x ||
                          hull.most().y < least.y || hull.least().y > most.y;
       const auto slot = static_cast<std::int32_t>(i);
-      ASSERT_EQ(index_.BoxIntersects(slot, least, most), !apart);
       if (!apart) expected.push_back(slot);
     }
     const std::vector<std::int32_t> in_order = found;
@@ -70,6 +70,42 @@ class HullIndexTest : public testing::Test {
       const std::int32_t wanted = in_order[i];
       ASSERT_EQ(index_.Find(least, most, [&](std::int32_t slot) { return slot == wanted; }),
                 wanted);
+    }
+  }
+
+  // VisitNearFirst visits each hull once, with its box, where all boxes may be entered; those in
+  // boxes that may not are left out.
+  void ExpectAllVisited(Point2i from) {
+    std::vector<std::int32_t> visited;
+    index_.VisitNearFirst(
+        from, [](Point2i, Point2i) { return true; },
+        [&](std::int32_t slot, Point2i least, Point2i most) {
+          const ConvexPolygon& hull = hulls_[static_cast<std::size_t>(slot)];
+          EXPECT_EQ(least, hull.least());
+          EXPECT_EQ(most, hull.most());
+          visited.push_back(slot);
+          return true;
+        });
+    std::sort(visited.begin(), visited.end());
+    std::vector<std::int32_t> all(hulls_.size());
+    std::iota(all.begin(), all.end(), 0);
+    ASSERT_EQ(visited, all);
+
+    std::vector<std::int32_t> reached;
+    index_.VisitNearFirst(
+        from,
+        [&](Point2i least, Point2i most) {
+          return least.x <= from.x && from.x <= most.x && least.y <= from.y && from.y <= most.y;
+        },
+        [&](std::int32_t slot, Point2i, Point2i) {
+          reached.push_back(slot);
+          return true;
+        });
+    for (std::size_t i = 0; i < hulls_.size(); ++i) {
+      const auto slot = static_cast<std::int32_t>(i);
+      const bool holds = hulls_[i].least().x <= from.x && from.x <= hulls_[i].most().x &&
+                         hulls_[i].least().y <= from.y && from.y <= hulls_[i].most().y;
+      ASSERT_GE(std::count(reached.begin(), reached.end(), slot), holds ? 1 : 0);
     }
   }
 
@@ -90,6 +126,7 @@ TEST_F(HullIndexTest, FindsWhatAScanOfAllHullsFinds) {
     }
     const Point2i least{Any(-40, kColumns + 40), Any(-40, kRows + 40)};
     ExpectAllThatIntersect(least, {least.x + Any(0, 60), least.y + Any(0, 60)});
+    ExpectAllVisited(AnyPost());
     if (HasFatalFailure()) return;
   }
   while (!hulls_.empty()) Drop();
