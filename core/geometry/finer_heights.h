@@ -16,7 +16,7 @@ struct HeightRange {
 /// Heights in steps finer than quanta: an edge can then be lowered by parts of a quantum and
 /// compared exactly with others.
 ///
-/// Not to be confused with the choice of the quantum itself (core/io/dem/height_quantum.h).
+/// Not to be confused with the choice of the quantum itself (core/io/dem/values/height_quantum.h).
 struct FinerHeights {
   std::int32_t zero = 0;        ///< the height, in quanta, that is 0 steps
   int bits = 0;                 ///< 2^bits steps are a quantum; never negative

@@ -11,7 +11,8 @@
 #include <optional>
 #include <tuple>
 
-#include "core/terrain/border.h"
+#include "core/measure/ground_below.h"
+#include "core/measure/in_hull.h"
 
 namespace farhorizon {
 
@@ -54,15 +55,6 @@ class Cuts {
   double next_ = 0;
   double step_ = 0;
   double t_ = kInfinity;
-};
-
-// The DEM's ground below one place.
-struct Ground {
-  // Heights at both ends of a piece in one triangle, metres.
-  double from = 0;
-  double to = 0;
-  // The first post of the cell that the piece is in.
-  VertexId cell = 0;
 };
 
 // Where the mesh's outline crosses a horizon edge: as a share of the way from its end a to b.
@@ -145,49 +137,16 @@ class Walker {
     return {static_cast<double>(dem_.Column(v)), static_cast<double>(dem_.Row(v)), dem_.HeightM(v)};
   }
 
-  // The ground below a piece that lies in one triangle; nullopt where there is none, or the cell
-  // has fewer than four posts. extend: of a cell of three posts their plane, all over the cell.
-  [[nodiscard]] std::optional<Ground> GroundBelow(const GridPoint& p, const GridPoint& q,
-                                                  bool extend) const {
-    const double x = (p.column + q.column) / 2;
-    const double y = (p.row + q.row) / 2;
-    if (!(x >= 0) || !(y >= 0) || x > dem_.columns - 1 || y > dem_.rows - 1) return std::nullopt;
-    const auto column = std::min(static_cast<std::int32_t>(x), dem_.columns - 2);
-    const auto row = std::min(static_cast<std::int32_t>(y), dem_.rows - 2);
-    const VertexId nw = row * dem_.columns + column;
-    std::array<std::int64_t, 4> z = {dem_.heights[static_cast<std::size_t>(nw)],
-                                     dem_.heights[static_cast<std::size_t>(nw) + 1],
-                                     dem_.heights[static_cast<std::size_t>(nw + dem_.columns)],
-                                     dem_.heights[static_cast<std::size_t>(nw + dem_.columns) + 1]};
-    const auto missing = std::count(z.begin(), z.end(), std::int64_t{kNoHeight});
-    if (missing > (extend ? 1 : 0)) return std::nullopt;
-    for (std::size_t k = 0; k < 4; ++k) {
-      // Of corners 0 to 3, by rows, 3 - k is opposite to k.
-      if (z[k] == kNoHeight) z[k] = z[k ^ 1U] + z[k ^ 2U] - z[3 - k];
-    }
-    const bool upper = x - column > y - row;
-    const double by_column =
-        upper ? static_cast<double>(z[1] - z[0]) : static_cast<double>(z[3] - z[2]);
-    const double by_row =
-        upper ? static_cast<double>(z[3] - z[1]) : static_cast<double>(z[2] - z[0]);
-    const auto height = [&](const GridPoint& g) {
-      return dem_.height_offset_m + (static_cast<double>(z[0]) + by_column * (g.column - column) +
-                                     by_row * (g.row - row)) *
-                                        dem_.quantum_m;
-    };
-    return Ground{height(p), height(q), nw};
-  }
-
   void WalkPiece(const GridPoint& p, const GridPoint& q, bool ridge, bool outline) {
-    const std::optional<Ground> ground = GroundBelow(p, q, false);
-    if (const std::optional<Ground> plane = GroundBelow(p, q, true)) {
-      result_.common_m = std::max(
-          {result_.common_m, std::abs(p.height_m - plane->from), std::abs(q.height_m - plane->to)});
+    const std::optional<GroundPiece> ground = GroundBelow(dem_, p, q, false);
+    if (const std::optional<GroundPiece> plane = GroundBelow(dem_, p, q, true)) {
+      result_.common_m = std::max({result_.common_m, std::abs(p.height_m - plane->from_m),
+                                   std::abs(q.height_m - plane->to_m)});
     }
     if (ground) {
-      const double most = std::max(p.height_m - ground->from, q.height_m - ground->to);
+      const double most = std::max(p.height_m - ground->from_m, q.height_m - ground->to_m);
       result_.most_m =
-          std::max({result_.most_m, most, ground->from - p.height_m, ground->to - q.height_m});
+          std::max({result_.most_m, most, ground->from_m - p.height_m, ground->to_m - q.height_m});
       if (most <= allowed_m_ || !ridge) return Flush();
       if (IsInHull(dem_, horizon_.hulls, p, q, -allowed_m_)) return Flush();
     } else if (!ridge) {
@@ -287,37 +246,7 @@ class Walker {
   GroundWalk result_;
 };
 
-// Which bit stands for the edge from a post to one after it, by the difference of numbers.
-std::uint8_t BitOf(VertexId difference, std::int32_t columns) {
-  if (difference == 1) return 1;
-  if (difference == columns) return 2;
-  return difference == columns + 1 ? 4 : 8;
-}
-
 }  // namespace
-
-HorizonIndex::HorizonIndex(const Terrain& terrain, const Horizon& horizon)
-    : horizon_(&horizon),
-      columns_(terrain.dem().columns),
-      bits_(static_cast<std::size_t>(terrain.post_count()), 0) {
-  outline_posts_ = OutlinePosts(terrain);
-  inner_.reserve(horizon.edges.size());
-  for (const HorizonEdge& h : horizon.edges) {
-    const bool touches = outline_posts_[static_cast<std::size_t>(h.edge.a)] ||
-                         outline_posts_[static_cast<std::size_t>(h.edge.b)];
-    inner_.push_back(touches ? 0 : 1);
-    bits_[static_cast<std::size_t>(h.edge.a)] |= BitOf(h.edge.b - h.edge.a, columns_);
-  }
-}
-
-std::int32_t HorizonIndex::Find(VertexId a, VertexId b) const {
-  if ((bits_[static_cast<std::size_t>(a)] & BitOf(b - a, columns_)) == 0) return kNoneThere;
-  const auto found =
-      std::lower_bound(horizon_->edges.begin(), horizon_->edges.end(), Edge{a, b},
-                       [](const HorizonEdge& h, const Edge& edge) { return h.edge < edge; });
-  if (found == horizon_->edges.end() || found->edge != Edge{a, b}) return kNoneThere;
-  return static_cast<std::int32_t>(found - horizon_->edges.begin());
-}
 
 GroundWalk WalkGround(const Terrain& terrain, const Horizon& horizon, const HorizonIndex& index,
                       const GridMesh& mesh, const MeshSides& sides, const std::vector<float>& rise,
@@ -329,28 +258,6 @@ GroundWalk WalkGround(const Terrain& terrain, const Horizon& horizon, const Hori
                     side.IsOutline());
   }
   return std::move(walker).Take(terrain, rise);
-}
-
-bool IsInHull(const Dem& dem, const HullMergeTree& hulls, const GridPoint& a, const GridPoint& b,
-              double less_m) {
-  const double highest = std::max(a.height_m, b.height_m) + less_m;
-  const double quanta = std::ceil((highest - dem.height_offset_m) / dem.quantum_m);
-  if (!(std::abs(quanta) < 1 << 30)) return false;
-  const auto height = static_cast<std::int32_t>(quanta);
-  // All corners of the cells of both ends are in one hull, so the segment is.
-  std::optional<VertexId> first;
-  for (const GridPoint* p : {&a, &b}) {
-    if (!(p->column >= 0) || !(p->row >= 0)) return false;
-    if (p->column > dem.columns - 1 || p->row > dem.rows - 1) return false;
-    const auto column = std::min(static_cast<std::int32_t>(p->column), dem.columns - 2);
-    const auto row = std::min(static_cast<std::int32_t>(p->row), dem.rows - 2);
-    const VertexId nw = row * dem.columns + column;
-    if (!first) first = nw;
-    for (const VertexId v : {nw + dem.columns + 1, nw, nw + 1, nw + dem.columns}) {
-      if (!hulls.Occludes(*first, v, height)) return false;
-    }
-  }
-  return true;
 }
 
 }  // namespace farhorizon

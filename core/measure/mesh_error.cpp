@@ -13,6 +13,7 @@
 #include "core/base/parallel_for.h"
 #include "core/measure/facet_look.h"
 #include "core/measure/ground_walk.h"
+#include "core/measure/horizon_index.h"
 #include "core/measure/line_sampling.h"
 #include "core/measure/mesh_sides.h"
 #include "core/measure/post_errors.h"

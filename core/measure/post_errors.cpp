@@ -1,7 +1,5 @@
-// Each triangle's rows of posts are gone through. A post's vertical meets the triangle that has the
-// post in plan, or one close by, as the sides of triangles that are straight in space are not quite
-// straight in the frame of the grid: from triangle to triangle the vertical is followed to the one
-// that it meets. Posts that are in none are compared with the outline.
+// Each triangle's rows of posts are gone through. Posts that are in none are compared with the
+// outline.
 #include "core/measure/post_errors.h"
 
 #include <algorithm>
@@ -9,43 +7,20 @@
 #include <limits>
 
 #include "core/measure/row_crossings.h"
+#include "core/measure/verticals.h"
 
 namespace farhorizon {
 
 namespace {
-
-using Vector3 = StraightPoint;
 
 // A post that the mesh misses in plan by no more than this counts as covered, columns or rows.
 constexpr double kMostMissed = 0.5;
 // One that it misses by no more than this is also compared with the plane of the triangle at the
 // outline: rounding a vertex for a file moves it by less.
 constexpr double kRounded = 0.0625;
-// Triangles that a vertical is followed through. Sides of 1000 cells on a degree bend by 8.
-constexpr int kMostSteps = 256;
 constexpr std::size_t kTrianglesBetweenChecks = 4096;
 constexpr float kNotMet = -1;
 constexpr float kNoRise = -std::numeric_limits<float>::infinity();
-
-Vector3 Minus(const Vector3& p, const Vector3& q) {
-  return {p[0] - q[0], p[1] - q[1], p[2] - q[2]};
-}
-
-double Dot(const Vector3& p, const Vector3& q) { return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]; }
-
-// The determinant of p, q, r; its sign turns exactly when p and q are exchanged.
-double Determinant(const Vector3& p, const Vector3& q, const Vector3& r) {
-  return Dot({p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]}, r);
-}
-
-// Where a vertical meets a triangle's plane.
-struct Meeting {
-  std::array<double, 3> shares{};  // barycentric coordinates, all times `whole`
-  double whole = 0;
-  double above = 0;  // along the vertical, above the post
-  // The corner with the most negative share; none: the triangle itself is met.
-  std::size_t outside = 3;
-};
 
 class PostMeasurer {
  public:
@@ -56,6 +31,7 @@ class PostMeasurer {
         places_(places),
         mesh_(mesh),
         sides_(sides),
+        verticals_(terrain.dem(), places, mesh, sides),
         errors_(dem_.heights.size(), kNotMet) {
     result_.rise.assign(dem_.heights.size(), kNoRise);
   }
@@ -101,65 +77,6 @@ class PostMeasurer {
   [[nodiscard]] const GridPoint& Point(std::int32_t i) const {
     return mesh_.grid.points[static_cast<std::size_t>(i)];
   }
-  [[nodiscard]] Vector3 Straight(std::int32_t i) const {
-    if (!mesh_.straight.empty()) return mesh_.straight[static_cast<std::size_t>(i)];
-    return {Point(i).column, Point(i).row, Point(i).height_m};
-  }
-  [[nodiscard]] Vector3 PlaceOf(VertexId v) const {
-    if (!places_.positions.empty()) return places_.positions[static_cast<std::size_t>(v)];
-    return {static_cast<double>(dem_.Column(v)), static_cast<double>(dem_.Row(v)), dem_.HeightM(v)};
-  }
-  // The vertical at p, of length 1.
-  [[nodiscard]] Vector3 UpAt(const Vector3& p) const {
-    if (places_.positions.empty()) return {0, 0, 1};
-    Vector3 up = places_.up_at_origin;
-    for (std::size_t k = 0; k < 3; ++k) {
-      up[k] += Dot({places_.up[3 * k], places_.up[3 * k + 1], places_.up[3 * k + 2]}, p);
-    }
-    const double length = std::sqrt(Dot(up, up));
-    return {up[0] / length, up[1] / length, up[2] / length};
-  }
-
-  [[nodiscard]] Meeting Meet(std::int32_t t, const Vector3& post, const Vector3& up) const {
-    const Corners& corners = CornersOf(t);
-    const std::array<Vector3, 3> to = {Minus(Straight(corners[0]), post),
-                                       Minus(Straight(corners[1]), post),
-                                       Minus(Straight(corners[2]), post)};
-    Meeting meeting;
-    for (std::size_t k = 0; k < 3; ++k) {
-      meeting.shares[k] = Determinant(to[(k + 1) % 3], to[(k + 2) % 3], up);
-      meeting.whole += meeting.shares[k];
-      meeting.above += meeting.shares[k] * Dot(to[k], up);
-    }
-    meeting.above /= meeting.whole;
-    double least = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double share = meeting.whole > 0 ? meeting.shares[k] : -meeting.shares[k];
-      if (share >= least) continue;
-      least = share;
-      meeting.outside = k;
-    }
-    return meeting;
-  }
-
-  // The distance along the vertical at post v to the mesh, followed from triangle t on; kNotMet
-  // where the vertical leaves the mesh.
-  [[nodiscard]] double DistanceAt(VertexId v, std::int32_t t) const {
-    const Vector3 post = PlaceOf(v);
-    const Vector3 up = UpAt(post);
-    const Meeting first = Meet(t, post, up);
-    Meeting meeting = first;
-    for (int step = 0; meeting.outside < 3; ++step) {
-      // A mesh that folds may lead in circles: the plane that the plan names is taken then.
-      if (step == kMostSteps) return std::abs(first.above);
-      const std::int32_t side = sides_.of_triangle[static_cast<std::size_t>(t)][meeting.outside];
-      t = sides_.sides[static_cast<std::size_t>(side)].Beyond(t);
-      if (t == kNoneThere) return kNotMet;
-      meeting = Meet(t, post, up);
-    }
-    return std::abs(meeting.above);
-  }
-
   void MeasureTriangle(std::int32_t t) {
     const Corners& corners = CornersOf(t);
     const GridPoint& a = Point(corners[0]);
@@ -175,21 +92,21 @@ class PostMeasurer {
     const double least = std::min({a.height_m, b.height_m, c.height_m});
     const double most = std::max({a.height_m, b.height_m, c.height_m});
     const bool in_grid = places_.positions.empty();
-    ForEachRow(mesh_.grid, corners, {}, dem_.columns, dem_.rows,
-               [&](std::int32_t r, const RowPart& part) {
-                 for (std::int32_t column = part.first; column < part.end; ++column) {
-                   const VertexId v = r * dem_.columns + column;
-                   if (is_vertex_[static_cast<std::size_t>(v)] == 0) continue;
-                   const double x = column - a.column;
-                   const double y = r - a.row;
-                   // Between the corners' heights, however thin the triangle is.
-                   const double height = std::clamp(
-                       a.height_m + ((x * vy - y * vx) * dz_b + (ux * y - uy * x) * dz_c) / area,
-                       least, most);
-                   const double rise = height - dem_.HeightM(v);
-                   Add(v, rise, in_grid ? std::abs(rise) : DistanceAt(v, t));
-                 }
-               });
+    ForEachRow(
+        mesh_.grid, corners, {}, dem_.columns, dem_.rows, [&](std::int32_t r, const RowPart& part) {
+          for (std::int32_t column = part.first; column < part.end; ++column) {
+            const VertexId v = r * dem_.columns + column;
+            if (is_vertex_[static_cast<std::size_t>(v)] == 0) continue;
+            const double x = column - a.column;
+            const double y = r - a.row;
+            // Between the corners' heights, however thin the triangle is.
+            const double height = std::clamp(
+                a.height_m + ((x * vy - y * vx) * dz_b + (ux * y - uy * x) * dz_c) / area, least,
+                most);
+            const double rise = height - dem_.HeightM(v);
+            Add(v, rise, in_grid ? std::abs(rise) : verticals_.DistanceAt(v, t).value_or(kNotMet));
+          }
+        });
   }
 
   void Add(VertexId v, double rise, double distance) {
@@ -203,13 +120,6 @@ class PostMeasurer {
     const auto rounded = static_cast<float>(value);
     return rounded < value ? std::nextafter(rounded, std::numeric_limits<float>::infinity())
                            : rounded;
-  }
-
-  [[nodiscard]] std::int32_t ThirdOf(std::int32_t triangle, const MeshSide& side) const {
-    for (const std::int32_t i : CornersOf(triangle)) {
-      if (i != side.a && i != side.b) return i;
-    }
-    return side.a;
   }
 
   // A post that is in no triangle, and how far the outline is from it.
@@ -282,22 +192,8 @@ class PostMeasurer {
   }
 
   [[nodiscard]] Missed Miss(const MeshSide& side, VertexId v, double t, double distance) const {
-    const Vector3 post = PlaceOf(v);
-    const Vector3 up = UpAt(post);
-    const Vector3 a = Minus(Straight(side.a), post);
-    const Vector3 b = Minus(Straight(side.b), post);
-    double error = std::abs(std::lerp(Dot(a, up), Dot(b, up), t));
-    if (distance <= kRounded * kRounded) {
-      const std::int32_t triangle = side.left != kNoneThere ? side.left : side.right;
-      const Meeting plane = Meet(triangle, post, up);
-      // No further beyond the triangle than it is high: a thin one may be steep.
-      const double third = Dot(Minus(Straight(ThirdOf(triangle, side)), post), up);
-      const auto [least, most] = std::minmax({Dot(a, up), Dot(b, up), third});
-      if (std::isfinite(plane.above)) {
-        error =
-            std::max(error, std::abs(std::clamp(plane.above, 2 * least - most, 2 * most - least)));
-      }
-    }
+    const bool rounded = distance <= kRounded * kRounded;
+    const double error = verticals_.DistanceAtOutline(v, side, t, rounded);
     return {v, distance, error,
             std::lerp(Point(side.a).height_m, Point(side.b).height_m, t) - dem_.HeightM(v)};
   }
@@ -307,6 +203,7 @@ class PostMeasurer {
   const PostPlaces& places_;
   const PlacedMesh& mesh_;
   const MeshSides& sides_;
+  Verticals verticals_;
   std::vector<float> errors_;  // per post, rounded up; kNotMet
   PostErrors result_;
 };

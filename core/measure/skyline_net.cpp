@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/measure/ground_walk.h"
+#include "core/measure/in_hull.h"
 
 namespace farhorizon {
 

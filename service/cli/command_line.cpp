@@ -17,8 +17,8 @@ CLI::Option* AddValue(CLI::App& app, const Argument& argument, Value& value) {
 
 template <typename Value>
 CLI::Option* AddTaker(CLI::App& app, const Argument& argument,
-                      std::function<void(const Value&)> take) {
-  return app.add_option_function<Value>(argument.names, std::move(take), argument.help)
+                      const std::function<void(const Value&)>& take) {
+  return app.add_option_function<Value>(argument.names, take, argument.help)
       ->required(argument.required)
       ->type_name(argument.type);
 }
@@ -33,8 +33,8 @@ void Command::Add(const Argument& argument, std::string& value) {
   AddValue(*app_, argument, value);
 }
 
-void Command::Add(const Argument& argument, std::function<void(const std::string&)> take) {
-  AddTaker<std::string>(*app_, argument, std::move(take));
+void Command::Add(const Argument& argument, const std::function<void(const std::string&)>& take) {
+  AddTaker<std::string>(*app_, argument, take);
 }
 
 void Command::Add(const Argument& argument, double& value) { AddValue(*app_, argument, value); }
@@ -57,8 +57,8 @@ void Command::AddChoice(const Argument& argument, std::string& value,
 }
 
 void Command::AddList(const Argument& argument,
-                      std::function<void(const std::vector<std::string>&)> take) {
-  AddTaker<std::vector<std::string>>(*app_, argument, std::move(take))
+                      const std::function<void(const std::vector<std::string>&)>& take) {
+  AddTaker<std::vector<std::string>>(*app_, argument, take)
       ->allow_extra_args(false);  // one value after each flag: the next word may be positional
 }
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace CLI {
+namespace CLI {  // NOLINT(readability-identifier-naming): CLI11's own
 class App;
 }
 
@@ -35,7 +35,7 @@ class Command {
 
   void Add(const Argument& argument, std::string& value);
   /// Calls `take` with the value.
-  void Add(const Argument& argument, std::function<void(const std::string&)> take);
+  void Add(const Argument& argument, const std::function<void(const std::string&)>& take);
   void Add(const Argument& argument, double& value);
   void Add(const Argument& argument, std::optional<double>& value);
   /// A number from `least` to `greatest`, which help says.
@@ -44,7 +44,8 @@ class Command {
   /// One of `choices`. The argument's help names them.
   void AddChoice(const Argument& argument, std::string& value, std::vector<std::string> choices);
   /// An argument that may be given more than once. Calls `take` with all its values.
-  void AddList(const Argument& argument, std::function<void(const std::vector<std::string>&)> take);
+  void AddList(const Argument& argument,
+               const std::function<void(const std::vector<std::string>&)>& take);
   /// An argument without a value.
   void AddSwitch(const char* names, const char* help, bool& value);
   void AddSwitch(const char* names, const char* help, std::function<void()> take);

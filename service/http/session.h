@@ -68,8 +68,6 @@ class Session : public std::enable_shared_from_this<Session> {
   /// Reads on for a moment: to close while the client still sends would reset the connection, and
   /// the response could be lost on its way.
   asio::awaitable<void> Linger();
-  [[nodiscard]] std::string ResponseHead(const HttpRequest& request, const HttpResponse& response,
-                                         bool keep_alive) const;
 
   SessionContext context_;
   beast::tcp_stream stream_;

@@ -103,13 +103,7 @@ Result<Job> SqliteJobStore::Insert(const NewJob& job, std::int64_t now_ms) {
       Statement known(database_, "SELECT job_id FROM idempotency_keys WHERE key = ?");
       if (known.Bind(*job.idempotency_key).Step()) return EarlierJob(database_, known.Text(0), job);
     }
-    Statement insert(database_,
-                     "INSERT INTO jobs (id, state, filename, parameters, input_sha256, "
-                     "input_bytes, created_ms, updated_ms, assumptions, message) "
-                     "VALUES (?, 'accepted', ?, ?, ?, ?, ?, ?, ?, 'waiting')");
-    insert.Bind(job.id).Bind(job.filename).Bind(EncodeQuery(job.parameters));
-    insert.Bind(job.input_sha256).Bind(job.input_bytes).Bind(now_ms).Bind(now_ms);
-    insert.Bind(AssumptionsColumn(job.assumptions)).Run();
+    InsertJob(database_, job, now_ms);
     if (job.idempotency_key) {
       Statement key(database_,
                     "INSERT INTO idempotency_keys (key, job_id, created_ms) VALUES (?, ?, ?)");
@@ -131,27 +125,7 @@ Result<Job> SqliteJobStore::Find(const std::string& id) {
 }
 
 Result<JobPage> SqliteJobStore::List(const JobQuery& query) {
-  return Guarded([&]() -> Result<JobPage> {
-    std::string where = "WHERE 1";
-    if (query.before) where += " AND id < ?";
-    if (!query.states.empty()) {
-      where += " AND state IN (?";
-      for (std::size_t i = 1; i < query.states.size(); ++i) where += ", ?";
-      where += ")";
-    }
-    Statement rows(database_, std::string("SELECT ") + kJobColumns + " FROM jobs " + where +
-                                  " ORDER BY id DESC LIMIT ?");
-    if (query.before) rows.Bind(*query.before);
-    for (const JobState state : query.states) rows.Bind(std::string(JobStateName(state)));
-    rows.Bind(std::int64_t{query.limit} + 1);  // one more tells whether a page follows
-    JobPage page;
-    while (rows.Step()) page.jobs.push_back(ReadJob(rows));
-    if (page.jobs.size() > static_cast<std::size_t>(query.limit)) {
-      page.jobs.pop_back();
-      page.next = page.jobs.back().id;
-    }
-    return page;
-  });
+  return Guarded([&]() -> Result<JobPage> { return SelectPage(database_, query); });
 }
 
 Result<std::int64_t> SqliteJobStore::CountWaiting() {
@@ -213,13 +187,7 @@ Result<bool> SqliteJobStore::Publish(const std::string& id, std::int64_t attempt
                      "WHERE id = ? AND attempt = ? AND state = 'running'");
     update.Bind(now_ms).Bind(now_ms).Bind(nlohmann::json(timings).dump()).Bind(id).Bind(attempt);
     if (update.Run() != 1) return false;
-    for (const Artifact& artifact : artifacts) {
-      Statement insert(database_,
-                       "INSERT INTO artifacts (job_id, name, media_type, bytes, sha256) "
-                       "VALUES (?, ?, ?, ?, ?)");
-      insert.Bind(id).Bind(artifact.name).Bind(artifact.media_type);
-      insert.Bind(artifact.bytes).Bind(artifact.sha256).Run();
-    }
+    for (const Artifact& artifact : artifacts) InsertArtifact(database_, id, artifact);
     transaction.Commit();
     return true;
   });
@@ -282,17 +250,7 @@ Result<std::int64_t> SqliteJobStore::RecoverRunning(std::int64_t now_ms) {
 }
 
 Result<std::vector<Artifact>> SqliteJobStore::Artifacts(const std::string& id) {
-  return Guarded([&]() -> Result<std::vector<Artifact>> {
-    Statement rows(database_,
-                   "SELECT name, media_type, bytes, sha256 FROM artifacts WHERE job_id = ? "
-                   "ORDER BY name");
-    rows.Bind(id);
-    std::vector<Artifact> artifacts;
-    while (rows.Step()) {
-      artifacts.push_back({rows.Text(0), rows.Text(1), rows.Integer(2), rows.Text(3)});
-    }
-    return artifacts;
-  });
+  return Guarded([&]() -> Result<std::vector<Artifact>> { return SelectArtifacts(database_, id); });
 }
 
 Result<bool> SqliteJobStore::IsReferenced(const std::string& sha256) {

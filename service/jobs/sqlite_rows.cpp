@@ -73,4 +73,56 @@ std::optional<Job> SelectJob(const Database& database, const std::string& id) {
   return ReadJob(row);
 }
 
+JobPage SelectPage(const Database& database, const JobQuery& query) {
+  std::string where = "WHERE 1";
+  if (query.before) where += " AND id < ?";
+  if (!query.states.empty()) {
+    where += " AND state IN (?";
+    for (std::size_t i = 1; i < query.states.size(); ++i) where += ", ?";
+    where += ")";
+  }
+  Statement rows(database, std::string("SELECT ") + kJobColumns + " FROM jobs " + where +
+                               " ORDER BY id DESC LIMIT ?");
+  if (query.before) rows.Bind(*query.before);
+  for (const JobState state : query.states) rows.Bind(std::string(JobStateName(state)));
+  rows.Bind(std::int64_t{query.limit} + 1);  // one more tells whether a page follows
+  JobPage page;
+  while (rows.Step()) page.jobs.push_back(ReadJob(rows));
+  if (page.jobs.size() > static_cast<std::size_t>(query.limit)) {
+    page.jobs.pop_back();
+    page.next = page.jobs.back().id;
+  }
+  return page;
+}
+
+void InsertJob(const Database& database, const NewJob& job, std::int64_t now_ms) {
+  Statement insert(database,
+                   "INSERT INTO jobs (id, state, filename, parameters, input_sha256, "
+                   "input_bytes, created_ms, updated_ms, assumptions, message) "
+                   "VALUES (?, 'accepted', ?, ?, ?, ?, ?, ?, ?, 'waiting')");
+  insert.Bind(job.id).Bind(job.filename).Bind(EncodeQuery(job.parameters));
+  insert.Bind(job.input_sha256).Bind(job.input_bytes).Bind(now_ms).Bind(now_ms);
+  insert.Bind(AssumptionsColumn(job.assumptions)).Run();
+}
+
+std::vector<Artifact> SelectArtifacts(const Database& database, const std::string& id) {
+  Statement rows(database,
+                 "SELECT name, media_type, bytes, sha256 FROM artifacts WHERE job_id = ? "
+                 "ORDER BY name");
+  rows.Bind(id);
+  std::vector<Artifact> artifacts;
+  while (rows.Step()) {
+    artifacts.push_back({rows.Text(0), rows.Text(1), rows.Integer(2), rows.Text(3)});
+  }
+  return artifacts;
+}
+
+void InsertArtifact(const Database& database, const std::string& id, const Artifact& artifact) {
+  Statement insert(database,
+                   "INSERT INTO artifacts (job_id, name, media_type, bytes, sha256) "
+                   "VALUES (?, ?, ?, ?, ?)");
+  insert.Bind(id).Bind(artifact.name).Bind(artifact.media_type);
+  insert.Bind(artifact.bytes).Bind(artifact.sha256).Run();
+}
+
 }  // namespace farhorizon

@@ -1,6 +1,12 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "service/jobs/job.h"
+#include "service/jobs/job_store.h"
 #include "service/jobs/sqlite.h"
 
 namespace farhorizon {
@@ -20,5 +26,13 @@ Job ReadJob(const Statement& row);
 
 /// The job with this id; nullopt without one.
 std::optional<Job> SelectJob(const Database& database, const std::string& id);
+/// As JobStore::List has it.
+JobPage SelectPage(const Database& database, const JobQuery& query);
+/// Inserts an accepted job.
+void InsertJob(const Database& database, const NewJob& job, std::int64_t now_ms);
+
+/// The artifacts of a job, by name.
+std::vector<Artifact> SelectArtifacts(const Database& database, const std::string& id);
+void InsertArtifact(const Database& database, const std::string& id, const Artifact& artifact);
 
 }  // namespace farhorizon

@@ -48,7 +48,12 @@ declare -A may=(
   [core/io/file_kind]="core/base core/io/text_grid"
   [core/io/text_grid]="core/base"
   [core/io/raster]="core/base core/io core/io/file_kind core/io/text_grid"
-  [core/io/dem]="core/base core/geometry core/terrain core/geo core/io core/io/text_grid core/io/raster"
+  [core/io/dem]="core/base core/geometry core/terrain core/geo core/io core/io/text_grid core/io/raster core/io/dem/tiff core/io/dem/values core/io/dem/place"
+  # The tags and blocks of a TIFF; what the numbers of a band mean; where its cells lie. Their root
+  # has what is at hand while one raster is read.
+  [core/io/dem/tiff]="core/base core/io core/io/dem"
+  [core/io/dem/values]="core/base core/terrain core/geo core/io core/io/text_grid core/io/dem core/io/dem/tiff"
+  [core/io/dem/place]="core/base core/terrain core/io core/io/dem"
   # Meshes that others wrote; `compare` alone reads them.
   [core/io/mesh_files]="core/base core/io"
   [core/pipeline]="$below_pipeline"
@@ -73,7 +78,7 @@ declare -A may=(
 # The first row that matches decides; a header with a dot or a slash that is in no row is an offence,
 # so that a new dependency has to be entered here.
 foreign=(
-  '(gdal|ogr|cpl_|vrt) @ ^core/io/(dem/|raster/)?[^/]+\.cpp$ ^service/jobs/[a-z_0-9]*object_store\.cpp$'
+  '(gdal|ogr|cpl_|vrt) @ ^core/io/((dem|raster)/([a-z]+/)?)?[^/]+\.cpp$ ^service/jobs/[a-z_0-9]*object_store\.cpp$'
   'draco/ @ ^core/io/(mesh_files/)?[^/]+\.cpp$'
   'meshoptimizer\.h$ @ ^core/io/mesh_files/[^/]+\.cpp$'
   'proj(_[a-z]+)?(\.h$|/) @ ^core/geo/[^/]+\.cpp$'

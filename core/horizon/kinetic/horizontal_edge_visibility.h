@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/geometry/point.h"
@@ -31,8 +32,8 @@ class HorizontalEdgeVisibility {
   /// have interior points among the plan lines. Exact.
   [[nodiscard]] bool IsVisible(Point3i a, Point3i b);
 
-  /// Hulls that edges were asked about so far: the work.
-  [[nodiscard]] std::int64_t looks() const { return looks_; }
+  /// Hulls that were looked at since the last call: the work.
+  std::int64_t TakeLooks() { return std::exchange(looks_, 0); }
 
  private:
   [[nodiscard]] std::optional<ClusterId> HullAround(const MovingPoint& p) const;

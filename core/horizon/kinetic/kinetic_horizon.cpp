@@ -31,7 +31,7 @@ Result<KineticHorizon> Find(const Terrain& terrain, const RunControl& control,
 }  // namespace
 
 std::int64_t DefaultKineticWorkBudget(std::int64_t terrain_edges) {
-  constexpr std::int64_t kPerEdge = 2000;
+  constexpr std::int64_t kPerEdge = 500;
   constexpr std::int64_t kLeast = 500'000'000;
   return std::max(kLeast, kPerEdge * terrain_edges);
 }

@@ -79,7 +79,7 @@ Result<KineticHorizon> FindHorizonKinetic(const Terrain& terrain, const RunContr
 Result<KineticHorizon> FindHorizonKineticChecked(const Terrain& terrain,
                                                  const KineticOptions& options = {});
 
-/// 2000 an edge of the terrain, and no less than 5 * 10^8 in all: some forty times what the hardest
+/// 500 an edge of the terrain, and no less than 5 * 10^8 in all: some thirty times what the hardest
 /// real DEM known needs, and some seconds.
 std::int64_t DefaultKineticWorkBudget(std::int64_t terrain_edges);
 

@@ -70,6 +70,11 @@ bool KineticSweep<Scene>::OverBudget() const {
   return events_.work + scene_.counts().looks > work_budget_;
 }
 
+template <typename Scene>
+bool KineticSweep<Scene>::MustStop() const {
+  return OverBudget() || control_.StopRequested();
+}
+
 // Why SinkPast() was false.
 template <typename Scene>
 Error KineticSweep<Scene>::Stopped() const {
@@ -101,10 +106,12 @@ bool KineticSweep<Scene>::SinkPast(std::int64_t last) {
     while (end < order_.size() && DepthOf(order_[end]) == s) ++end;
     Report(static_cast<double>(end) / static_cast<double>(order_.size()));
     FindHorizontalEdges(next, end, s);
+    if (MustStop()) return false;
     scene_.Advance(SweepDepth::At(s));
     PassPosts(next, end, s);
+    if (MustStop()) return false;
     RestoreInvariants();
-    if (OverBudget()) return false;
+    if (MustStop()) return false;
     events_.queue_max = std::max(
         events_.queue_max, scene_.queue_size() + static_cast<std::int64_t>(order_.size() - end));
     next = end;
@@ -172,14 +179,14 @@ void KineticSweep<Scene>::RestoreInvariants() {
 template <typename Scene>
 bool KineticSweep<Scene>::MayGoOn() {
   ++events_.work;
-  return !OverBudget() && !control_.StopRequested();
+  return !MustStop();
 }
 
 // Those with both ends inside one hull of higher ground are not asked of.
 template <typename Scene>
 void KineticSweep<Scene>::FindHorizontalEdges(std::size_t next, std::size_t end, std::int64_t s) {
   std::optional<HorizontalEdgeVisibility<Scene>> visibility;
-  for (std::size_t i = next; i < end; ++i) {
+  for (std::size_t i = next; i < end && !MustStop(); ++i) {
     const VertexId v = order_[i];
     for (const VertexId n : terrain_.NeighboursOf(v)) {
       if (n < v || Height(n) != Height(v) || !terrain_.IsRidgeOrBorder({v, n})) continue;
@@ -189,15 +196,16 @@ void KineticSweep<Scene>::FindHorizontalEdges(std::size_t next, std::size_t end,
       if (visibility->IsVisible(terrain_.Point(v), terrain_.Point(n))) {
         result_.edges.push_back({v, n});
       }
+      events_.work += visibility->TakeLooks();
     }
   }
-  if (visibility) events_.work += visibility->looks();
 }
 
 template <typename Scene>
 void KineticSweep<Scene>::PassPosts(std::size_t next, std::size_t end, std::int64_t s) {
   containing_.clear();  // before anything is changed at this depth
   for (std::size_t i = next; i < end; ++i) {
+    if (MustStop()) return;
     containing_.push_back(HasHigherNeighbour(order_[i]) ? -1 : ClusterAround(order_[i], s));
   }
   for (std::size_t i = next; i < end; ++i) {

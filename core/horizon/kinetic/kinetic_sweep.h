@@ -42,6 +42,7 @@ class KineticSweep {
   [[nodiscard]] std::int64_t DepthOf(VertexId v) const { return std::int64_t{summit_} - Height(v); }
   [[nodiscard]] bool Fits() const;
   [[nodiscard]] bool OverBudget() const;
+  [[nodiscard]] bool MustStop() const;
   [[nodiscard]] Error Stopped() const;
   bool SinkTo(std::int64_t s);
   bool SinkPast(std::int64_t last);

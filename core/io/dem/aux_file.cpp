@@ -16,9 +16,9 @@
 #include <gdal.h>
 #include <ogr_srs_api.h>
 
-#include "core/io/dem/nodata_rule.h"
-#include "core/io/dem/number_text.h"
-#include "core/io/dem/raster_place.h"
+#include "core/io/dem/place/reference_system.h"
+#include "core/io/dem/values/nodata_rule.h"
+#include "core/io/dem/values/number_text.h"
 #include "core/io/file.h"
 #include "core/io/text_grid/text_number.h"
 
@@ -32,11 +32,6 @@ struct DestroyXml {
   void operator()(CPLXMLNode* node) const { CPLDestroyXMLNode(node); }
 };
 using XmlPtr = std::unique_ptr<CPLXMLNode, DestroyXml>;
-
-struct DestroyCrs {
-  void operator()(void* crs) const { OSRDestroySpatialReference(crs); }
-};
-using CrsPtr = std::unique_ptr<void, DestroyCrs>;
 
 // What is in hand while one auxiliary file is read.
 class AuxReader {
@@ -159,12 +154,6 @@ class AuxReader {
       if (!(std::abs(a[i] - b[i]) <= 1e-3 * cell)) return false;
     }
     return true;
-  }
-
-  static bool SameCrs(OGRSpatialReferenceH a, OGRSpatialReferenceH b) {
-    const char* const options[] = {"CRITERION=EQUIVALENT_EXCEPT_AXIS_ORDER_GEOGCRS",
-                                   "IGNORE_DATA_AXIS_TO_SRS_AXIS_MAPPING=YES", nullptr};
-    return OSRIsSameEx(a, b, options) != 0;
   }
 
   std::optional<std::string> ReadCrs(const CPLXMLNode* root) {

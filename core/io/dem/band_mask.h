@@ -6,7 +6,7 @@
 #include "core/base/assumption.h"
 #include "core/base/result.h"
 #include "core/io/dem/height_band.h"
-#include "core/io/dem/tiff_blocks.h"
+#include "core/io/dem/tiff/tiff_blocks.h"
 #include "core/io/gdal_session.h"
 
 namespace farhorizon {

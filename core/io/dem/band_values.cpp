@@ -12,9 +12,9 @@
 #include "core/io/dem/aux_file.h"
 #include "core/io/dem/band_mask.h"
 #include "core/io/dem/complete_raster.h"
-#include "core/io/dem/model_scale.h"
-#include "core/io/dem/nodata_rule.h"
-#include "core/io/dem/tiff_images.h"
+#include "core/io/dem/tiff/tiff_images.h"
+#include "core/io/dem/values/model_scale.h"
+#include "core/io/dem/values/nodata_rule.h"
 
 namespace farhorizon {
 

@@ -9,9 +9,9 @@
 #include "core/io/dem/aux_file.h"
 #include "core/io/dem/height_band.h"
 #include "core/io/dem/read_dem.h"
-#include "core/io/dem/sample_type.h"
-#include "core/io/dem/tiff_blocks.h"
-#include "core/io/dem/tiff_file.h"
+#include "core/io/dem/tiff/tiff_blocks.h"
+#include "core/io/dem/tiff/tiff_file.h"
+#include "core/io/dem/values/sample_type.h"
 #include "core/io/gdal_session.h"
 
 namespace farhorizon {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/base/result.h"
-#include "core/io/dem/tiff_file.h"
+#include "core/io/dem/tiff/tiff_file.h"
 
 namespace farhorizon {
 

@@ -15,13 +15,13 @@
 
 #include "core/io/dem/band_values.h"
 #include "core/io/dem/complete_raster.h"
-#include "core/io/dem/fill_cliffs.h"
 #include "core/io/dem/height_band.h"
-#include "core/io/dem/height_quantum.h"
+#include "core/io/dem/place/raster_place.h"
 #include "core/io/dem/raster_limits.h"
-#include "core/io/dem/raster_place.h"
-#include "core/io/dem/untagged_voids.h"
-#include "core/io/dem/value_scale.h"
+#include "core/io/dem/values/fill_cliffs.h"
+#include "core/io/dem/values/height_quantum.h"
+#include "core/io/dem/values/untagged_voids.h"
+#include "core/io/dem/values/value_scale.h"
 #include "core/io/gdal_session.h"
 #include "core/io/raster/open_raster.h"
 

@@ -6,7 +6,7 @@
 
 #include "core/io/file_kind/hgt_name.h"
 #include "core/io/file_kind/unread_formats.h"
-#include "core/io/text_grid/xyz_list.h"
+#include "core/io/text_grid/xyz_points.h"
 
 namespace farhorizon {
 

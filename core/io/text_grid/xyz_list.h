@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <string_view>
 
 #include "core/base/result.h"
 #include "core/io/text_grid/text_grid.h"
@@ -14,10 +13,6 @@ struct XyzGrid {
   TextGrid grid;
   bool order_is_stated = false;  ///< a first line names the columns
 };
-
-/// Whether `beginning`, the first bytes of a file, are lines of three numbers, after one of three
-/// words at most. Blanks, commas or semicolons part them.
-bool LooksLikeXyz(std::string_view beginning);
 
 /// Reads a list of points, x (easting, longitude), y and height a line, in any order, that lie on a
 /// grid; cells that it leaves out have no data. A first line may name the columns, in any order:

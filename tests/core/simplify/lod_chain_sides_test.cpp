@@ -123,7 +123,7 @@ TEST(LodChainSides, TwoNeighboursAgreeOnPostsAndHeightsBySize) {
   std::mt19937 random(2);
   Agreement agreement;
   for (int round = 0; round < Rounds(3); ++round) {
-    const Dem whole = RoughWhole(121, random);
+    const Dem whole = RoughWhole(2 * GridSide(90) + 1, random);
     LodPlan plan;
     plan.max_error_m = 2;
     plan.column_bend = 1e-3;

@@ -235,27 +235,30 @@ std::vector<HardGround> HardGrounds() {
   const auto any = [&random](std::int32_t bound) {
     return static_cast<std::int32_t>(random() % static_cast<unsigned>(bound));
   };
+  constexpr int kSide = GridSide(121);
   std::vector<HardGround> all;
-  all.push_back({"flat", MakeDem(150, 150, [](std::int32_t, std::int32_t) { return 3; })});
+  all.push_back({"flat", MakeDem(kSide, kSide, [](std::int32_t, std::int32_t) { return 3; })});
+  all.push_back({"slope", MakeDem(kSide, 2 * kSide / 3,
+                                  [](std::int32_t c, std::int32_t r) { return 7 * c - r; })});
   all.push_back(
-      {"slope", MakeDem(150, 90, [](std::int32_t c, std::int32_t r) { return 7 * c - r; })});
-  all.push_back(
-      {"noise", MakeDem(110, 110, [&](std::int32_t, std::int32_t) { return any(1000); })});
-  all.push_back({"peaks", MakeDem(121, 121, [](std::int32_t c, std::int32_t r) {
+      {"noise", MakeDem(kSide, kSide, [&](std::int32_t, std::int32_t) { return any(1000); })});
+  all.push_back({"peaks", MakeDem(kSide, kSide, [](std::int32_t c, std::int32_t r) {
                    return c % 2 == 1 && r % 2 == 1 ? 9 : 0;
                  })});
   all.push_back(
-      {"saw", MakeDem(121, 121, [](std::int32_t c, std::int32_t) { return c % 2 * 50; })});
-  all.push_back({"strip", MakeDem(2, 4000, [&](std::int32_t, std::int32_t) { return any(50); })});
-  all.push_back({"level strip", MakeDem(4000, 2, [](std::int32_t, std::int32_t) { return 1; })});
-  all.push_back({"holes", MakeDem(110, 110, [&](std::int32_t, std::int32_t) {
+      {"saw", MakeDem(kSide, kSide, [](std::int32_t c, std::int32_t) { return c % 2 * 50; })});
+  all.push_back(
+      {"strip", MakeDem(2, 30 * kSide, [&](std::int32_t, std::int32_t) { return any(50); })});
+  all.push_back(
+      {"level strip", MakeDem(30 * kSide, 2, [](std::int32_t, std::int32_t) { return 1; })});
+  all.push_back({"holes", MakeDem(kSide, kSide, [&](std::int32_t, std::int32_t) {
                    return any(4) == 0 ? kNoHeight : any(1000);
                  })});
-  all.push_back({"bowl", MakeDem(101, 101, [](std::int32_t c, std::int32_t r) {
-                   return (c - 50) * (c - 50) + (r - 50) * (r - 50);
+  all.push_back({"bowl", MakeDem(kSide, kSide, [](std::int32_t c, std::int32_t r) {
+                   return (c - kSide / 2) * (c - kSide / 2) + (r - kSide / 2) * (r - kSide / 2);
                  })});
-  all.push_back({"cliff", MakeDem(100, 100, [](std::int32_t c, std::int32_t r) {
-                   return c + r > 90 ? 1 << 22 : c % 3;
+  all.push_back({"cliff", MakeDem(kSide, kSide, [](std::int32_t c, std::int32_t r) {
+                   return c + r > kSide ? 1 << 22 : c % 3;
                  })});
   return all;
 }

@@ -1,5 +1,5 @@
-// The conductor of algorithm 3.1 of [Archambault03]: what happens at an event, in the numbered steps
-// of bitangent_scene.h. All state is in the parts. What a step leaves for later ones (marks,
+// The conductor of algorithm 3.1 of [Archambault03]: what happens at an event, in the numbered
+// steps of bitangent_scene.h. All state is in the parts. What a step leaves for later ones (marks,
 // crossings, collinear pairs, dropped arcs, changed hulls) is used up when RestoreInvariants()
 // returns. Cost of an event: O(h) for each changed hull of h corners, O(m (h + log n)) for each new
 // one among m hulls and n certificates, and O(k log n) for each stale corner with k half tangents.
@@ -125,7 +125,7 @@ void BitangentScene::RestoreInvariants() {
 }
 
 void BitangentScene::UpdateHulls() {
-  for (const ClusterId c : hulls_.changed()) {
+  for (const ClusterId c : hulls_.TakeOutdated()) {
     if (Find(c) == c) counts_.left_interior += hulls_.UpdateHull(c);
   }
 }

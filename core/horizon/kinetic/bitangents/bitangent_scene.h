@@ -24,8 +24,8 @@ namespace farhorizon::kinetic {
 /// The slice of the terrain at one depth, as chapter 3 of [Archambault03] keeps it: disjoint convex
 /// hulls of moving points, the bitangents of each two of them, and the visual gaps at their
 /// corners. In place of contours it has merged hulls, which occlude the same lines
-/// (core/horizon/README.md, theorem 4). It takes O(m^2) for m hulls; what the horizon needs of it is
-/// in a NeighbourScene, and this one is the chapter itself, for pictures and tests.
+/// (core/horizon/README.md, theorem 4). It takes O(m^2) for m hulls; what the horizon needs of it
+/// is in a NeighbourScene, and this one is the chapter itself, for pictures and tests.
 ///
 /// The invariants are in the headers of the parts: certificate_queue.h, kinetic_hulls.h,
 /// tangent_table.h, tangent_certificates.h, corner_order.h and occlusion_depths.h. They hold at

@@ -78,8 +78,9 @@ void KineticHulls::InvalidateTriangle(PointId p) {
 }
 
 void KineticHulls::MarkChanged(ClusterId c) {
-  if (std::exchange(hulls_[Index(c)].changed, true)) return;
-  changed_.push_back(c);
+  KineticHull& hull = hulls_[Index(c)];
+  if (!std::exchange(hull.outdated, true)) outdated_.push_back(c);
+  if (!std::exchange(hull.changed, true)) changed_.push_back(c);
 }
 
 namespace {
@@ -163,6 +164,7 @@ bool AddOutside(const KineticHulls& hulls, PointId p, std::vector<PointId>& ring
 }  // namespace
 
 std::int64_t KineticHulls::UpdateHull(ClusterId c) {
+  hulls_[Index(c)].outdated = false;
   if (forest_) {
     SetCorners(c, CornersByTree(c));
     return 0;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/horizon/kinetic/hulls/certificate_queue.h"
@@ -23,6 +24,7 @@ struct KineticHull {
   bool joined = false;             ///< the corners are those of two hulls
   bool is_new = false;             ///< no tangents yet
   bool changed = false;            ///< is in changed()
+  bool outdated = false;           ///< is to be updated
 };
 
 /// Convex hulls of clusters of moving points, kept by certificates.
@@ -71,6 +73,9 @@ class KineticHulls {
   /// The certificate of a tree has failed.
   void FailTree(std::int32_t id) { MarkChanged(forest_->Fail(id)); }
 
+  /// The clusters that changed since they were updated, each once; some may have been joined to
+  /// another since. The caller updates those that were not.
+  [[nodiscard]] std::vector<ClusterId> TakeOutdated() { return std::exchange(outdated_, {}); }
   /// Finds the corners anew where they changed, and marks those as displaced that have other
   /// neighbours than before. Returns how many of the new ones were interior points.
   std::int64_t UpdateHull(ClusterId c);
@@ -124,6 +129,7 @@ class KineticHulls {
   mutable std::vector<ClusterId> roots_;  // a forest as in union_find.h; Find() shortens its paths
   std::vector<ClusterId> clusters_;
   std::vector<ClusterId> changed_;
+  std::vector<ClusterId> outdated_;
   std::vector<PointId> interior_points_;  // that are to be given a triangle
 };
 

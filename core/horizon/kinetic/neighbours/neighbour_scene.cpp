@@ -105,36 +105,45 @@ void NeighbourScene::RestoreInvariants() {
 }
 
 void NeighbourScene::UpdateHulls() {
-  for (const ClusterId c : hulls_.changed()) {
-    if (Find(c) == c) counts_.left_interior += hulls_.UpdateHull(c);
+  for (const ClusterId c : hulls_.TakeOutdated()) {
+    if (Find(c) != c) continue;
+    counts_.left_interior += hulls_.UpdateHull(c);
+    updated_.push_back(c);
   }
 }
 
 bool NeighbourScene::JoinIntersecting() {
-  GrowBoxes();
+  for (const ClusterId c : std::exchange(updated_, {})) {
+    GrowBox(c);
+    for (const TangentId t : tangents_.Of(c)) {
+      const SeparatingTangent& tangent = tangents_.tangent(t);
+      const PointId own = tangent.a == c ? tangent.p : tangent.q;
+      if (marks_.IsDisplaced(own)) failed_tangents_.push_back(t);
+    }
+  }
   return RestoreTangents() || JoinNeighbours();
 }
 
-// An octagon contains its hull until the hull gets other corners.
-void NeighbourScene::GrowBoxes() {
-  for (const PointId p : marks_.displaced()) {
+// The octagon contains the whole ways of the corners, so it contains the hull until that gets
+// other corners.
+void NeighbourScene::GrowBox(ClusterId c) {
+  PlanBox& box = boxes_[Index(c)];
+  bool grown = false;
+  for (const PointId p : hulls_.corners(c)) {
+    if (!marks_.IsDisplaced(p)) continue;
     const KineticPoint& corner = hulls_.point(p);
-    if (!corner.corner) continue;
-    const ClusterId c = hulls_.ClusterOf(p);
-    PlanBox& box = boxes_[Index(c)];
     const Place from = PlaceAt(corner.path, std::floor(hulls_.now().lo));
-    bool grown = box.Add(from.x, from.y);
-    if (corner.path.vx != 0 || corner.path.vy != 0) {
-      if (corner.end == kNever) {
-        box.AddAll();
-        grown = true;
-      } else {
-        const Place to = PlaceAt(corner.path, static_cast<double>(corner.end));
-        grown = box.Add(to.x, to.y) || grown;
-      }
+    grown = box.Add(from.x, from.y) || grown;
+    if (corner.path.vx == 0 && corner.path.vy == 0) continue;
+    if (corner.end == kNever) {
+      box.AddAll();
+      grown = true;
+    } else {
+      const Place to = PlaceAt(corner.path, static_cast<double>(corner.end));
+      grown = box.Add(to.x, to.y) || grown;
     }
-    if (grown) MarkGrown(c);
   }
+  if (grown) MarkGrown(c);
 }
 
 void NeighbourScene::MarkGrown(ClusterId c) {
@@ -164,12 +173,6 @@ bool NeighbourScene::JoinNeighbours() {
 }
 
 bool NeighbourScene::RestoreTangents() {
-  for (const PointId p : marks_.displaced()) {
-    for (const TangentId t : tangents_.Of(hulls_.ClusterOf(p))) {
-      const SeparatingTangent& tangent = tangents_.tangent(t);
-      if (tangent.p == p || tangent.q == p) failed_tangents_.push_back(t);
-    }
-  }
   while (!failed_tangents_.empty()) {
     const TangentId t = failed_tangents_.back();
     failed_tangents_.pop_back();

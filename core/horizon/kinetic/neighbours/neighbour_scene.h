@@ -91,7 +91,7 @@ class NeighbourScene {
   [[nodiscard]] bool JoinIntersecting();
   [[nodiscard]] bool JoinNeighbours();
   [[nodiscard]] bool RestoreTangents();
-  void GrowBoxes();
+  void GrowBox(ClusterId c);
   void FindVisualGaps();
   void AskCorner(PointId p);
   void MarkGrown(ClusterId c);
@@ -104,6 +104,7 @@ class NeighbourScene {
   std::vector<PlanBox> boxes_;                  // by cluster
   std::vector<std::vector<ClusterId>> recent_;  // by cluster: hulls that occluded its corners last
   std::vector<bool> on_horizon_;                // by point
+  std::vector<ClusterId> updated_;              // hulls updated since their tangents were restored
   std::vector<ClusterId> grown_;                // clusters whose octagons grew in this step
   std::vector<bool> is_grown_;                  // by cluster: whether it is there
   std::vector<TangentId> failed_tangents_;

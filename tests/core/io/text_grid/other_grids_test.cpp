@@ -8,6 +8,7 @@
 #include "core/io/text_grid/grass_grid.h"
 #include "core/io/text_grid/surfer_grid.h"
 #include "core/io/text_grid/xyz_list.h"
+#include "core/io/text_grid/xyz_points.h"
 #include "tests/support/temp_dir.h"
 
 namespace farhorizon {

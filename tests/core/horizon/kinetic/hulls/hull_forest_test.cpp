@@ -36,7 +36,7 @@ class OneHull {
   }
   void Remove(PointId p) { hulls_.Remove(p); }
   void Restore() {
-    for (const ClusterId c : hulls_.changed()) hulls_.UpdateHull(c);
+    for (const ClusterId c : hulls_.TakeOutdated()) hulls_.UpdateHull(c);
     hulls_.LocateInteriorPoints();
     marks_.ClearDisplaced();
     marks_.ClearStale();

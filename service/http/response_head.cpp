@@ -1,0 +1,41 @@
+#include "service/http/response_head.h"
+
+#include <algorithm>
+#include <string_view>
+
+#include "service/clock.h"
+
+namespace farhorizon {
+
+std::string ResponseHead(const HttpRequest& request, const HttpResponse& response, bool keep_alive,
+                         const std::string& cors_origin) {
+  std::string head =
+      "HTTP/1.1 " + std::to_string(response.status) + " " + ReasonPhrase(response.status) + "\r\n";
+  const auto add = [&head](std::string_view name, std::string_view value) {
+    head.append(name).append(": ").append(value).append("\r\n");
+  };
+  for (const auto& [name, value] : response.headers) add(name, value);
+  if (response.status != 204 && response.status != 304) {
+    add("Content-Length", std::to_string(response.BodyBytes()));
+  }
+  add("Date", FormatHttpDate(NowMs()));
+  add("Connection", keep_alive ? "keep-alive" : "close");
+  add("X-Content-Type-Options", "nosniff");
+  // A handler that has a page says what the page may do; nothing else is one.
+  const bool has_policy =
+      std::any_of(response.headers.begin(), response.headers.end(),
+                  [](const auto& field) { return field.first == "Content-Security-Policy"; });
+  if (!has_policy) add("Content-Security-Policy", "default-src 'none'");
+  if (!cors_origin.empty()) {
+    add("Access-Control-Allow-Origin", cors_origin);
+    add("Access-Control-Expose-Headers",
+        "Location, ETag, Link, Retry-After, Content-Range, Accept-Ranges, Repr-Digest");
+    if (cors_origin != "*") add("Vary", "Origin");
+  }
+  if (const std::string* id = request.Header("x-request-id"); id != nullptr && id->size() <= 200) {
+    add("X-Request-Id", *id);
+  }
+  return head + "\r\n";
+}
+
+}  // namespace farhorizon
