@@ -208,7 +208,8 @@ TEST(FindHorizonKinetic, CountsTheEventsOfTwoSummits) {
 // The tree certifies all points, so it has events at which no corner changes; those at which one
 // does are the same.
 TEST(FindHorizonKinetic, CountsTheEventsOfTheTreeBesideThoseOfTheTurns) {
-  const Terrain terrain = *Terrain::Build(FractalDem(33, 3000, 100, 8));
+  const Dem dem = FractalDem(33, 3000, 100, 8);
+  const Terrain terrain = *Terrain::Build(dem);
   const EventCounts turns = FindHorizonKinetic(terrain, {})->events;
   const EventCounts tree =
       FindHorizonKinetic(terrain, {}, {.hull = HullCertificates::kTree})->events;
@@ -277,13 +278,15 @@ Dem Spikes(std::int32_t side) {
 
 // Each spike is a hull of its own until the plane is down.
 TEST(FindHorizonKinetic, KeepsTheTangentsOfNeighboursOnly) {
-  const KineticHorizon horizon = *FindHorizonKinetic(*Terrain::Build(Spikes(33)), {});
+  const Dem dem = Spikes(33);
+  const KineticHorizon horizon = *FindHorizonKinetic(*Terrain::Build(dem), {});
   EXPECT_EQ(horizon.events.clusters_max, 121);
   EXPECT_LT(horizon.events.tangents_max, 4 * 121) << "of 7,260 pairs";
 }
 
 TEST(FindHorizonKineticLong, DealsWithMoreThanAThousandHulls) {
-  const Terrain terrain = *Terrain::Build(Spikes(105));
+  const Dem dem = Spikes(105);
+  const Terrain terrain = *Terrain::Build(dem);
   const KineticHorizon horizon = *FindHorizonKinetic(terrain, {});
   EXPECT_EQ(horizon.events.clusters_max, 35 * 35);
   EXPECT_LT(horizon.events.tangents_max, 4 * 35 * 35);
