@@ -92,9 +92,10 @@ TEST(BudgetedWork, EndsWhereThereIsNothingToDo) {
 TEST(BudgetedWork, StopsWhenAskedTo) {
   std::stop_source source;
   source.request_stop();
+  RunControl control;
+  control.stop = source.get_token();
   WorkBudget budget(CostOfAll());
-  Result<std::vector<std::size_t>> open =
-      WorkThrough(Counting(), 2, budget, {.stop = source.get_token()});
+  Result<std::vector<std::size_t>> open = WorkThrough(Counting(), 2, budget, control);
   ASSERT_FALSE(open);
   EXPECT_EQ(open.error().code, ErrorCode::kCancelled);
 }

@@ -86,7 +86,9 @@ void ExpectTheDefinition(const Dem& dem, Tally& tally) {
   const Horizon found = *FindHorizon(terrain, {}, control);
   ASSERT_EQ(found.edges.size(), decided.edges.size()) << DrawAscii(dem);
   EXPECT_EQ(warning.empty(), inexact == 0);
-  if (inexact > 0) EXPECT_EQ(warning.find(std::to_string(inexact) + " edges"), 0U) << warning;
+  if (inexact > 0) {
+    EXPECT_EQ(warning.find(std::to_string(inexact) + " edges"), 0U) << warning;
+  }
 }
 
 Tally ExpectTheDefinitionOn(const CliffHeights& heights, int rounds, std::uint32_t seed) {
