@@ -219,7 +219,9 @@ Result<Candidates> FindCandidates(const Terrain& terrain, const HullSweep& sweep
   // Of what is left of a budget that is short, one part in so many is for candidates.
   constexpr std::int64_t kShare = 8;
   const Error stopped{ErrorCode::kCancelled, "stopped while looking for candidates"};
-  constexpr double kSurvivors = 0.15;  // their share of the stage's time
+  // Shares of the stage at which steps end; the last one is for what is begun anew.
+  constexpr double kSurvivors = 0.15;
+  constexpr double kFirstTime = 0.9;
   control.Report(Stage::kCandidates, 0);
   const CandidateSearch search(terrain, sweep);
   const auto rows = static_cast<std::size_t>(terrain.dem().rows);
@@ -249,7 +251,7 @@ Result<Candidates> FindCandidates(const Terrain& terrain, const HullSweep& sweep
   }
   std::vector<Candidates> parts(tasks.size());
   // Each survivor may take `limit` decisions. ends: where the budget is exceeded.
-  const auto find_candidates = [&](std::int64_t limit, bool ends) {
+  const auto find_candidates = [&](std::int64_t limit, bool ends, const RunControl& part) {
     const auto find = [&](std::size_t begin, std::size_t end, std::size_t /*thread*/) {
       for (std::size_t i = begin; i < end; ++i) {
         if (ends && budget.IsExceeded()) return;
@@ -258,18 +260,19 @@ Result<Candidates> FindCandidates(const Terrain& terrain, const HullSweep& sweep
         budget.Spend(spent);
       }
     };
-    return ParallelForBatches(tasks.size(), 1, threads, Stage::kCandidates,
-                              control.Between(kSurvivors, 1), find);
+    return ParallelForBatches(tasks.size(), 1, threads, Stage::kCandidates, part, find);
   };
   const std::int64_t before = budget.spent();
-  if (!find_candidates(kMostDecisions, true)) return stopped;
+  if (!find_candidates(kMostDecisions, true, control.Between(kSurvivors, kFirstTime))) {
+    return stopped;
+  }
   if (budget.IsExceeded()) {
     if (!budget.approximate()) return OverBudget("looking for candidates", budget);
     budget.Rewind(before);
-    if (!find_candidates(budget.left() / kShare / std::max<std::int64_t>(count, 1), false)) {
-      return stopped;
-    }
+    const std::int64_t each = budget.left() / kShare / std::max<std::int64_t>(count, 1);
+    if (!find_candidates(each, false, control.Between(kFirstTime, 1))) return stopped;
   }
+  control.Report(Stage::kCandidates, 1);
   return Joined(parts);
 }
 
