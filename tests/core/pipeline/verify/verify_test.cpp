@@ -15,6 +15,7 @@
 #include "core/pipeline/build.h"
 #include "core/pipeline/report.h"
 #include "tests/support/temp_dir.h"
+#include "tests/support/test_raster.h"
 
 namespace farhorizon {
 namespace {
@@ -125,10 +126,12 @@ TEST_F(Verify, EveryClaimHoldsWhereHeightsHaveAllTheBitsOfADouble) {
 
 // One edge whose line of sight no double can write does not refuse the DEM.
 TEST_F(Verify, AnEdgeWithoutWitnessIsDecidedByItself) {
-  SpillFile(folder_ / "hills.asc",
-            "ncols 4\nnrows 4\nxllcorner 500000\nyllcorner 5100000\ncellsize 30\n"
-            "536870913 3 32770 536870912\n536870915 32770 536870915 536870912\n"
-            "536870915 536870912 1 32768\n536870914 3 3 32771\n");
+  // Cliffs of 4096 m in quanta of 2^-17 m.
+  TestRaster raster{.columns = 4, .rows = 4, .type = "Float64"};
+  raster.values = {536870913, 3,         32770, 536870912, 536870915, 32770, 536870915, 536870912,
+                   536870915, 536870912, 1,     32768,     536870914, 3,     3,         32771};
+  for (double& z : raster.values) z = std::ldexp(z, -17);
+  WriteTiff(folder_ / "hills.asc", raster);
   std::filesystem::remove_all(folder_ / "out");
   options_.formats = {"geojson"};
   Status built = BuildArtifacts(folder_ / "hills.asc", folder_ / "out", options_, control_);
