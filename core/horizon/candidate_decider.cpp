@@ -1,3 +1,5 @@
+// Each candidate is asked for a line of sight over all candidates, which generate H. The budget's
+// division among them is BudgetedWork's; here is what one batch does, and the set that comes out.
 #include "core/horizon/candidate_decider.h"
 
 #include <algorithm>

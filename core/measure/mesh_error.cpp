@@ -171,14 +171,13 @@ Result<std::vector<MeshError>> MeshMeasurer::MeasureAll(std::span<const PlacedMe
   const auto share = [&](std::size_t n) {
     return static_cast<double>(n) / static_cast<double>(meshes.size());
   };
-  const bool done = ParallelForBatches(meshes.size(), 1, threads, Stage::kMeasure, control,
-                                       [&](std::size_t i, std::size_t end, std::size_t thread) {
-                                         RunControl piece = control.Between(share(i), share(end));
-                                         if (thread > 0)
-                                           piece.progress =
-                                               nullptr;  // reports come from one thread
-                                         found[i] = MeasurePrepared(meshes[i], piece);
-                                       });
+  const auto measure = [&](std::size_t i, std::size_t end, std::size_t thread) {
+    RunControl piece = control.Between(share(i), share(end));
+    if (thread > 0) piece.progress = nullptr;  // reports come from one thread
+    found[i] = MeasurePrepared(meshes[i], piece);
+  };
+  const bool done =
+      ParallelForBatches(meshes.size(), 1, threads, Stage::kMeasure, control, measure);
   if (!done) return Error{ErrorCode::kCancelled, "stopped while measuring"};
   std::vector<MeshError> errors;
   for (std::optional<Result<MeshError>>& error : found) {

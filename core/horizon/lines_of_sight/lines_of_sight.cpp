@@ -1,3 +1,6 @@
+// The lines of sight of each edge are cells of (place on the edge, direction), found exactly
+// (visible_region.h) over the other horizon edges, and converted to doubles at the end: places are
+// counted from the edge's first end there, from its lower end here.
 #include "core/horizon/lines_of_sight/lines_of_sight.h"
 
 #include <algorithm>

@@ -52,25 +52,9 @@ ClusterId BitangentScene::Join(ClusterId a, ClusterId b) {
 void BitangentScene::Advance(const SweepDepth& now) {
   hulls_.AdvanceTo(now);
   while (const std::optional<Event> event = queue_.PopAt(now)) {
-    switch (event->kind) {
-      case CertificateKind::kHull:
-        ++counts_.hull_failures;
-        hulls_.InvalidateCorners(event->id);
-        break;
-      case CertificateKind::kTree:
-        ++counts_.hull_failures;
-        hulls_.FailTree(event->id);
-        break;
-      case CertificateKind::kInterior:
-        ++counts_.interior_failures;
-        hulls_.InvalidateTriangle(event->id);
-        break;
-      case CertificateKind::kTangent:
-        FailTangent(event->id / 2, static_cast<std::size_t>(event->id % 2));
-        break;
-      case CertificateKind::kCover:
-        break;  // of a NeighbourScene
-    }
+    // All others here are tangents: covers are a NeighbourScene's.
+    if (hulls_.Fail(*event, counts_)) continue;
+    FailTangent(event->id / 2, static_cast<std::size_t>(event->id % 2));
   }
 }
 

@@ -1,3 +1,6 @@
+// Changes are only marked (dirty) when they come; Update merges the marked nodes anew, level by
+// level from the leaves, and marks a parent only where its child's hull has changed. So several
+// changes at one depth cost one pass.
 #include "core/horizon/kinetic/hulls/hull_forest.h"
 
 #include <algorithm>

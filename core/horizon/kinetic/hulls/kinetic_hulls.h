@@ -12,6 +12,7 @@
 #include "core/horizon/kinetic/hulls/hull_forest.h"
 #include "core/horizon/kinetic/hulls/kinetic_point.h"
 #include "core/horizon/kinetic/hulls/moving_point.h"
+#include "core/horizon/kinetic/hulls/scene_counts.h"
 #include "core/horizon/kinetic/hulls/step_marks.h"
 #include "core/horizon/kinetic/hulls/sweep_depth.h"
 
@@ -70,8 +71,9 @@ class KineticHulls {
   /// The interior point has come to the border of its triangle, or a corner of that is removed.
   void InvalidateTriangle(PointId p);
 
-  /// The certificate of a tree has failed.
-  void FailTree(std::int32_t id) { MarkChanged(forest_->Fail(id)); }
+  /// A certificate has failed: deals with it and counts it if it is one of hulls, trees or interior
+  /// points. Returns whether it is.
+  bool Fail(const Event& event, SceneCounts& counts);
 
   /// The clusters that changed since they were updated, each once; some may have been joined to
   /// another since. The caller updates those that were not.

@@ -68,27 +68,13 @@ void NeighbourScene::Remove(PointId p) {
 void NeighbourScene::Advance(const SweepDepth& now) {
   hulls_.AdvanceTo(now);
   while (const std::optional<Event> event = queue_.PopAt(now)) {
-    switch (event->kind) {
-      case CertificateKind::kHull:
-        ++counts_.hull_failures;
-        hulls_.InvalidateCorners(event->id);
-        break;
-      case CertificateKind::kTree:
-        ++counts_.hull_failures;
-        hulls_.FailTree(event->id);
-        break;
-      case CertificateKind::kInterior:
-        ++counts_.interior_failures;
-        hulls_.InvalidateTriangle(event->id);
-        break;
-      case CertificateKind::kTangent:
-        ++counts_.separation_failures;
-        failed_tangents_.push_back(event->id);
-        break;
-      case CertificateKind::kCover:
-        ++counts_.cover_failures;
-        failed_covers_.push_back(event->id);
-        break;
+    if (hulls_.Fail(*event, counts_)) continue;
+    if (event->kind == CertificateKind::kTangent) {
+      ++counts_.separation_failures;
+      failed_tangents_.push_back(event->id);
+    } else {
+      ++counts_.cover_failures;
+      failed_covers_.push_back(event->id);
     }
   }
 }

@@ -72,16 +72,13 @@ class OneHull {
  private:
   void Advance(const SweepDepth& now) {
     hulls_.AdvanceTo(now);
-    while (const std::optional<Event> event = queue_.PopAt(now)) {
-      if (event->kind == CertificateKind::kHull) hulls_.InvalidateCorners(event->id);
-      if (event->kind == CertificateKind::kInterior) hulls_.InvalidateTriangle(event->id);
-      if (event->kind == CertificateKind::kTree) hulls_.FailTree(event->id);
-    }
+    while (const std::optional<Event> event = queue_.PopAt(now)) hulls_.Fail(*event, counts_);
   }
 
   CertificateQueue queue_;
   StepMarks marks_;
   KineticHulls hulls_;
+  SceneCounts counts_;
   ClusterId c_ = -1;
 };
 
