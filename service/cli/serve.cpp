@@ -24,7 +24,8 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 
 constexpr milliseconds kPollInterval{100};
-constexpr milliseconds kSendTimeout{3000};
+// After jobs.drainSeconds, of which eight by default: out within ten.
+constexpr milliseconds kSendTimeout{1000};
 
 struct ServeArguments {
   std::string config_file;
@@ -81,6 +82,7 @@ int Serve(const Config& config) {
   if (!server) return ReportError(server.error());
   Result<std::unique_ptr<JobService>> jobs = JobService::Open(JobOptions(config));
   if (!jobs) return ReportError(jobs.error());
+  (*jobs)->MarkEnd();
   const std::string base = BaseUrl(config, *address, (*server)->port());
   const Router router = BuildRouter({**jobs, base, config.max_body_bytes});
   (*server)->Serve(router);

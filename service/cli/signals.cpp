@@ -23,6 +23,7 @@ void BlockSignals() {
   const sigset_t set = StopSignals();
   ::pthread_sigmask(SIG_BLOCK, &set, nullptr);
   ::signal(SIGPIPE, SIG_IGN);
+  ::signal(SIGXFSZ, SIG_IGN);  // a write beyond RLIMIT_FSIZE then fails as on a full disk
 }
 
 std::optional<int> WaitForSignal(std::chrono::milliseconds most) {

@@ -8,7 +8,8 @@
 
 namespace farhorizon {
 
-/// Blocks SIGINT and SIGTERM in this thread and in those that it starts later; ignores SIGPIPE.
+/// Blocks SIGINT and SIGTERM in this thread and in those that it starts later; ignores SIGPIPE
+/// and SIGXFSZ.
 void BlockSignals();
 
 /// Waits for a blocked SIGINT or SIGTERM and returns it; nullopt if none comes within `most`.

@@ -122,8 +122,11 @@ Result<Submission> SubmitExchange::ReadSubmission() const {
     if (!added) return std::move(added.error());
   }
   const std::string name = head.filename.value_or(body_.filename().value_or(""));
-  return Submission{SafeFilename(name), std::move(head.parameters),
-                    std::move(head.idempotency_key)};
+  return Submission{SafeFilename(name),
+                    std::move(head.parameters),
+                    std::move(head.idempotency_key),
+                    {},
+                    request_.peer};
 }
 
 Result<Job> SubmitExchange::Submit() const {
@@ -172,7 +175,7 @@ Admission BeginSubmission(const HandlerContext& context, const HttpRequest& requ
   }
   Result<SubmissionHead> head = ReadSubmissionHead(request);
   if (!head) return ProblemResponse(request, ProblemOf(head.error()));
-  const Status room = context.jobs.CheckRoom();
+  const Status room = context.jobs.CheckRoom(request.peer);
   if (!room) return ProblemResponse(request, ProblemOf(room.error()));
   Result<SpoolFile> spool = context.jobs.NewSpoolFile();
   if (!spool) {
