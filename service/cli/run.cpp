@@ -29,6 +29,8 @@ int RunProgram(int argc, char** argv) {
   AddCompare(program, selected);
   AddVerify(program, selected);
   AddServe(program, selected);
+  AddBackup(program, selected);
+  AddFsck(program, selected);
   AddSubmit(program, selected);
   AddHealthcheck(program, selected);
   AddWorker(program, selected);
