@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <map>
 #include <memory>
+#include <sys/stat.h>
 #include <thread>
 
 #include "core/pipeline/version.h"
@@ -75,6 +76,7 @@ void Drain(JobService& jobs, seconds most) {
 int Serve(const Config& config) {
   Result<HostPort> address = ReadHostPort(config.listen);
   if (!address) return ReportError(address.error());
+  ::umask(077);    // nothing of the data is for other users
   BlockSignals();  // before any thread is started, so that all of them block
   ConfigureLog(config.log);
   // The port first: a process that cannot bind it must not change the data.

@@ -50,7 +50,8 @@ Status CheckPrivate(const fs::path& root, const fs::path& path) {
   }
   if ((info.st_mode & kForOthers) == 0) return Ok{};
   if (::chmod(path.c_str(), info.st_mode & 07777 & ~kForOthers) == 0) return Ok{};
-  return Unusable(root, what + " can be read by other users; chmod -R go-rwx " + root.string());
+  return Unusable(root, what + " can be read by other users, and " + StorageError("chmod").message +
+                            "; chmod -R go-rwx " + root.string());
 }
 
 Status CheckEntries(const fs::path& root, const fs::path& folder) {

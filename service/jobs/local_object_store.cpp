@@ -1,6 +1,6 @@
 // An object appears whole or not at all: write a temporary file, fsync it, name it as incoming,
-// rename it into place, fsync the folder. The first name need not be durable: a power cut that loses
-// it makes a stray of an object that was never acknowledged.
+// rename it into place, fsync the folder. The name as incoming need not be durable: a power cut
+// that loses it makes a stray of an object that was never acknowledged.
 #include "service/jobs/local_object_store.h"
 
 #include <atomic>
