@@ -434,7 +434,8 @@ class Expiry : public JobStoreConformance {
   }
   std::vector<std::string> Left() {
     std::vector<std::string> ids;
-    for (const Job& job : store_->List({{}, {}, 100})->jobs) ids.insert(ids.begin(), job.id);
+    const auto page = store_->List({{}, {}, 100});
+    for (const Job& job : page->jobs) ids.insert(ids.begin(), job.id);
     return ids;
   }
   std::int64_t Remove(const Retention& retention) {
