@@ -34,14 +34,15 @@ class Checker {
  private:
   void Fault(const std::string& line, bool mended);
   bool SetAside(const fs::path& file, const char* why);
+  void SayLeftovers();
   // Each returns whether the rows can be looked at.
   bool CheckDatabase();
   bool Salvage();
   void CheckObjectFiles(CheckedObjects found);
   void CheckJobs(Database& database);
   void CheckJob(Database& database, const Job& job);
-  // What becomes of a job whose results are lost: runs again where its upload is there.
-  void MendJob(Database& database, const Job& job, const std::string& why);
+  // What becomes of a job that cannot stay as it is: it runs again, or has failed.
+  void MendJob(Database& database, const Job& job, const std::string& why, bool again);
   void CheckReferences(Database& database);
 
   const FsckOptions& options_;
@@ -60,7 +61,22 @@ bool Checker::SetAside(const fs::path& file, const char* why) {
   return options_.repair && MoveAside(file, directory_.root / "stray" / why);
 }
 
+// Of a process that was killed: no fault, for every start removes them.
+void Checker::SayLeftovers() {
+  for (const fs::path& folder :
+       {directory_.Spool(), directory_.Work(), directory_.Objects() / "temp"}) {
+    std::error_code failure;
+    for (fs::directory_iterator it(folder, failure), end; !failure && it != end;
+         it.increment(failure)) {
+      options_.say(
+          "left by a killed process: " + it->path().lexically_relative(directory_.root).string() +
+          ": a start removes it");
+    }
+  }
+}
+
 Result<FsckSum> Checker::Run() {
+  SayLeftovers();
   const bool rows = CheckDatabase();
   Result<CheckedObjects> objects = CheckObjects(directory_.Objects());
   if (!objects) return std::move(objects.error());
@@ -144,23 +160,24 @@ void Checker::CheckJobs(Database& database) {
 
 void Checker::CheckJob(Database& database, const Job& job) {
   if (!IsTerminal(job.state)) {
+    if (job.failure) return MendJob(database, job, "its row is damaged", false);
     if (good_.contains(job.input_sha256)) return;
-    return MendJob(database, job, "its upload is lost");
+    return MendJob(database, job, "its upload is lost", false);
   }
   if (job.state != JobState::kSuccessful) return;
   for (const Artifact& artifact : SelectArtifacts(database, job.id)) {
     const auto object = good_.find(artifact.sha256);
     if (object != good_.end() && object->second == artifact.bytes) continue;
-    return MendJob(database, job, "its result " + artifact.name + " is lost or damaged");
+    return MendJob(database, job, "its result " + artifact.name + " is lost or damaged",
+                   good_.contains(job.input_sha256));
   }
 }
 
-void Checker::MendJob(Database& database, const Job& job, const std::string& why) {
+void Checker::MendJob(Database& database, const Job& job, const std::string& why, bool again) {
   const std::string line = "job " + job.id + ": " + why;
   if (!options_.repair) return Fault(line, false);
   Transaction transaction(database);
   Statement(database, "DELETE FROM artifacts WHERE job_id = ?").Bind(job.id).Run();
-  const bool again = good_.contains(job.input_sha256);
   if (again) {
     Statement(database,
               "UPDATE jobs SET state = 'accepted', message = 'waiting to run again', progress = 0, "

@@ -121,6 +121,22 @@ TEST_F(CheckStoreTest, FailsAWaitingJobThatHasLostItsUpload) {
   EXPECT_EQ(OpenService(data_)->Find(waiting_.id)->failure->kind, "input-corrupt");
 }
 
+TEST_F(CheckStoreTest, FailsAJobWhoseRowCannotBeUnderstood) {
+  {
+    Database database;
+    database.Open(data_ / "jobs.sqlite");
+    database.Execute("UPDATE jobs SET parameters = '%' WHERE state = 'accepted'");
+  }
+  ExpectMended(1);
+  EXPECT_EQ(OpenService(data_)->Find(waiting_.id)->state, JobState::kFailed);
+}
+
+TEST_F(CheckStoreTest, SaysWhatAKilledProcessHasLeft) {
+  SpillFile(data_ / "spool" / "upload-1", "x");
+  EXPECT_EQ(Check().faults, 0);
+  EXPECT_THAT(lines_, Contains(HasSubstr("spool/upload-1")));
+}
+
 TEST_F(CheckStoreTest, SetsStraysAside) {
   const std::string stray = Sha256Hex("stray");
   fs::create_directories(ObjectFile(stray).parent_path());
