@@ -1,6 +1,6 @@
 #include "service/jobs/store_identity.h"
 
-#include <optional>
+#include <filesystem>
 #include <sstream>
 #include <string>
 
@@ -21,16 +21,6 @@ Error Unusable(const std::string& why, const std::string& remedy) {
           "job-store-unusable"};
 }
 
-// A file that cannot be read as one tells nothing: the database then decides.
-std::optional<StoreIdentity> ReadIdentity(const DataDirectory& directory) {
-  Result<std::string> text = ReadFile(IdentityFile(directory), kLargestIdentity);
-  if (!text) return std::nullopt;
-  std::istringstream words(*text);
-  StoreIdentity identity;
-  if (words >> identity.id >> identity.generation) return identity;
-  return std::nullopt;
-}
-
 std::uintmax_t SizeOf(const fs::path& file) {
   std::error_code failure;
   const std::uintmax_t size = fs::file_size(file, failure);
@@ -47,6 +37,15 @@ bool AnyObject(const fs::path& objects) {
 }
 
 }  // namespace
+
+std::optional<StoreIdentity> ReadIdentity(const DataDirectory& directory) {
+  Result<std::string> text = ReadFile(IdentityFile(directory), kLargestIdentity);
+  if (!text) return std::nullopt;
+  std::istringstream words(*text);
+  StoreIdentity identity;
+  if (words >> identity.id >> identity.generation) return identity;
+  return std::nullopt;
+}
 
 Status CheckDatabaseIsThere(const DataDirectory& directory) {
   if (SizeOf(directory.Jobs()) > 0) return Ok{};

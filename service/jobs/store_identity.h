@@ -1,6 +1,6 @@
 #pragma once
 
-#include <filesystem>
+#include <optional>
 
 #include "core/base/result.h"
 #include "service/jobs/data_directory.h"
@@ -22,6 +22,8 @@ Status CheckDatabaseIsThere(const DataDirectory& directory);
 /// Errors: kIo "job-store-unusable", with the remedy.
 Status CheckSameStore(const DataDirectory& directory, JobStore& jobs, ObjectStore& objects);
 
+/// The identity beside the objects; nullopt where there is none that can be read.
+std::optional<StoreIdentity> ReadIdentity(const DataDirectory& directory);
 /// Writes the identity beside the objects. Errors: those of WriteFile.
 Status WriteIdentity(const DataDirectory& directory, const StoreIdentity& identity);
 
