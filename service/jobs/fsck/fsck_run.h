@@ -19,7 +19,7 @@ struct FsckRun {
 
   /// Counts a fault and says it.
   void Fault(const std::string& line, bool mended);
-  /// Where repairs are asked for, moves a file to the folder stray/`why` of the data directory; true
+  /// Where repairs are asked for, moves a file to stray/`why` of the data directory; true
   /// if that is done.
   [[nodiscard]] bool SetAside(const std::filesystem::path& file, const char* why) const;
 };
