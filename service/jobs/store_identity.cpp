@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <sstream>
 #include <string>
+#include <sys/stat.h>
 
 #include "core/io/file.h"
 
@@ -87,8 +88,10 @@ Status CheckSameStore(const DataDirectory& directory, JobStore& jobs, ObjectStor
 }
 
 Status WriteIdentity(const DataDirectory& directory, const StoreIdentity& identity) {
-  return WriteFile(IdentityFile(directory),
-                   identity.id + " " + std::to_string(identity.generation) + "\n");
+  Status written = WriteFile(IdentityFile(directory),
+                             identity.id + " " + std::to_string(identity.generation) + "\n");
+  if (written) ::chmod(IdentityFile(directory).c_str(), 0600);
+  return written;
 }
 
 }  // namespace farhorizon

@@ -154,14 +154,19 @@ TEST_F(JobServiceTest, ExpiresWhatHasEndedAndSaysWhen) {
 }
 
 TEST_F(JobServiceTest, RemovesExpiredJobsWithTheirObjects) {
+  {
+    auto service = Open(folder_ / "d");
+    ASSERT_TRUE(service);
+    for (const char* content : {"a", "b", "c"}) {
+      ASSERT_TRUE((*service)->Dismiss(Submit(**service, content)));
+    }
+  }
   retention_ = {0, 1, 0};
   auto service = Open(folder_ / "d");
   ASSERT_TRUE(service);
-  for (const char* content : {"a", "b", "c"}) {
-    ASSERT_TRUE((*service)->Dismiss(Submit(**service, content)));
-  }
-  for (int tries = 0; tries < 200 && (Jobs(**service) > 1 || Objects(folder_ / "d") > 1); ++tries) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  const auto left = [&] { return Jobs(**service) + Objects(folder_ / "d"); };
+  for (int tries = 0; tries < 500 && left() > 2; ++tries) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
   EXPECT_EQ(Jobs(**service), 1U);
   EXPECT_EQ(Objects(folder_ / "d"), 1U);

@@ -166,10 +166,14 @@ TEST_F(CheckStoreTest, SaysThatTheDatabaseIsGoneAndMakesNone) {
 TEST_F(CheckStoreTest, TakesWhatCanBeReadOutOfADamagedDatabase) {
   // Many jobs, so that the table has many pages; then one of its leaves goes bad.
   {
-    auto jobs = OpenSqliteJobStore(data_ / "jobs.sqlite");
-    for (int i = 0; i < 300; ++i) {
-      ASSERT_TRUE((*jobs)->Insert({"a.tif", {}, waiting_.input_sha256, 7, {}}, {}, 3));
-    }
+    Database database;
+    database.Open(data_ / "jobs.sqlite");
+    database.Execute(("INSERT INTO jobs (id, state, filename, parameters, input_sha256, "
+                      "input_bytes, created_ms, updated_ms, message) WITH RECURSIVE n(i) AS "
+                      "(SELECT 1 UNION ALL SELECT i + 1 FROM n WHERE i < 300) SELECT "
+                      "printf('01900000-0000-7000-8000-%012x', i), 'accepted', 'a.tif', '', '" +
+                      waiting_.input_sha256 + "', 7, 3, 3, 'waiting' FROM n")
+                         .c_str());
   }
   std::string bytes = SlurpFile(data_ / "jobs.sqlite");
   constexpr std::size_t kPage = 4096;
