@@ -6,10 +6,12 @@
 namespace farhorizon {
 
 std::vector<Route> HealthRoutes(const HandlerContext& context) {
-  return {BodylessRoute("GET", "/healthz",
-                        [](const HttpRequest&) {
-                          return JsonResponse({{"status", "ok"}});
-                        }),
+  return {BodylessRoute(
+              "GET", "/healthz",
+              [](const HttpRequest&) {
+                return JsonResponse({{"status", "ok"}});
+              },
+              WaitsFor::kNothing),
           BodylessRoute("GET", "/readyz", [context](const HttpRequest& request) {
             const Status ready = context.jobs.CheckReady();
             if (ready) return JsonResponse({{"status", "ready"}});

@@ -88,6 +88,7 @@ foreign=(
   'nlohmann/ @ ^core/(io|pipeline)/(compare/)?[^/]+\.cpp$ ^core/io/mesh_files/(gltf_json\.h|[^/]+\.cpp)$ ^service/[a-z_0-9]+\.(h|cpp)$ ^service/(handlers|jobs|worker|config|cli)/'
   'openssl/ @ ^core/io/[^/]+\.cpp$'
   'CLI/ @ ^service/cli/(command_line|run)\.cpp$'
+  'prometheus/ @ ^service/metrics\.cpp$'
   # The system's own: files in core/io, processes and sockets in service.
   '((sys|netinet|arpa|linux)/)?[a-z_0-9]+\.h$ @ ^core/io/[^/]+\.cpp$ ^service/'
 )
