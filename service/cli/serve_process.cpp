@@ -5,6 +5,7 @@
 #include <csignal>
 #include <memory>
 #include <optional>
+#include <sys/stat.h>
 #include <thread>
 
 #include "core/pipeline/version.h"
@@ -25,7 +26,8 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 
 constexpr milliseconds kPollInterval{100};
-constexpr milliseconds kSendTimeout{3000};
+// After jobs.drainSeconds, of which eight by default: out within ten.
+constexpr milliseconds kSendTimeout{1000};
 
 JobServiceOptions JobOptions(const Config& config) {
   JobServiceOptions options = config.jobs;
@@ -124,6 +126,7 @@ int ServeProcess(const LoadedConfig& loaded, const std::function<Result<LoadedCo
   Config config = loaded.config;
   const Result<HostPort> address = ReadHostPort(config.listen);
   if (!address) return ReportError(address.error());
+  ::umask(077);           // nothing of the data is for other users
   BlockServiceSignals();  // before any thread is started, so that all of them block
   ConfigureLog(config.log);
   const BackgroundLog log;
@@ -132,6 +135,7 @@ int ServeProcess(const LoadedConfig& loaded, const std::function<Result<LoadedCo
   if (!server) return ReportError(server.error());
   Result<std::unique_ptr<JobService>> jobs = JobService::Open(JobOptions(config));
   if (!jobs) return ReportError(jobs.error());
+  (*jobs)->MarkEnd();
   const std::string base = BaseUrl(config, *address, (*server)->port());
   const Router router = BuildRouter({**jobs, base, config.max_body_bytes});
   (*server)->Serve(router);

@@ -28,6 +28,7 @@ sigset_t ServiceSignals() {
 void Block(const sigset_t& set) {
   ::pthread_sigmask(SIG_BLOCK, &set, nullptr);
   ::signal(SIGPIPE, SIG_IGN);
+  ::signal(SIGXFSZ, SIG_IGN);  // a write beyond RLIMIT_FSIZE then fails as on a full disk
 }
 
 }  // namespace

@@ -8,7 +8,8 @@
 
 namespace farhorizon {
 
-/// Blocks SIGINT and SIGTERM in this thread and in those that it starts later; ignores SIGPIPE.
+/// Blocks SIGINT and SIGTERM in this thread and in those that it starts later; ignores SIGPIPE
+/// and SIGXFSZ.
 void BlockSignals();
 
 /// The same, and SIGHUP, SIGUSR1 and SIGUSR2, so that none of them ends a service.

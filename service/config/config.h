@@ -18,8 +18,8 @@ struct Config {
   ServerOptions http;
   std::int64_t max_body_bytes = std::int64_t{1} << 31U;
   JobServiceOptions jobs;
-  // Kubernetes kills 30 seconds after it has asked: running jobs are given back before.
-  std::chrono::seconds drain_time{20};
+  // Docker kills 10 seconds after it has asked: running jobs are given back before.
+  std::chrono::seconds drain_time{8};
   LogOptions log;
 };
 

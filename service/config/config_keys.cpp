@@ -109,13 +109,24 @@ std::vector<ConfigKey> HttpKeys() {
 
 std::vector<ConfigKey> JobKeys() {
   const auto jobs = [](auto... fields) { return Path(&Config::jobs, fields...); };
+  const auto keep = [](auto field) {
+    return Path(&Config::jobs, &JobServiceOptions::retention, field);
+  };
   return {
       Number("jobs.maxWaiting", jobs(&JobServiceOptions::max_waiting), 1, 1'000'000,
              "jobs that may wait; more are refused with 503"),
+      Number("jobs.maxWaitingPerClient", jobs(&JobServiceOptions::max_waiting_per_client), 0,
+             1'000'000, "of these, jobs of one address; more get 429; 0: all but an eighth"),
       Number("jobs.maxPosts", jobs(&JobServiceOptions::runner, &RunnerOptions::max_posts), 4,
              1'000'000'000, "largest DEM taken, in posts; larger ones get 413"),
       Number("jobs.minFreeBytes", jobs(&JobServiceOptions::min_free_bytes), 0, kTebibyte,
              "room on the disk below which uploads are refused with 507"),
+      Number("jobs.keepSeconds", keep(&Retention::seconds), 0, 100 * 365 * kDay,
+             "time that a job and its results are kept after its end; 0: without end"),
+      Number("jobs.keepJobs", keep(&Retention::jobs), 0, 1'000'000'000,
+             "jobs that have ended that are kept, the newest; 0: all"),
+      Number("jobs.keepBytes", keep(&Retention::bytes), 0, 1024 * kTebibyte,
+             "bytes of uploads and results that are kept, the newest jobs'; 0: all"),
       Number("jobs.drainSeconds", Path(&Config::drain_time), 0, kDay,
              "time that running jobs get to end when the service is stopped"),
   };

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/io/unique_fd.h"
+#include "core/base/result.h"
 #include "service/url_query.h"
 
 namespace farhorizon {
@@ -38,9 +38,22 @@ struct HttpRequest {
   [[nodiscard]] bool HasBody() const { return chunked || content_length.value_or(0) > 0; }
 };
 
-/// Part of an open file as a body.
+/// Bytes that are read as they are sent.
+class BodySource {
+ public:
+  BodySource() = default;
+  virtual ~BodySource() = default;
+  BodySource(const BodySource&) = delete;
+  BodySource& operator=(const BodySource&) = delete;
+
+  /// Bytes from `offset` on: at least one and at most `most`, valid until the next call. After an
+  /// error the connection is closed: the client sees a body that is too short, never a wrong one.
+  virtual Result<std::string_view> Read(std::int64_t offset, std::int64_t most) = 0;
+};
+
+/// Part of a source as a body.
 struct FileBody {
-  std::shared_ptr<UniqueFd> fd;
+  std::shared_ptr<BodySource> source;
   std::int64_t offset = 0;
   std::int64_t bytes = 0;
 };

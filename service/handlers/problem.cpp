@@ -47,10 +47,17 @@ constexpr ErrorKind kKinds404[] = {
 constexpr ErrorKind kKinds405[] = {"method-not-allowed"};
 constexpr ErrorKind kKinds408[] = {"request-timeout"};
 constexpr ErrorKind kKinds412[] = {"precondition-failed"};
-constexpr ErrorKind kKinds413[] = {"block-too-large", "body-not-allowed", "body-too-large",
-                                   "raster-too-large"};
+constexpr ErrorKind kKinds413[] = {
+    "block-too-large",
+    "body-not-allowed",
+    "body-too-large",
+    "raster-too-large",
+};
 constexpr ErrorKind kKinds414[] = {"target-too-long"};
-constexpr ErrorKind kKinds415[] = {"not-a-raster", "unsupported-media-type"};
+constexpr ErrorKind kKinds415[] = {
+    "not-a-raster",
+    "unsupported-media-type",
+};
 constexpr ErrorKind kKinds416[] = {"range-not-satisfiable"};
 constexpr ErrorKind kKinds417[] = {"expectation-failed"};
 constexpr ErrorKind kKinds421[] = {"misdirected-request"};
@@ -99,24 +106,17 @@ constexpr ErrorKind kKinds422[] = {
     "work-budget",
 };
 constexpr ErrorKind kKinds429[] = {"too-many-jobs"};
-constexpr ErrorKind kKinds431[] = {"head-too-large", "too-many-header-fields"};
+constexpr ErrorKind kKinds431[] = {
+    "head-too-large",
+    "too-many-header-fields",
+};
 constexpr ErrorKind kKinds500[] = {
-    "worker-program",
-    "sandbox-missing",
-    "reference-data",
+    "cannot-listen",  "connection",         "data-directory",
+    "input-corrupt",  "internal-error",     "io",
+    "job-store",      "job-store-unusable", "poison-job",
+    "reference-data", "result-corrupt",     "sandbox-missing",
+    "storage",        "worker-crashed",     "worker-program",
     "worker-stuck",
-    "poison-job",
-    "cannot-listen",
-    "connection",
-    "data-directory",
-    "input-corrupt",
-    "internal-error",
-    "io",
-    "job-store",
-    "job-store-unusable",
-    "result-corrupt",
-    "storage",
-    "worker-crashed",
 };
 constexpr ErrorKind kKinds501[] = {"transfer-encoding-not-implemented"};
 constexpr ErrorKind kKinds503[] = {
@@ -191,7 +191,8 @@ Problem ProblemOf(const Error& error) {
       error.kind.empty() ? ErrorKind::FromName(ErrorCodeName(error.code)).value() : error.kind;
   Problem problem(code, WithParameterNames(error.message));
   // The message of such a failure may name paths of this machine: it belongs in the log alone.
-  const bool crash = code == ErrorKind("worker-crashed") || code == ErrorKind("result-corrupt");
+  const bool crash = code == ErrorKind("worker-crashed") || code == ErrorKind("worker-stuck") ||
+                     code == ErrorKind("poison-job") || code == ErrorKind("result-corrupt");
   if (problem.status == 500 && !crash) {
     problem.detail = "the service failed inside; its log says why";
   }

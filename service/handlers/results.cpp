@@ -68,6 +68,24 @@ void SetDisposition(HttpResponse& response, const Artifact& artifact) {
   if (page) response.Set("Content-Security-Policy", kPagePolicy);
 }
 
+// The artifact piece by piece, each verified.
+class ArtifactSource : public BodySource {
+ public:
+  explicit ArtifactSource(std::shared_ptr<VerifiedObject> object) : object_(std::move(object)) {}
+
+  Result<std::string_view> Read(std::int64_t offset, std::int64_t most) override {
+    Result<std::string_view> bytes = object_->Read(offset, most);
+    if (!bytes) {
+      Log(LogLevel::kError, "artifact damaged while it was sent",
+          {{"error", bytes.error().message}});
+    }
+    return bytes;
+  }
+
+ private:
+  std::shared_ptr<VerifiedObject> object_;
+};
+
 HttpResponse SendArtifact(const HttpRequest& request, OpenArtifact open) {
   const Artifact& artifact = open.artifact;
   const std::string etag = "\"" + artifact.sha256 + "\"";
@@ -99,8 +117,8 @@ HttpResponse SendArtifact(const HttpRequest& request, OpenArtifact open) {
   const std::optional<Digest> digest = Digest::FromHex(artifact.sha256);
   Check(digest.has_value(), "an artifact's sha256 is one");
   response.Set("Repr-Digest", "sha-256=:" + digest->Base64() + ":");
-  response.file = FileBody{std::make_shared<UniqueFd>(std::move(open.object.fd)), selection.offset,
-                           selection.bytes};
+  response.file = FileBody{std::make_shared<ArtifactSource>(std::move(open.object)),
+                           selection.offset, selection.bytes};
   return response;
 }
 

@@ -131,8 +131,11 @@ Result<Submission> SubmitExchange::ReadSubmission() {
     if (!added) return std::move(added.error());
   }
   const std::string name = head_.filename.value_or(body_.filename().value_or(""));
-  return Submission{SafeFilename(name), std::move(head_.parameters),
-                    std::move(head_.idempotency_key)};
+  return Submission{SafeFilename(name),
+                    std::move(head_.parameters),
+                    std::move(head_.idempotency_key),
+                    {},
+                    request_.peer};
 }
 
 Result<Job> SubmitExchange::Submit() {
@@ -184,7 +187,7 @@ Admission BeginSubmission(const HandlerContext& context, const HttpRequest& requ
   }
   Result<SubmissionHead> head = ReadSubmissionHead(request);
   if (!head) return ProblemResponse(request, ProblemOf(head.error()));
-  const Status room = context.jobs.CheckRoom();
+  const Status room = context.jobs.CheckRoom(request.peer);
   if (!room) return ProblemResponse(request, ProblemOf(room.error()));
   Result<SpoolFile> spool = context.jobs.NewSpoolFile();
   if (!spool) {

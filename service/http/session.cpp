@@ -6,7 +6,6 @@
 #include <array>
 #include <chrono>
 #include <memory>
-#include <unistd.h>
 #include <utility>
 #include <variant>
 
@@ -249,16 +248,15 @@ asio::awaitable<bool> Session::SendText(std::string_view text) {
 }
 
 asio::awaitable<bool> Session::SendFile(const FileBody& file) {
-  std::vector<char> piece(kBodyPieceBytes);
   for (std::int64_t sent = 0; sent < file.bytes;) {
-    const auto wanted = static_cast<std::size_t>(
-        std::min<std::int64_t>(file.bytes - sent, static_cast<std::int64_t>(piece.size())));
-    const ssize_t size = ::pread(file.fd->get(), piece.data(), wanted, file.offset + sent);
-    // The client then sees a body that is too short, never a wrong one.
-    if (size <= 0) co_return false;
-    const bool taken = co_await SendText({piece.data(), static_cast<std::size_t>(size)});
+    const std::int64_t most =
+        std::min<std::int64_t>(file.bytes - sent, static_cast<std::int64_t>(kBodyPieceBytes));
+    const Result<std::string_view> piece = co_await RunOn(
+        WaitsFor::kStore, [&] { return file.source->Read(file.offset + sent, most); });
+    if (!piece) co_return false;
+    const bool taken = co_await SendText(*piece);
     if (!taken) co_return false;
-    sent += size;
+    sent += static_cast<std::int64_t>(piece->size());
   }
   co_return true;
 }

@@ -66,11 +66,13 @@ declare -A may=(
   [service]="core/base"
   [service/worker]="core/base core/io core/pipeline core/pipeline/build service"
   [service/jobs]="core/base core/io core/pipeline service service/worker"
+  # Looks at the data directory of a stopped service.
+  [service/jobs/fsck]="core/base core/io service service/jobs"
   [service/handlers]="core/base core/io core/io/file_kind core/pipeline service service/jobs"
   [service/http]="core/base service service/handlers"
   # The configuration consists of the options of the parts, so it stands above them.
   [service/config]="core/base service service/worker service/jobs service/http"
-  [service/cli]="core/base core/io core/pipeline core/pipeline/build service service/worker service/jobs service/handlers service/http core/pipeline/verify core/pipeline/compare core/horizon core/horizon/search service/config"
+  [service/cli]="core/base core/io core/pipeline core/pipeline/build service service/worker service/jobs service/jobs/fsck service/handlers service/http core/pipeline/verify core/pipeline/compare core/horizon core/horizon/search service/config"
   [service/main.cpp]="core/base service service/cli"
 )
 
