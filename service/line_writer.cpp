@@ -6,6 +6,7 @@
 #include <condition_variable>
 #include <deque>
 #include <mutex>
+#include <optional>
 #include <poll.h>
 #include <string_view>
 #include <thread>
@@ -19,15 +20,16 @@ namespace farhorizon {
 namespace {
 
 constexpr std::chrono::seconds kLastLines{1};
+constexpr std::chrono::milliseconds kPollTime{100};
 
 // Writes at most PIPE_BUF bytes; their number, 0 where the descriptor takes none now, -1 on an
 // error. A pipe that poll calls writable has room for PIPE_BUF bytes [POSIX, pipe(7)], so that the
 // write does not block; only another process that fills the same pipe in between could make it.
-ssize_t WriteSome(int fd, std::string_view text, int wait_ms) {
+ssize_t WriteSome(int fd, std::string_view text) {
   struct pollfd ready {
     fd, POLLOUT, 0
   };
-  const int count = ::poll(&ready, 1, wait_ms);
+  const int count = ::poll(&ready, 1, static_cast<int>(kPollTime.count()));
   if (count == 0 || (count < 0 && errno == EINTR)) return 0;
   if (count < 0) return -1;
   const ssize_t size = ::write(fd, text.data(), std::min<std::size_t>(text.size(), PIPE_BUF));
@@ -49,7 +51,7 @@ struct LineWriter::State {
   std::size_t bytes = 0;    // of `lines`
   std::int64_t unsaid = 0;  // dropped since the last lost_line
   std::int64_t dropped = 0;
-  bool ending = false;
+  std::optional<std::chrono::steady_clock::time_point> end;  // of waiting for a reader
   bool ended = false;
 };
 
@@ -64,9 +66,10 @@ LineWriter::LineWriter(int fd, std::size_t most_bytes,
 
 LineWriter::~LineWriter() {
   std::unique_lock lock(state_->mutex);
-  state_->ending = true;
+  state_->end = std::chrono::steady_clock::now() + kLastLines;
   state_->changed.notify_all();
-  state_->changed.wait_for(lock, kLastLines, [this] { return state_->ended; });
+  // Not for ever: a write may block after all.
+  state_->changed.wait_for(lock, 2 * kLastLines, [this] { return state_->ended; });
 }
 
 void LineWriter::Write(std::string line) {
@@ -93,19 +96,19 @@ std::int64_t LineWriter::dropped() const {
 
 void LineWriter::Run(const std::shared_ptr<State>& state) {
   std::unique_lock lock(state->mutex);
-  const auto give_up = std::chrono::milliseconds(kLastLines).count();
   for (;;) {
-    state->changed.wait(lock, [&] { return state->ending || !state->lines.empty(); });
+    state->changed.wait(lock, [&] { return state->end || !state->lines.empty(); });
     if (state->lines.empty()) break;
     std::string line = std::move(state->lines.front());
     state->lines.pop_front();
     lock.unlock();
     bool taken = true;
     for (std::string_view rest = line; taken && !rest.empty();) {
-      const ssize_t size = WriteSome(state->fd, rest, static_cast<int>(give_up));
+      const ssize_t size = WriteSome(state->fd, rest);
       rest.remove_prefix(static_cast<std::size_t>(std::max<ssize_t>(size, 0)));
-      const std::lock_guard ending(state->mutex);
-      taken = size > 0 || (size == 0 && !state->ending);
+      const std::lock_guard state_lock(state->mutex);
+      const bool late = state->end && std::chrono::steady_clock::now() > *state->end;
+      taken = size > 0 || (size == 0 && !late);
     }
     lock.lock();
     state->bytes -= line.size();

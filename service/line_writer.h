@@ -15,7 +15,7 @@ namespace farhorizon {
 class LineWriter {
  public:
   /// lost: the line that stands where `count` lines were dropped.
-  /// Requires: `fd` stays open as long as the process lives.
+  /// Requires: `fd` stays open as long as this object lives.
   LineWriter(int fd, std::size_t most_bytes, std::function<std::string(std::int64_t count)> lost);
   /// Waits up to a second for the lines that are kept, and leaves the rest unwritten.
   ~LineWriter();
