@@ -191,9 +191,10 @@ Problem ProblemOf(const Error& error) {
       error.kind.empty() ? ErrorKind::FromName(ErrorCodeName(error.code)).value() : error.kind;
   Problem problem(code, WithParameterNames(error.message));
   // The message of such a failure may name paths of this machine: it belongs in the log alone.
-  const bool crash = code == ErrorKind("worker-crashed") || code == ErrorKind("worker-stuck") ||
-                     code == ErrorKind("poison-job") || code == ErrorKind("result-corrupt");
-  if (problem.status == 500 && !crash) {
+  constexpr ErrorKind kTold[] = {"input-corrupt", "poison-job", "result-corrupt", "worker-crashed",
+                                 "worker-stuck"};
+  const bool told = std::find(std::begin(kTold), std::end(kTold), code) != std::end(kTold);
+  if (problem.status == 500 && !told) {
     problem.detail = "the service failed inside; its log says why";
   }
   return problem;

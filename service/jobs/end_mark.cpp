@@ -19,6 +19,7 @@ constexpr std::string_view kRunningWord = "running ";
 constexpr std::array kFatalSignals = {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL};
 
 std::atomic<int> marked_lock{-1};
+std::atomic<pid_t> marking_process{-1};
 std::array<struct sigaction, kFatalSignals.size()> earlier_actions{};
 
 std::string FirstWord(const char* path) {
@@ -52,7 +53,8 @@ std::string Read(int lock) {
 // Async-signal-safe.
 void OnFatalSignal(int signal) {
   const int cause = errno;
-  Write(marked_lock, kCrashedWord);
+  // A child that was forked and not yet given its own handlers is another process.
+  if (::getpid() == marking_process) Write(marked_lock, kCrashedWord);
   errno = cause;
   for (std::size_t i = 0; i < kFatalSignals.size(); ++i) {
     if (kFatalSignals[i] == signal) ::sigaction(signal, &earlier_actions[i], nullptr);
@@ -88,6 +90,7 @@ void MarkOrderly(int lock) { Write(lock, kOrderlyWord); }
 
 void MarkFatalSignals(int lock) {
   marked_lock = lock;
+  marking_process = ::getpid();
   struct sigaction action {};
   action.sa_handler = OnFatalSignal;
   for (std::size_t i = 0; i < kFatalSignals.size(); ++i) {

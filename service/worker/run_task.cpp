@@ -8,6 +8,7 @@
 #include <new>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -120,6 +121,16 @@ int RunTask(bool probe_only) {
                "the DEM needs more memory than a job may have; send a smaller one",
                "memory-limit"});
     return 1;
+  } catch (const std::system_error& failure) {
+    // Of a thread that could not be started: the machine has no process left.
+    const bool scarce = failure.code() == std::errc::resource_unavailable_try_again;
+    if (scarce) {
+      Send(Error{ErrorCode::kResourceExhausted, "the machine has no thread left for the job",
+                 "worker-not-started"});
+      return 1;
+    }
+    std::fprintf(stderr, "internal error: %s\n", failure.what());
+    return 70;
   } catch (const std::exception& bug) {
     std::fprintf(stderr, "internal error: %s\n", bug.what());
     return 70;

@@ -84,6 +84,25 @@ TEST_F(StoreE2e, RefusesAFolderThatIsNotItsOwnersAlone) {
   EXPECT_THAT(SlurpFile(folder_ / "stderr"), testing::HasSubstr("chmod -R go-rwx"));
 }
 
+TEST_F(StoreE2e, FsckSaysWhatIsWrongAndMendsIt) {
+  StartStandIn();
+  const std::string job = Submit("good.asc");
+  ASSERT_EQ(WaitForEnd(job), "successful");
+  const std::filesystem::path result = ObjectOf(job, "report.json");
+  EXPECT_EQ(Run({"fsck", Data().string()}), 1) << "the service runs";
+  service_->Signal(SIGTERM);
+  ASSERT_EQ(service_->Wait(), 0);
+  EXPECT_EQ(Run({"fsck", "--data", Data().string()}), 0) << SlurpFile(folder_ / "stderr");
+  EXPECT_THAT(SlurpFile(folder_ / "stderr"), testing::HasSubstr("1 jobs, 3 objects"));
+  Flip(result);
+  EXPECT_EQ(Run({"fsck", Data().string()}), 1);
+  EXPECT_EQ(Run({"fsck", Data().string(), "--repair"}), 1);
+  EXPECT_EQ(Run({"fsck", Data().string()}), 0);
+  StartStandIn();
+  EXPECT_EQ(WaitForEnd(job), "successful") << "it ran again";
+  EXPECT_EQ(Ask(port_, "GET", job + "/results/report.json").status, 200);
+}
+
 TEST_F(StoreE2e, AStoppedWorkerIsNoticedAndItsJobRunsAgain) {
   StartStandIn({"FARHORIZON_WORKERS=1"});
   const std::string job = Submit("stopped.asc");
