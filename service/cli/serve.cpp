@@ -5,6 +5,7 @@
 #include <memory>
 #include <thread>
 
+#include "core/geo/reference_data.h"
 #include "core/pipeline/version.h"
 #include "service/cli/command.h"
 #include "service/cli/signals.h"
@@ -15,6 +16,7 @@
 #include "service/http/server.h"
 #include "service/jobs/job_service.h"
 #include "service/log.h"
+#include "service/worker/spawner/spawner.h"
 
 namespace farhorizon {
 
@@ -71,7 +73,23 @@ void Drain(JobService& jobs, seconds most) {
   }
 }
 
+// Starts the process that starts workers, and checks that these are shut in as is asked for.
+Status StartSpawner(const Config& config, JobServiceOptions& options) {
+  Status known = CheckWorkerProgram(options.runner.worker_program);
+  if (!known) return known;
+  Result<std::unique_ptr<Spawner>> spawner = Spawner::Start(kThisProgram);
+  if (!spawner) return std::move(spawner.error());
+  const SandboxLayers layers = (*spawner)->Layers();
+  std::string names;
+  for (const std::string& name : NamesOf(layers)) names += (names.empty() ? "" : ",") + name;
+  Log(names.empty() ? LogLevel::kWarning : LogLevel::kInfo, "sandbox",
+      {{"layers", names}, {"landlock", std::int64_t{layers.landlock}}});
+  options.runner.spawner = *std::move(spawner);
+  return CheckSandbox(config.sandbox_require, layers);
+}
+
 int Serve(const Config& config) {
+  if (Status there = CheckReferenceData(); !there) return ReportError(there.error());
   Result<HostPort> address = ReadHostPort(config.listen);
   if (!address) return ReportError(address.error());
   BlockSignals();  // before any thread is started, so that all of them block
@@ -79,7 +97,9 @@ int Serve(const Config& config) {
   // The port first: a process that cannot bind it must not change the data.
   Result<std::unique_ptr<Server>> server = Server::Bind(HttpOptions(config, *address));
   if (!server) return ReportError(server.error());
-  Result<std::unique_ptr<JobService>> jobs = JobService::Open(JobOptions(config));
+  JobServiceOptions options = JobOptions(config);
+  if (Status started = StartSpawner(config, options); !started) return ReportError(started.error());
+  Result<std::unique_ptr<JobService>> jobs = JobService::Open(options);
   if (!jobs) return ReportError(jobs.error());
   const std::string base = BaseUrl(config, *address, (*server)->port());
   const Router router = BuildRouter({**jobs, base, config.max_body_bytes});

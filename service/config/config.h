@@ -21,6 +21,7 @@ struct Config {
   JobServiceOptions jobs;
   // Kubernetes kills 30 seconds after it has asked: running jobs are given back before.
   std::chrono::seconds drain_time{20};
+  std::string sandbox_require = "none";  ///< as CheckSandbox takes it
   LogOptions log;
 };
 

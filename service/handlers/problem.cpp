@@ -19,16 +19,27 @@ constexpr const char* kOgc = "http://www.opengis.net/def/exceptions/ogcapi-proce
 constexpr const char* kOurs = "urn:farhorizon:problem:";
 
 constexpr ErrorKind kKinds400[] = {
-    "bad-azimuth",       "bad-request",
-    "invalid-address",   "invalid-argument",
-    "invalid-config",    "invalid-idempotency-key",
-    "invalid-json",      "invalid-multipart",
-    "invalid-parameter", "invalid-query-parameter-value",
-    "invalid-url",       "max-error-too-small",
-    "mesh-frame",        "no-such-level",
-    "unknown-config",    "unknown-format",
-    "unknown-parameter", "virtual-path",
+    "digest-mismatch",
+    "bad-azimuth",
+    "bad-request",
+    "invalid-address",
+    "invalid-argument",
+    "invalid-config",
+    "invalid-idempotency-key",
+    "invalid-json",
+    "invalid-multipart",
+    "invalid-parameter",
+    "invalid-query-parameter-value",
+    "invalid-url",
+    "max-error-too-small",
+    "mesh-frame",
+    "no-such-level",
+    "unknown-config",
+    "unknown-format",
+    "unknown-parameter",
+    "virtual-path",
 };
+constexpr ErrorKind kKinds403[] = {"origin-not-allowed"};
 constexpr ErrorKind kKinds404[] = {
     "no-config",        "no-such-file", "no-such-job",          "no-such-output",
     "no-such-resource", "not-found",    "result-not-available", "result-not-ready",
@@ -36,12 +47,12 @@ constexpr ErrorKind kKinds404[] = {
 constexpr ErrorKind kKinds405[] = {"method-not-allowed"};
 constexpr ErrorKind kKinds408[] = {"request-timeout"};
 constexpr ErrorKind kKinds412[] = {"precondition-failed"};
-constexpr ErrorKind kKinds413[] = {"block-too-large", "body-not-allowed", "body-too-large",
-                                   "raster-too-large"};
+constexpr ErrorKind kKinds413[] = {"body-not-allowed", "body-too-large", "raster-too-large"};
 constexpr ErrorKind kKinds414[] = {"target-too-long"};
 constexpr ErrorKind kKinds415[] = {"not-a-raster", "unsupported-media-type"};
 constexpr ErrorKind kKinds416[] = {"range-not-satisfiable"};
 constexpr ErrorKind kKinds417[] = {"expectation-failed"};
+constexpr ErrorKind kKinds421[] = {"misdirected-request"};
 constexpr ErrorKind kKinds422[] = {
     "all-nodata",
     "bad-draco",
@@ -52,6 +63,7 @@ constexpr ErrorKind kKinds422[] = {
     "bad-mesh-file",
     "bad-report",
     "bad-tileset",
+    "block-too-large",
     "cells-too-narrow",
     "degenerate-geotransform",
     "displaced-vertex",
@@ -86,11 +98,17 @@ constexpr ErrorKind kKinds422[] = {
     "unsupported-type",
     "work-budget",
 };
+constexpr ErrorKind kKinds429[] = {"too-many-jobs"};
 constexpr ErrorKind kKinds431[] = {"head-too-large", "too-many-header-fields"};
 constexpr ErrorKind kKinds500[] = {
-    "cannot-listen",  "connection", "data-directory", "input-corrupt",
-    "internal-error", "io",         "job-store",      "job-store-unusable",
-    "result-corrupt", "storage",    "worker-crashed",
+    "worker-stuck",    "poison-job",
+    "cannot-listen",   "connection",
+    "data-directory",  "input-corrupt",
+    "internal-error",  "io",
+    "job-store",       "job-store-unusable",
+    "reference-data",  "result-corrupt",
+    "sandbox-missing", "storage",
+    "worker-crashed",  "worker-program",
 };
 constexpr ErrorKind kKinds501[] = {"transfer-encoding-not-implemented"};
 constexpr ErrorKind kKinds503[] = {
@@ -105,10 +123,11 @@ struct StatusRow {
   std::span<const ErrorKind> kinds;
 };
 constexpr std::array kStatuses = {
-    StatusRow{400, kKinds400}, StatusRow{404, kKinds404}, StatusRow{405, kKinds405},
-    StatusRow{408, kKinds408}, StatusRow{412, kKinds412}, StatusRow{413, kKinds413},
-    StatusRow{414, kKinds414}, StatusRow{415, kKinds415}, StatusRow{416, kKinds416},
-    StatusRow{417, kKinds417}, StatusRow{422, kKinds422}, StatusRow{431, kKinds431},
+    StatusRow{400, kKinds400}, StatusRow{403, kKinds403}, StatusRow{404, kKinds404},
+    StatusRow{405, kKinds405}, StatusRow{408, kKinds408}, StatusRow{412, kKinds412},
+    StatusRow{413, kKinds413}, StatusRow{414, kKinds414}, StatusRow{415, kKinds415},
+    StatusRow{416, kKinds416}, StatusRow{417, kKinds417}, StatusRow{421, kKinds421},
+    StatusRow{422, kKinds422}, StatusRow{429, kKinds429}, StatusRow{431, kKinds431},
     StatusRow{500, kKinds500}, StatusRow{501, kKinds501}, StatusRow{503, kKinds503},
     StatusRow{505, kKinds505}, StatusRow{507, kKinds507},
 };

@@ -88,6 +88,9 @@ class JobService {
   /// Succeeds if new jobs can be accepted and run. Errors: as CheckRoom, and those of the stores.
   Status CheckReady();
 
+  /// What encloses each worker process.
+  [[nodiscard]] SandboxLayers ActiveSandbox() const;
+
   /// Accepts and starts no further job; CheckReady and CheckRoom fail from now on.
   void Drain();
   bool WaitIdle(std::chrono::milliseconds most) { return engine_->WaitIdle(most); }

@@ -151,10 +151,11 @@ WorkerOutcome RunWorker(const WorkerCall& call, const RunControl& control) {
   const UniqueFd stop_event(::eventfd(0, EFD_CLOEXEC));
   const std::stop_callback wake(control.stop,
                                 [&stop_event] { ::eventfd_write(stop_event.get(), 1); });
-  std::vector<std::string> arguments = {"worker"};
-  if (call.probe_only) arguments.emplace_back("--probe");
+  if (!call.spawner) {
+    return Crashed(ErrorCode::kIo, "worker-not-started", "there is nothing that starts workers");
+  }
   Result<ChildProcess> child =
-      ChildProcess::Start(call.program, arguments, call.directory, call.limits);
+      call.spawner->StartWorker({call.program, call.probe_only, call.directory, call.limits});
   if (!child) return {WorkerEnd::kCrashed, std::move(child.error()), {}, {}};
   MessageReader reader(control);
   const Clock::time_point deadline = Clock::now() + std::chrono::seconds(call.limits.wall_seconds);
