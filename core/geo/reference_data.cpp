@@ -3,13 +3,10 @@
 // (PROJ, pj_open_lib_internal). So anyone who can write to /tmp could decide where a terrain lies.
 // A search path of the program's own comes before all of these. Files that a definition names by a
 // path are opened without a search: for them there are file functions that refuse.
-//
-// Both are set in PROJ's default context, of which every later context is a copy.
 #include "core/geo/reference_data.h"
 
 #include <cstdio>
 #include <filesystem>
-#include <mutex>
 #include <string>
 #include <string_view>
 
@@ -57,14 +54,11 @@ constexpr PROJ_FILE_API kPackagedFiles = {
 
 }  // namespace
 
-void SealReferenceData() {
-  static std::once_flag once;
-  std::call_once(once, [] {
-    const char* const folders[] = {kFolder.data()};
-    proj_context_set_enable_network(nullptr, 0);
-    proj_context_set_search_paths(nullptr, 1, folders);
-    proj_context_set_fileapi(nullptr, &kPackagedFiles, nullptr);
-  });
+void SealContext(PJ_CONTEXT* context) {
+  const char* const folders[] = {kFolder.data()};
+  proj_context_set_search_paths(context, 1, folders);
+  proj_context_set_enable_network(context, 0);  // reads proj.ini: by the search paths
+  proj_context_set_fileapi(context, &kPackagedFiles, nullptr);
 }
 
 const char* ProjDataFolder() { return kFolder.data(); }

@@ -2,13 +2,14 @@
 
 #include "core/base/result.h"
 
+struct pj_ctx;  // PROJ's own name of PJ_CONTEXT
+
 namespace farhorizon {
 
-/// Makes PROJ open nothing but the database and the grids in the folder of its package, in this
-/// process, for good: whatever the environment, home folders and /tmp hold, and whatever file a
-/// definition names. Contexts made before this call are not changed; those of GDAL are made later.
-/// Threads: safe; each call after the first has no effect.
-void SealReferenceData();
+/// Makes a context of PROJ open nothing but the database and the grids in the folder of its
+/// package: whatever the environment, home folders and /tmp hold, and whatever file a definition
+/// names. It fetches nothing.
+void SealContext(pj_ctx* context);
 
 /// The folders in which Debian's packages have PROJ's database and grids, and GDAL's tables.
 const char* ProjDataFolder();

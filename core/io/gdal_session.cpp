@@ -1,6 +1,5 @@
 // Settings are of the thread, the error handler is on GDAL's stack for it: both go with the
-// session. Drivers are registered once in a process. GDAL's reference systems are PROJ's, which is
-// sealed before GDAL makes its first context.
+// session. Drivers are registered once in a process, and so is the place of PROJ's files.
 #include "core/io/gdal_session.h"
 
 #include <array>
@@ -35,7 +34,8 @@ constexpr std::array<std::pair<const char*, const char*>, 7> kSettings = {{
 void RegisterDrivers() {
   static std::once_flag once;
   std::call_once(once, [] {
-    SealReferenceData();
+    const char* const folders[] = {ProjDataFolder(), nullptr};
+    OSRSetPROJSearchPaths(folders);
     OSRSetPROJEnableNetwork(0);
     // Otherwise the first registration reads options from $HOME/.gdal/gdalrc or /etc/gdal/gdalrc,
     // and looks for plug-ins.

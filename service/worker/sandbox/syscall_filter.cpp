@@ -7,12 +7,17 @@
 #include <cerrno>
 #include <fcntl.h>
 #include <linux/sched.h>
+#include <linux/seccomp.h>
 #include <memory>
 #include <seccomp.h>
 #include <string_view>
 #include <sys/ioctl.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
+#include <sys/stat.h>
 #include <unistd.h>
+
+#include "core/io/unique_fd.h"
 
 namespace farhorizon {
 
@@ -54,8 +59,6 @@ constexpr std::array kAllowed = {
 // Refused as a matter of rights, so that a program says so rather than that the kernel is too old.
 constexpr std::array kDenied = {"fork",
                                 "vfork",
-                                "clone",
-                                "execve",
                                 "execveat",
                                 "socket",
                                 "socketpair",
@@ -68,9 +71,7 @@ constexpr std::array kDenied = {"fork",
                                 "sendmsg",
                                 "sendmmsg",
                                 "recvmsg",
-                                "kill",
                                 "tkill",
-                                "tgkill",
                                 "rt_sigqueueinfo",
                                 "rt_tgsigqueueinfo",
                                 "pidfd_open",
@@ -189,35 +190,62 @@ class Rules {
 constexpr std::uint64_t kLow32Bits = 0xffffffffU;
 constexpr std::uint64_t kAllBits = ~std::uint64_t{0};
 
+// The program, which the library gives away through a file alone.
+std::optional<SyscallFilter> Exported(scmp_filter_ctx filter) {
+  const UniqueFd file(::memfd_create("filter", MFD_CLOEXEC));
+  struct stat about {};
+  if (!file || ::seccomp_export_bpf(filter, file.get()) != 0 || ::fstat(file.get(), &about) != 0) {
+    return std::nullopt;
+  }
+  SyscallFilter program(static_cast<std::size_t>(about.st_size) / sizeof(struct sock_filter));
+  const auto bytes = static_cast<ssize_t>(program.size() * sizeof(struct sock_filter));
+  if (::pread(file.get(), program.data(), static_cast<std::size_t>(bytes), 0) != bytes) {
+    return std::nullopt;
+  }
+  return program;
+}
+
 }  // namespace
 
-bool RestrictSyscalls(bool may_execute) {
+std::optional<SyscallFilter> MakeSyscallFilter(pid_t self, bool may_execute) {
   const Filter filter(::seccomp_init(SCMP_ACT_ERRNO(ENOSYS)), ::seccomp_release);
-  if (!filter) return false;
+  if (!filter) return std::nullopt;
   Rules rules(filter.get());
   for (const char* name : kAllowed) rules.Allow(name);
-  const auto self = static_cast<std::uint64_t>(::getpid());
-  for (const char* name : {"kill", "tgkill"}) rules.AllowWhere(name, 0, kAllBits, self);
+  const auto own = static_cast<std::uint64_t>(self);
+  for (const char* name : {"kill", "tgkill"}) {
+    rules.AllowWhere(name, 0, kAllBits, own);
+    rules.DenyWhereNot(name, own);
+  }
   rules.AllowWhere("clone", 0, CLONE_THREAD, CLONE_THREAD);
   rules.DenyWhere("clone", 0, CLONE_THREAD, 0);
   // Reading limits is how libraries learn the size of the stack; only one's own can be read or set.
-  for (const std::uint64_t own : {std::uint64_t{0}, self}) {
-    rules.AllowWhere("prlimit64", 0, kAllBits, own);
+  for (const std::uint64_t process : {std::uint64_t{0}, own}) {
+    rules.AllowWhere("prlimit64", 0, kAllBits, process);
   }
   for (const unsigned request : kRequests) rules.AllowWhere("ioctl", 1, kLow32Bits, request);
   for (const int option : kProcessOptions) {
     rules.AllowWhere("prctl", 0, kLow32Bits, static_cast<std::uint64_t>(option));
   }
-  if (may_execute) rules.Allow("execve");
-  for (const char* name : kDenied) {
-    const std::string_view denied = name;
-    if (denied == "execve" && may_execute) continue;
-    if (denied == "kill" || denied == "tgkill" || denied == "clone") continue;
-    rules.Deny(name);
+  if (may_execute) {
+    rules.Allow("execve");
+  } else {
+    rules.Deny("execve");
   }
-  for (const char* name : {"kill", "tgkill"}) rules.DenyWhereNot(name, self);
-  return rules.complete() && ::seccomp_attr_set(filter.get(), SCMP_FLTATR_CTL_OPTIMIZE, 2) == 0 &&
-         ::seccomp_load(filter.get()) == 0;
+  for (const char* name : kDenied) rules.Deny(name);
+  // Calls by their numbers in a tree, not in a row.
+  constexpr std::uint32_t kTree = 2;
+  if (!rules.complete() || ::seccomp_attr_set(filter.get(), SCMP_FLTATR_CTL_OPTIMIZE, kTree) != 0) {
+    return std::nullopt;
+  }
+  return Exported(filter.get());
+}
+
+bool Install(const SyscallFilter& filter) {
+  struct sock_fprog program {};
+  program.len = static_cast<unsigned short>(filter.size());
+  program.filter = const_cast<struct sock_filter*>(filter.data());
+  return ::prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program, 0, 0) == 0;
 }
 
 }  // namespace farhorizon

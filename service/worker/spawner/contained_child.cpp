@@ -7,6 +7,7 @@
 // powerful of the calls last.
 #include "service/worker/spawner/contained_child.h"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdio>
@@ -14,6 +15,7 @@
 #include <fcntl.h>
 #include <linux/capability.h>
 #include <linux/sched.h>
+#include <optional>
 #include <poll.h>
 #include <signal.h>
 #include <string>
@@ -30,7 +32,6 @@
 #include "service/worker/run_task.h"
 #include "service/worker/sandbox/landlock.h"
 #include "service/worker/sandbox/private_root.h"
-#include "service/worker/sandbox/syscall_filter.h"
 #include "service/worker/spawner/worker_files.h"
 #include "service/worker/worker_protocol.h"
 
@@ -52,10 +53,12 @@ constexpr bool kLimitAddressSpace = false;  // AddressSanitizer reserves terabyt
 constexpr bool kLimitAddressSpace = true;
 #endif
 
+// A lower limit of the service's own stays.
 bool SetLimit(__rlimit_resource_t resource, std::int64_t value, std::int64_t grace = 0) {
   struct rlimit limit {};
-  limit.rlim_cur = static_cast<rlim_t>(value);
-  limit.rlim_max = static_cast<rlim_t>(value + grace);
+  if (::getrlimit(resource, &limit) != 0) return false;
+  limit.rlim_max = std::min(limit.rlim_max, static_cast<rlim_t>(value + grace));
+  limit.rlim_cur = std::min(limit.rlim_max, static_cast<rlim_t>(value));
   return ::setrlimit(resource, &limit) == 0;
 }
 
@@ -200,7 +203,7 @@ class Child {
       layers_.landlock = RestrictFiles(RightsOf(order_));
     }
     if (containment_.trial || containment_.layers.seccomp) {
-      layers_.seccomp = RestrictSyscalls(!own_program);
+      layers_.seccomp = RestrictSyscalls(own_program);
     }
     if (containment_.trial) ReportLayers();
     if (layers_ != containment_.layers) ::_exit(kCannotStart);
@@ -209,6 +212,14 @@ class Child {
     const int status = RunTask(order_.probe_only);
     std::fflush(nullptr);
     ::_exit(status);
+  }
+
+  bool RestrictSyscalls(bool own_program) const {
+    const pid_t self = ::getpid();
+    const SyscallFilter* ready = own_program ? containment_.own_filter : containment_.other_filter;
+    if (self == kWorkerPid && ready != nullptr) return Install(*ready);
+    const std::optional<SyscallFilter> made = MakeSyscallFilter(self, !own_program);
+    return made && Install(*made);
   }
 
   [[noreturn]] void ReportLayers() const {

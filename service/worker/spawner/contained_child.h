@@ -5,6 +5,7 @@
 #include "core/base/result.h"
 #include "core/io/unique_fd.h"
 #include "service/worker/sandbox/layers.h"
+#include "service/worker/sandbox/syscall_filter.h"
 #include "service/worker/spawner/launch_order.h"
 
 namespace farhorizon {
@@ -20,10 +21,16 @@ struct ContainedChild {
 /// How a contained child is to be shut in.
 struct Containment {
   SandboxLayers layers = {};
+  /// Those for the second process of a PID namespace, as each worker is where there are such.
+  const SyscallFilter* own_filter = nullptr;    ///< of this program
+  const SyscallFilter* other_filter = nullptr;  ///< of another
   /// Whether to find out which layers can be had: then one that cannot be is no failure, and the
   /// child does no work but writes to the message pipe which there are.
   bool trial = false;
 };
+
+/// The pid of a worker in its own PID namespace; its keeper is the first process.
+constexpr pid_t kWorkerPid = 2;
 
 /// Starts a keeper that starts the worker of `order` in every layer, waits for it and reports how
 /// it ended. The worker ends with its keeper, the keeper with this process. The worker has

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <poll.h>
 #include <set>
 #include <signal.h>
@@ -104,8 +105,10 @@ class SpawnerLoop {
     if (asked.text.empty()) return false;
     Result<LaunchOrder> order = ReadOrder(asked.text);
     if (!order || asked.descriptors.size() != 1) return false;
-    Result<ContainedChild> child =
-        StartContained(*order, asked.descriptors[0].get(), {.layers = layers_});
+    Result<ContainedChild> child = StartContained(*order, asked.descriptors[0].get(),
+                                                  {.layers = layers_,
+                                                   .own_filter = Ready(own_filter_),
+                                                   .other_filter = Ready(other_filter_)});
     if (!child) {
       const Error& error = child.error();
       return SendFds(kSpawnerSocket,
@@ -130,6 +133,12 @@ class SpawnerLoop {
     }
   }
 
+  static const SyscallFilter* Ready(const std::optional<SyscallFilter>& filter) {
+    return filter ? &*filter : nullptr;
+  }
+
+  std::optional<SyscallFilter> own_filter_ = MakeSyscallFilter(kWorkerPid, false);
+  std::optional<SyscallFilter> other_filter_ = MakeSyscallFilter(kWorkerPid, true);
   SandboxLayers layers_;
   std::set<pid_t> keepers_;
 };
