@@ -31,6 +31,15 @@ Dem StandInFor(const Dem& header) {
   return coarse;
 }
 
+// Whether rows of degrees beyond a pole may have no data, so that only those who read them can say:
+// where others lie between the poles.
+bool HasRowsOnTheGlobe(const Dem& dem, double full_turn) {
+  const double first = dem.transform.origin_y;
+  const double last = first + (dem.rows - 1) * dem.transform.step_y;
+  const double pole = full_turn / 4;
+  return full_turn > 0 && std::min(first, last) < pole && std::max(first, last) > -pole;
+}
+
 }  // namespace
 
 Result<std::unique_ptr<TerrainInput>> TerrainInput::Open(const std::filesystem::path& path,
@@ -58,8 +67,8 @@ Result<std::unique_ptr<TerrainInput>> TerrainInput::Open(const std::filesystem::
   if (!georeference) return std::move(georeference.error()).WithContext("place DEM on the globe");
   input->georeference_.emplace(*std::move(georeference));
   Status placed = CheckPlacement(*input->terrain_, *input->georeference_);
-  if (!placed && input->header_only_ && input->georeference_->FullTurn() > 0) {
-    // Rows at or beyond a pole may have no data; the job that reads them will say.
+  if (!placed && input->header_only_ && placed.error().kind == "outside-crs" &&
+      HasRowsOnTheGlobe(input->dem_, input->georeference_->FullTurn())) {
     placed = Ok{};
   }
   if (!placed) {

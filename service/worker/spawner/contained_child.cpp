@@ -71,11 +71,8 @@ bool ApplyLimits(const WorkerLimits& limits, bool own_user) {
          SetLimit(RLIMIT_MSGQUEUE, 0) && (!own_user || SetLimit(RLIMIT_NPROC, kMostThreads));
 }
 
+// Without new privileges, a program that root starts has no more capabilities than there were.
 bool DropCapabilities() {
-  for (unsigned long capability = 0; capability <= CAP_LAST_CAP; ++capability) {
-    // EINVAL: an older kernel has fewer. EPERM: there was none to begin with.
-    ::prctl(PR_CAPBSET_DROP, capability, 0, 0, 0);
-  }
   struct __user_cap_header_struct head {
     _LINUX_CAPABILITY_VERSION_3, 0
   };
