@@ -7,8 +7,8 @@
 
 namespace farhorizon {
 
-/// What the process counts for Prometheus, in one registry, as there is one log. OPERATING.md says
-/// what each metric means. All functions are safe in any thread.
+/// What the process counts for Prometheus, in one registry, as there is one log.
+/// service/OPERATING.md says what each metric means. All functions are safe in any thread.
 
 /// One answered request. route: the pattern of its path, empty where there is none.
 void CountRequest(const std::string& method, const std::string& route, int status,

@@ -6,7 +6,7 @@
 
 namespace farhorizon {
 
-/// Tells the service manager a state, such as "READY=1" [sd_notify]. Does nothing where none asks:
+/// Tells the service manager a state, such as "READY=1", as sd_notify(3) of systemd does. Does nothing where none asks:
 /// NOTIFY_SOCKET is not set.
 void NotifyManager(std::string_view state);
 

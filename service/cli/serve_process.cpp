@@ -8,6 +8,7 @@
 #include <sys/stat.h>
 #include <thread>
 
+#include "core/geo/reference_data.h"
 #include "core/pipeline/version.h"
 #include "service/cli/command.h"
 #include "service/cli/notify.h"
@@ -17,6 +18,7 @@
 #include "service/http/server.h"
 #include "service/jobs/job_service.h"
 #include "service/log.h"
+#include "service/worker/spawner/spawner.h"
 
 namespace farhorizon {
 
@@ -67,6 +69,21 @@ void Drain(JobService& jobs, seconds most) {
     const std::optional<int> signal = WaitForSignal(milliseconds(0));
     if (signal && IsStopSignal(*signal)) break;
   }
+}
+
+// Starts the process that starts workers, and checks that these are shut in as is asked for.
+Status StartSpawner(const Config& config, JobServiceOptions& options) {
+  Status known = CheckWorkerProgram(options.runner.worker_program);
+  if (!known) return known;
+  Result<std::unique_ptr<Spawner>> spawner = Spawner::Start(kThisProgram);
+  if (!spawner) return std::move(spawner.error());
+  const SandboxLayers layers = (*spawner)->Layers();
+  std::string names;
+  for (const std::string& name : NamesOf(layers)) names += (names.empty() ? "" : ",") + name;
+  Log(names.empty() ? LogLevel::kWarning : LogLevel::kInfo, "sandbox",
+      {{"layers", names}, {"landlock", std::int64_t{layers.landlock}}});
+  options.runner.spawner = *std::move(spawner);
+  return CheckSandbox(config.sandbox_require, layers);
 }
 
 void LogStart(const LoadedConfig& loaded, const std::string& base, std::uint16_t port) {
@@ -123,6 +140,7 @@ int WaitForEnd(Server& server, const std::function<void()>& reload) {
 }  // namespace
 
 int ServeProcess(const LoadedConfig& loaded, const std::function<Result<LoadedConfig>()>& reload) {
+  if (Status there = CheckReferenceData(); !there) return ReportError(there.error());
   Config config = loaded.config;
   const Result<HostPort> address = ReadHostPort(config.listen);
   if (!address) return ReportError(address.error());
@@ -133,7 +151,9 @@ int ServeProcess(const LoadedConfig& loaded, const std::function<Result<LoadedCo
   // The port first: a process that cannot bind it must not change the data.
   Result<std::unique_ptr<Server>> server = Server::Bind(HttpOptions(config, *address));
   if (!server) return ReportError(server.error());
-  Result<std::unique_ptr<JobService>> jobs = JobService::Open(JobOptions(config));
+  JobServiceOptions options = JobOptions(config);
+  if (Status started = StartSpawner(config, options); !started) return ReportError(started.error());
+  Result<std::unique_ptr<JobService>> jobs = JobService::Open(options);
   if (!jobs) return ReportError(jobs.error());
   (*jobs)->MarkEnd();
   const std::string base = BaseUrl(config, *address, (*server)->port());

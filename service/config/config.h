@@ -20,6 +20,7 @@ struct Config {
   JobServiceOptions jobs;
   // Docker kills 10 seconds after it has asked: running jobs are given back before.
   std::chrono::seconds drain_time{8};
+  std::string sandbox_require = "none";  ///< as CheckSandbox takes it
   LogOptions log;
 };
 

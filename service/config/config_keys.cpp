@@ -152,6 +152,9 @@ std::vector<ConfigKey> WorkerKeys() {
              "processor time that a job may take, of all threads together"),
       Number("worker.fileBytes", limit(&WorkerLimits::file_bytes), 1 << 20, kTebibyte,
              "largest file that a worker may write"),
+      Text("sandbox.require", Path(&Config::sandbox_require),
+           "layers of the workers' sandbox without which the service does not start: none, all, or "
+           "of namespaces, private-root, landlock, seccomp, with commas between"),
       Number("probe.maxBytes", probe(&ProbeOptions::max_bytes), 0, kTebibyte,
              "largest upload that is read before its 201; larger ones are read by their job"),
       Number("probe.memoryBytes", probe(&ProbeOptions::memory_bytes), 1 << 28, kTebibyte,

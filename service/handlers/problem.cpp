@@ -47,12 +47,7 @@ constexpr ErrorKind kKinds404[] = {
 constexpr ErrorKind kKinds405[] = {"method-not-allowed"};
 constexpr ErrorKind kKinds408[] = {"request-timeout"};
 constexpr ErrorKind kKinds412[] = {"precondition-failed"};
-constexpr ErrorKind kKinds413[] = {
-    "block-too-large",
-    "body-not-allowed",
-    "body-too-large",
-    "raster-too-large",
-};
+constexpr ErrorKind kKinds413[] = {"body-not-allowed", "body-too-large", "raster-too-large"};
 constexpr ErrorKind kKinds414[] = {"target-too-long"};
 constexpr ErrorKind kKinds415[] = {
     "not-a-raster",
@@ -71,6 +66,7 @@ constexpr ErrorKind kKinds422[] = {
     "bad-mesh-file",
     "bad-report",
     "bad-tileset",
+    "block-too-large",
     "cells-too-narrow",
     "degenerate-geotransform",
     "displaced-vertex",

@@ -44,7 +44,8 @@ void JobRunner::Run(const Job& job, const std::stop_token& stop) {
     if (!prepared) {
       ending_.Failed(job, prepared.error(), stop);
     } else {
-      const WorkerCall call{options_.worker_program, false, directory, options_.limits};
+      const WorkerCall call{options_.worker_program, false, directory, options_.limits,
+                            options_.spawner};
       const RunControl control{ReportTo(job), stop, {}, StoreAssumptionsOf(job)};
       StoreOutcome(job, RunWorker(call, control), directory, stop);
     }

@@ -161,9 +161,9 @@ Result<Assumptions> JobService::Probe(const SpoolFile& upload, const Submission&
   std::optional<Error> refusal;
   if (!failure && WriteTaskFile(directory, task)) {
     probes_.acquire();
-    WorkerOutcome outcome =
-        RunWorker({runner.worker_program, true, directory, ProbeLimits(options_.probe)},
-                  {.on_assumption = [&](const Assumption& met) { assumptions.push_back(met); }});
+    WorkerOutcome outcome = RunWorker(
+        {runner.worker_program, true, directory, ProbeLimits(options_.probe), runner.spawner},
+        {.on_assumption = [&](const Assumption& met) { assumptions.push_back(met); }});
     probes_.release();
     // A worker that runs out of the probe's memory says so itself; a job may have more.
     if (outcome.end == WorkerEnd::kFailed && outcome.error.kind != "memory-limit") {
@@ -238,6 +238,10 @@ Result<Job> JobService::Dismiss(const std::string& id) {
   if (!removed) Log(LogLevel::kWarning, "objects are left", {{"error", removed.error().message}});
   SetExpiry(*dismissed);
   return dismissed;
+}
+
+SandboxLayers JobService::ActiveSandbox() const {
+  return options_.runner.spawner ? options_.runner.spawner->Layers() : SandboxLayers{};
 }
 
 void JobService::Drain() {

@@ -106,6 +106,9 @@ class JobService {
   /// Room on the disk of the data folder.
   [[nodiscard]] Result<std::int64_t> FreeBytes() const;
 
+  /// What encloses each worker process.
+  [[nodiscard]] SandboxLayers ActiveSandbox() const;
+
   /// Accepts and starts no further job; CheckReady and CheckRoom fail from now on.
   void Drain();
   bool WaitIdle(std::chrono::milliseconds most) { return engine_->WaitIdle(most); }
