@@ -3,6 +3,7 @@
 #include <optional>
 #include <sstream>
 #include <string>
+#include <system_error>
 
 #include "core/io/file.h"
 
@@ -88,8 +89,11 @@ Status CheckSameStore(const DataDirectory& directory, JobStore& jobs, ObjectStor
 }
 
 Status WriteIdentity(const DataDirectory& directory, const StoreIdentity& identity) {
-  return WriteFile(IdentityFile(directory),
-                   identity.id + " " + std::to_string(identity.generation) + "\n");
+  const fs::path file = IdentityFile(directory);
+  Status written = WriteFile(file, identity.id + " " + std::to_string(identity.generation) + "\n");
+  std::error_code ignored;  // the folder is for its owner alone, too
+  fs::permissions(file, fs::perms::owner_read | fs::perms::owner_write, ignored);
+  return written;
 }
 
 }  // namespace farhorizon
