@@ -1,15 +1,14 @@
 // Two passes over a text that may come from a stranger: the first completes what people write for
-// codes, the second refuses whatever would make PROJ open a file or a URL. Words are looked for in
-// lower case, and escapes that could hide one in JSON count as one.
+// codes, the second refuses whatever would make PROJ open a file or a URL.
 #include "core/geo/crs_text.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <regex>
 #include <string_view>
 
 #include "core/base/lower.h"
+#include "core/geo/named_files.h"
 #include "core/geo/short_text.h"
 
 namespace farhorizon {
@@ -20,11 +19,6 @@ constexpr std::size_t kMaxBytes = std::size_t{64} * 1024;
 constexpr std::size_t kMaxShownBytes = 60;
 // No text of the forms that are completed is longer; std::regex needs a stack that grows with it.
 constexpr std::size_t kMaxCompletedBytes = 500;
-
-// Texts that make PROJ open something by name, in lower case.
-constexpr std::array<std::string_view, 12> kNamesAFile = {
-    "proj=pipeline", "+step",         "init=",       "+file=",   " file=",   "+model=",
-    " model=",       "parameterfile", "proj4_grids", "tinshift", "defmodel", "@http"};
 
 bool IsSpace(unsigned char c) { return std::isspace(c) != 0; }
 
@@ -37,31 +31,6 @@ std::string Trimmed(const std::string& text) {
 // WKT and PROJJSON have URLs as citations, which PROJ does not follow.
 bool IsStructured(std::string_view lower) {
   return lower.starts_with('{') || lower.find('[') != std::string_view::npos;
-}
-
-// "nadgrids=", "geoidgrids=", "grids=" and the like. Web Mercator is written with +nadgrids=@null,
-// which means no grid; any other value names one.
-bool NamesAGrid(std::string_view lower) {
-  constexpr std::string_view kWord = "grids=";
-  for (std::size_t at = lower.find(kWord); at != std::string_view::npos;
-       at = lower.find(kWord, at + 1)) {
-    const std::size_t from = at + kWord.size();
-    const std::size_t end = std::min(lower.find_first_of(" \t\r\n+\"", from), lower.size());
-    if (lower.substr(from, end - from) != "@null") return true;
-  }
-  return false;
-}
-
-// PROJJSON has a file as a parameter whose value is a text; an escape could stand for a letter of
-// that key.
-bool HasJsonFile(const std::string& lower) {
-  constexpr std::string_view kKey = "\"value\"";
-  if (lower.find("\\u") != std::string::npos) return true;
-  for (std::size_t at = lower.find(kKey); at != std::string::npos; at = lower.find(kKey, at + 1)) {
-    const std::size_t value = lower.find_first_not_of(" \t\r\n:", at + kKey.size());
-    if (value != std::string::npos && lower[value] == '"') return true;
-  }
-  return false;
 }
 
 // "EPSG:4326" of "epsg: 4326", "EPSG::4326", "EPSG 4326", "4326"; "" of anything else.
@@ -128,20 +97,7 @@ Status CheckCrsText(const std::string& text, CrsRole role) {
                  "no-crs"};
   }
   if (text.size() > kMaxBytes) return Refused(text, role, "is longer than 64 KiB");
-  for (const std::string_view word : kNamesAFile) {
-    if (lower.find(word) != std::string::npos) {
-      return Refused(text, role, "names a pipeline or a file, which is not allowed");
-    }
-  }
-  if (NamesAGrid(lower)) {
-    return Refused(text, role,
-                   lower.find("geoidgrids") == std::string::npos
-                       ? "names a grid file, which is not allowed"
-                       : "names a geoid's file, which is not allowed: --vertical-datum names it");
-  }
-  if (lower.starts_with('{') && HasJsonFile(lower)) {
-    return Refused(text, role, "has a parameter that is a text, as names of files are");
-  }
+  if (const char* why = NamedFileIn(text)) return Refused(text, role, why);
   if (IsStructured(lower)) return Ok{};
   if (lower.find("://") != std::string::npos) return Refused(text, role, "is a URL");
   if (lower.starts_with('/') || lower.starts_with('.') || lower.starts_with('~') ||

@@ -2,13 +2,15 @@
 
 #include <proj.h>
 
+#include "core/geo/reference_data.h"
+
 namespace farhorizon {
 
 void ProjDelete::operator()(pj_ctx* context) const { proj_context_destroy(context); }
 void ProjDelete::operator()(PJconsts* object) const { proj_destroy(object); }
 
 ProjSession::ProjSession() : context_(proj_context_create()) {
-  proj_context_set_enable_network(get(), 0);
+  SealContext(get());
   proj_log_level(get(), PJ_LOG_ERROR);
   proj_log_func(get(), &complaint_, [](void* data, int, const char* message) {
     *static_cast<std::string*>(data) = message;

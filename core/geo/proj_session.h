@@ -17,7 +17,8 @@ struct ProjDelete {
 /// A PJ: a reference system, a datum, or an operation between two systems.
 using ProjObject = std::unique_ptr<PJconsts, ProjDelete>;
 
-/// A context of PROJ that fetches nothing and prints nothing: its last message is kept for errors.
+/// A context of PROJ that opens its packaged files alone (SealContext), fetches nothing and
+/// prints nothing: its last message is kept for errors.
 /// Objects made with a session do not outlive it.
 /// Threads: one at a time.
 class ProjSession {

@@ -1,5 +1,5 @@
 // Settings are of the thread, the error handler is on GDAL's stack for it: both go with the
-// session. Drivers are registered once in a process.
+// session. Drivers are registered once in a process, and so is the place of PROJ's files.
 #include "core/io/gdal_session.h"
 
 #include <array>
@@ -12,6 +12,8 @@
 #include <gdal_frmts.h>
 #include <ogr_srs_api.h>
 #include <ogrsf_frmts.h>
+
+#include "core/geo/reference_data.h"
 
 namespace farhorizon {
 
@@ -32,7 +34,13 @@ constexpr std::array<std::pair<const char*, const char*>, 7> kSettings = {{
 void RegisterDrivers() {
   static std::once_flag once;
   std::call_once(once, [] {
+    const char* const folders[] = {ProjDataFolder(), nullptr};
+    OSRSetPROJSearchPaths(folders);
     OSRSetPROJEnableNetwork(0);
+    // Otherwise the first registration reads options from $HOME/.gdal/gdalrc or /etc/gdal/gdalrc,
+    // and looks for plug-ins.
+    CPLSetConfigOption("GDAL_CONFIG_FILE", "");
+    CPLSetConfigOption("GDAL_DRIVER_PATH", "disable");
     GDALRegister_GTiff();
     GDALRegister_SRTMHGT();
     GDALRegister_DTED();
@@ -48,6 +56,17 @@ void RegisterDrivers() {
     RegisterOGRFlatGeobuf();
     RegisterOGRGeoPackage();
   });
+}
+
+// GDAL's tables (of ellipsoids, of Esri's state planes) lie in the folder of its package. What it
+// would search are the current folder and the one that GDAL_DATA names; the places are the
+// thread's.
+void FindPackagedTables() {
+  CPLFinderClean();
+  CPLPushFinderLocation(GdalDataFolder());  // comes after those that GDAL searches anyway
+  constexpr int kMostPlaces = 4;
+  for (int i = 0; i < kMostPlaces; ++i) CPLPopFinderLocation();
+  CPLPushFinderLocation(GdalDataFolder());
 }
 
 void CPL_STDCALL HearError(CPLErr severity, CPLErrorNum, const char* message) {
@@ -78,6 +97,7 @@ GdalSession::GdalSession(const std::filesystem::path& path)
     : path_(std::filesystem::absolute(path).lexically_normal()) {
   RegisterDrivers();
   for (const auto& [key, value] : kSettings) CPLSetThreadLocalConfigOption(key, value);
+  FindPackagedTables();
   CPLPushErrorHandlerEx(HearError, this);
 }
 

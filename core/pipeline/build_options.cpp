@@ -8,6 +8,7 @@
 #include <sstream>
 #include <utility>
 
+#include "core/geo/crs_text.h"
 #include "core/pipeline/option_numbers.h"
 
 namespace farhorizon {
@@ -210,6 +211,14 @@ Status CheckOptions(const BuildOptions& options) {
   if (Status triangles = CheckTriangles(options.triangles); !triangles) return triangles;
   if (options.work_budget && *options.work_budget < 1) {
     return Given{"workBudget", std::to_string(*options.work_budget)}.Expected("1 or more");
+  }
+  // An empty text is an error of the DEM, which may have a system of its own.
+  if (options.crs && !options.crs->empty()) {
+    if (Status safe = CheckCrsText(CompletedCrsText(*options.crs)); !safe) return safe;
+  }
+  if (options.vertical_datum && !options.vertical_datum->empty()) {
+    const std::string text = CompletedCrsText(*options.vertical_datum);
+    if (Status safe = CheckCrsText(text, CrsRole::kHeights); !safe) return safe;
   }
   const std::string unit = options.height_unit.value_or("m");
   if (unit != "m" && unit != "ft" && unit != "us-ft") {

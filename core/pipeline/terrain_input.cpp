@@ -14,18 +14,50 @@
 
 namespace farhorizon {
 
+namespace {
+
+// A flat grid of few posts between the outermost ones of `header`, all with data: its place is the
+// DEM's, its cells are wider.
+Dem StandInFor(const Dem& header) {
+  constexpr std::int32_t kMostPosts = 65;
+  Dem coarse = header;
+  coarse.assumptions.clear();
+  coarse.columns = std::min(header.columns, kMostPosts);
+  coarse.rows = std::min(header.rows, kMostPosts);
+  coarse.transform.step_x *= static_cast<double>(header.columns - 1) / (coarse.columns - 1);
+  coarse.transform.step_y *= static_cast<double>(header.rows - 1) / (coarse.rows - 1);
+  coarse.heights.assign(
+      static_cast<std::size_t>(coarse.columns) * static_cast<std::size_t>(coarse.rows), 0);
+  return coarse;
+}
+
+// Whether rows of degrees beyond a pole may have no data, so that only those who read them can say:
+// where others lie between the poles.
+bool HasRowsOnTheGlobe(const Dem& dem, double full_turn) {
+  const double first = dem.transform.origin_y;
+  const double last = first + (dem.rows - 1) * dem.transform.step_y;
+  const double pole = full_turn / 4;
+  return full_turn > 0 && std::min(first, last) < pole && std::max(first, last) > -pole;
+}
+
+}  // namespace
+
 Result<std::unique_ptr<TerrainInput>> TerrainInput::Open(const std::filesystem::path& path,
                                                          const BuildOptions& options,
-                                                         const RunControl& control) {
+                                                         const RunControl& control,
+                                                         std::int64_t most_decoded) {
   std::unique_ptr<TerrainInput> input(new TerrainInput());
   Result<Dem> dem = ReadDem(path, {.max_posts = options.max_posts,
                                    .crs = options.crs,
                                    .vertical_datum = options.vertical_datum,
                                    .nodata = options.nodata,
-                                   .height_unit = options.height_unit});
+                                   .height_unit = options.height_unit,
+                                   .most_decoded = most_decoded});
   if (!dem) return std::move(dem.error()).WithContext("read DEM");
   input->dem_ = *std::move(dem);
   input->Assume(input->dem_.assumptions, control);
+  input->header_only_ = input->dem_.heights.empty();
+  if (input->header_only_) input->dem_ = StandInFor(input->dem_);
   Result<Terrain> terrain = Terrain::Build(input->dem_);
   if (!terrain) return std::move(terrain.error()).WithContext("triangulate DEM");
   input->terrain_ = *terrain;
@@ -34,10 +66,16 @@ Result<std::unique_ptr<TerrainInput>> TerrainInput::Open(const std::filesystem::
                                           .datum_operation = options.datum_operation.value_or("")});
   if (!georeference) return std::move(georeference.error()).WithContext("place DEM on the globe");
   input->georeference_.emplace(*std::move(georeference));
-  if (Status placed = CheckPlacement(*input->terrain_, *input->georeference_); !placed) {
+  Status placed = CheckPlacement(*input->terrain_, *input->georeference_);
+  if (!placed && input->header_only_ && placed.error().kind == "outside-crs" &&
+      HasRowsOnTheGlobe(input->dem_, input->georeference_->FullTurn())) {
+    placed = Ok{};
+  }
+  if (!placed) {
     return std::move(placed.error()).WithContext("place DEM on the globe");
   }
   input->Assume(input->georeference_->assumptions(), control);
+  if (input->header_only_) return input;
   Result<std::string> sha256 = Sha256OfFile(path);
   if (!sha256) return std::move(sha256.error()).WithContext("read DEM");
   input->report_.sha256 = *std::move(sha256);

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <optional>
 
@@ -18,14 +20,19 @@ namespace farhorizon {
 /// A DEM file, read, triangulated and georeferenced: what every command starts from.
 class TerrainInput {
  public:
+  static constexpr std::int64_t kAll = std::numeric_limits<std::int64_t>::max();
+
   /// Takes from `options` what says how to read and to place a DEM, and tells `control` of each
-  /// assumption.
+  /// assumption. most_decoded: as DemReadOptions has it; where the heights stay unread, a flat
+  /// terrain of few posts at the DEM's place stands in for it (HeaderOnly).
   /// Errors: those of ReadDem, Terrain::Build, Georeference::Of and CheckPlacement, each with the
   ///   step's name.
   static Result<std::unique_ptr<TerrainInput>> Open(const std::filesystem::path& path,
                                                     const BuildOptions& options,
-                                                    const RunControl& control);
+                                                    const RunControl& control,
+                                                    std::int64_t most_decoded = kAll);
 
+  [[nodiscard]] bool HeaderOnly() const { return header_only_; }
   [[nodiscard]] const Dem& dem() const { return dem_; }
   [[nodiscard]] const Terrain& terrain() const { return *terrain_; }
   [[nodiscard]] const Georeference& georeference() const { return *georeference_; }
@@ -43,6 +50,7 @@ class TerrainInput {
   void Assume(const Assumptions& assumptions, const RunControl& control);
 
   Dem dem_;
+  bool header_only_ = false;
   std::optional<Terrain> terrain_;
   std::optional<Georeference> georeference_;
   DemReport report_;

@@ -6,6 +6,7 @@
 
 #include "core/base/result.h"
 #include "core/base/run_control.h"
+#include "core/geo/reference_data.h"
 #include "core/pipeline/build.h"
 #include "core/pipeline/progress_plan.h"
 #include "service/cli/build_flags.h"
@@ -48,10 +49,11 @@ struct DemRun {
 
 /// Calls work(const DemRun&) and returns its Result, after the progress bar was removed and the
 /// timings were written. workflow: the stages that `work` goes through.
-/// Errors: those of BuildFlags::Options, of `work` and of WriteTimings.
+/// Errors: those of CheckReferenceData, BuildFlags::Options, of `work` and of WriteTimings.
 template <typename Work>
 auto RunOnDem(const DemArguments& arguments, Workflow workflow, Work work)
     -> std::invoke_result_t<Work, const DemRun&> {
+  if (Status there = CheckReferenceData(); !there) return std::move(there.error());
   Result<BuildOptions> options = arguments.flags.Options();
   if (!options) return std::move(options.error());
   const StopOnSignal signals;

@@ -8,10 +8,12 @@
 
 #include "core/pipeline/version.h"
 #include "service/cli/command.h"
+#include "service/cli/environment.h"
 
 namespace farhorizon {
 
 int RunProgram(int argc, char** argv) {
+  KeepOnlyKnownEnvironment();
   CLI::App app(
       "farhorizon turns elevation grids into levels of detail whose skyline is exactly that of the "
       "original.",

@@ -29,7 +29,9 @@ struct HttpRequest {
   bool keep_alive = true;
 
   std::string peer;                     ///< address, for the log
-  std::vector<std::string> parameters;  ///< the values of {…} in the route's pattern, decoded
+  std::string request_id;               ///< likewise
+  std::string route;                    ///< the pattern of its path; empty: there is no route
+  std::vector<std::string> parameters;  ///< the values of {…} in that pattern, decoded
 
   /// The first field of that name (in lower case); nullptr if there is none.
   [[nodiscard]] const std::string* Header(std::string_view name) const;
@@ -63,6 +65,9 @@ struct HttpResponse {
   std::vector<std::pair<std::string, std::string>> headers;
   std::string body;
   std::optional<FileBody> file;  ///< sent in place of `body`
+
+  std::string code;    ///< of the problem that it is, for the log
+  std::string job_id;  ///< of the job that it is about, for the log
 
   void Set(std::string name, std::string value) {
     headers.emplace_back(std::move(name), std::move(value));

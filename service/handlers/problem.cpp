@@ -19,9 +19,9 @@ constexpr const char* kOgc = "http://www.opengis.net/def/exceptions/ogcapi-proce
 constexpr const char* kOurs = "urn:farhorizon:problem:";
 
 constexpr ErrorKind kKinds400[] = {
-    "digest-mismatch",
     "bad-azimuth",
     "bad-request",
+    "digest-mismatch",
     "invalid-address",
     "invalid-argument",
     "invalid-config",
@@ -47,10 +47,12 @@ constexpr ErrorKind kKinds404[] = {
 constexpr ErrorKind kKinds405[] = {"method-not-allowed"};
 constexpr ErrorKind kKinds408[] = {"request-timeout"};
 constexpr ErrorKind kKinds412[] = {"precondition-failed"};
-constexpr ErrorKind kKinds413[] = {"block-too-large", "body-not-allowed", "body-too-large",
-                                   "raster-too-large"};
+constexpr ErrorKind kKinds413[] = {"body-not-allowed", "body-too-large", "raster-too-large"};
 constexpr ErrorKind kKinds414[] = {"target-too-long"};
-constexpr ErrorKind kKinds415[] = {"not-a-raster", "unsupported-media-type"};
+constexpr ErrorKind kKinds415[] = {
+    "not-a-raster",
+    "unsupported-media-type",
+};
 constexpr ErrorKind kKinds416[] = {"range-not-satisfiable"};
 constexpr ErrorKind kKinds417[] = {"expectation-failed"};
 constexpr ErrorKind kKinds421[] = {"misdirected-request"};
@@ -64,6 +66,7 @@ constexpr ErrorKind kKinds422[] = {
     "bad-mesh-file",
     "bad-report",
     "bad-tileset",
+    "block-too-large",
     "cells-too-narrow",
     "degenerate-geotransform",
     "displaced-vertex",
@@ -99,23 +102,16 @@ constexpr ErrorKind kKinds422[] = {
     "work-budget",
 };
 constexpr ErrorKind kKinds429[] = {"too-many-jobs"};
-constexpr ErrorKind kKinds431[] = {"head-too-large", "too-many-header-fields"};
+constexpr ErrorKind kKinds431[] = {
+    "head-too-large",
+    "too-many-header-fields",
+};
 constexpr ErrorKind kKinds500[] = {
-    "worker-program",
-    "sandbox-missing",
-    "reference-data",
-    "cannot-listen",
-    "connection",
-    "data-directory",
-    "input-corrupt",
-    "internal-error",
-    "io",
-    "job-store",
-    "job-store-unusable",
-    "poison-job",
-    "result-corrupt",
-    "storage",
-    "worker-crashed",
+    "cannot-listen",  "connection",         "data-directory",
+    "input-corrupt",  "internal-error",     "io",
+    "job-store",      "job-store-unusable", "poison-job",
+    "reference-data", "result-corrupt",     "sandbox-missing",
+    "storage",        "worker-crashed",     "worker-program",
     "worker-stuck",
 };
 constexpr ErrorKind kKinds501[] = {"transfer-encoding-not-implemented"};
@@ -211,6 +207,7 @@ HttpResponse ProblemResponse(const HttpRequest& request, const Problem& problem)
       {"instance", request.path},          {"code", problem.code.name()}};
   HttpResponse response;
   response.status = problem.status;
+  response.code = problem.code.name();
   response.Set("Content-Type",
                WantsPlainJson(request) ? "application/json" : "application/problem+json");
   response.Set("Cache-Control", "no-store");

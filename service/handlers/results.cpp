@@ -49,7 +49,9 @@ HttpResponse ListResults(const HandlerContext& context, const HttpRequest& reque
         {"length", artifact.bytes},
         {"sha256", artifact.sha256}};
   }
-  return JsonResponse(document);
+  HttpResponse response = TaggedJsonResponse(request, document);
+  response.job_id = job->id;
+  return response;
 }
 
 // For a page, the one artifact that a browser shows and runs: its own script and style, no loads,
@@ -124,7 +126,11 @@ HttpResponse GetArtifact(const HandlerContext& context, const HttpRequest& reque
   Result<Job> job = FinishedJob(context, request.parameters.at(0));
   if (!job) return ProblemResponse(request, ProblemOf(job.error()));
   Result<OpenArtifact> open = context.jobs.Open(job->id, request.parameters.at(1));
-  if (open) return SendArtifact(request, *std::move(open));
+  if (open) {
+    HttpResponse response = SendArtifact(request, *std::move(open));
+    response.job_id = job->id;
+    return response;
+  }
   const Problem problem = ProblemOf(open.error());
   if (problem.status >= 500) {
     Log(LogLevel::kError, "artifact lost", {{"job_id", job->id}, {"error", open.error().message}});

@@ -10,6 +10,7 @@
 #include "service/clock.h"
 #include "service/jobs/collect_artifacts.h"
 #include "service/log.h"
+#include "service/metrics.h"
 #include "service/worker/worker_protocol.h"
 
 namespace farhorizon {
@@ -31,6 +32,7 @@ JobRunner::JobRunner(const Stores& stores, fs::path work_directory, RunnerOption
       options_(std::move(options)) {}
 
 void JobRunner::Run(const Job& job, const std::stop_token& stop) {
+  CountJobStart(std::chrono::milliseconds(NowMs() - job.created_ms));
   Log(LogLevel::kInfo, "job starts", {{"job_id", job.id}, {"attempt", job.attempt}});
   const fs::path directory = work_directory_ / (job.id + "-" + std::to_string(job.run));
   try {
@@ -42,7 +44,8 @@ void JobRunner::Run(const Job& job, const std::stop_token& stop) {
     if (!prepared) {
       ending_.Failed(job, prepared.error(), stop);
     } else {
-      const WorkerCall call{options_.worker_program, false, directory, options_.limits};
+      const WorkerCall call{options_.worker_program, false, directory, options_.limits,
+                            options_.spawner};
       const RunControl control{ReportTo(job), stop, {}, StoreAssumptionsOf(job)};
       StoreOutcome(job, RunWorker(call, control), directory, stop);
     }
@@ -146,6 +149,8 @@ Status JobRunner::Publish(const Job& job, const WorkerOutcome& outcome, const fs
     if (*published) {
       objects_.Keep(objects);
       const std::int64_t took = NowMs() - job.started_ms.value_or(job.created_ms);
+      CountJobEnd("successful", "");
+      CountStages(outcome.timings);
       Log(LogLevel::kInfo, "job successful", {{"job_id", job.id}, {"dur_ms", took}});
       return Ok{};
     }

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <stop_token>
 #include <string>
 
@@ -20,7 +21,8 @@ struct RunnerOptions {
   std::string worker_program = "/proc/self/exe";
   WorkerLimits limits;
   std::int64_t max_posts = 64'000'000;
-  int threads = 1;  ///< of one worker
+  int threads = 1;                             ///< of one worker
+  std::shared_ptr<Spawner> spawner = nullptr;  ///< starts the workers
 };
 
 /// Runs one job in a worker process: input, worker, artifacts, final state.

@@ -8,6 +8,7 @@
 #include "service/jobs/storage_file.h"
 #include "service/jobs/sync_failure.h"
 #include "service/log.h"
+#include "service/metrics.h"
 #include "service/worker/worker_protocol.h"
 
 namespace farhorizon {
@@ -15,6 +16,11 @@ namespace farhorizon {
 namespace {
 
 namespace fs = std::filesystem;
+
+Error Draining() {
+  return {ErrorCode::kResourceExhausted, "the service is being stopped; try again soon",
+          "draining"};
+}
 
 WorkerLimits ProbeLimits(const ProbeOptions& probe) {
   WorkerLimits limits;
@@ -106,20 +112,20 @@ QueueBounds JobService::Bounds() const {
 }
 
 Status JobService::CheckRoom(const std::string& client) {
-  if (draining_) {
-    return Error{ErrorCode::kResourceExhausted, "the service is being stopped; try again soon",
-                 "draining"};
-  }
+  if (draining_) return Draining();
   Status room = health_.CheckRoom();
   if (!room) return room;
   return jobs_->CheckQueue(client, Bounds());
 }
 
-Status JobService::CheckReady() {
-  if (draining_) return CheckRoom("");
-  Status room = health_.CheckRoom();
-  if (!room) return room;
-  return health_.CheckWrites();
+std::vector<ReadinessCheck> JobService::CheckReady() {
+  return {{"accepting", draining_ ? Status(Draining()) : Status(Ok{})},
+          {"room", health_.CheckRoom()},
+          {"storage", health_.CheckWrites()}};
+}
+
+Result<std::int64_t> JobService::FreeBytes() const {
+  return farhorizon::FreeBytes(directory_.root);
 }
 
 void JobService::SetExpiry(Job& job) const {
@@ -155,9 +161,9 @@ Result<Assumptions> JobService::Probe(const SpoolFile& upload, const Submission&
   std::optional<Error> refusal;
   if (!failure && WriteTaskFile(directory, task)) {
     probes_.acquire();
-    WorkerOutcome outcome =
-        RunWorker({runner.worker_program, true, directory, ProbeLimits(options_.probe)},
-                  {.on_assumption = [&](const Assumption& met) { assumptions.push_back(met); }});
+    WorkerOutcome outcome = RunWorker(
+        {runner.worker_program, true, directory, ProbeLimits(options_.probe), runner.spawner},
+        {.on_assumption = [&](const Assumption& met) { assumptions.push_back(met); }});
     probes_.release();
     // A worker that runs out of the probe's memory says so itself; a job may have more.
     if (outcome.end == WorkerEnd::kFailed && outcome.error.kind != "memory-limit") {
@@ -205,7 +211,7 @@ Result<OpenArtifact> JobService::Open(const std::string& id, const std::string& 
     // lost.
     Result<Job> job = jobs_->Find(id);
     if (!job) return std::move(job.error());
-    ++corrupt_results_;
+    CountCorruptResult();
     return Error{ErrorCode::kIo, "this artifact is damaged or lost; submit the DEM again",
                  "result-corrupt"};
   }
@@ -232,6 +238,10 @@ Result<Job> JobService::Dismiss(const std::string& id) {
   if (!removed) Log(LogLevel::kWarning, "objects are left", {{"error", removed.error().message}});
   SetExpiry(*dismissed);
   return dismissed;
+}
+
+SandboxLayers JobService::ActiveSandbox() const {
+  return options_.runner.spawner ? options_.runner.spawner->Layers() : SandboxLayers{};
 }
 
 void JobService::Drain() {

@@ -54,6 +54,12 @@ struct Submission {
   std::string client = {};       ///< the peer's address
 };
 
+/// One thing that a service depends on.
+struct ReadinessCheck {
+  const char* name;
+  Status status;
+};
+
 /// An artifact, open for reading: no wrong byte of it can be read.
 struct OpenArtifact {
   Artifact artifact;
@@ -93,11 +99,15 @@ class JobService {
   /// Dismisses the job, stops its worker and removes its objects. Errors: kNotFound.
   Result<Job> Dismiss(const std::string& id);
 
-  /// Succeeds if new jobs can be accepted and run: writes to the disk and to the store. Errors: as
-  /// CheckRoom, and those of the stores.
-  Status CheckReady();
-  /// How often an artifact was found damaged or lost.
-  [[nodiscard]] std::int64_t corrupt_results() const { return corrupt_results_; }
+  /// What accepting and running jobs depends on: the service is ready if all succeed. Writes to the
+  /// disk and to the store.
+  std::vector<ReadinessCheck> CheckReady();
+  Result<UnfinishedJobs> CountUnfinished() { return jobs_->CountUnfinished(); }
+  /// Room on the disk of the data folder.
+  [[nodiscard]] Result<std::int64_t> FreeBytes() const;
+
+  /// What encloses each worker process.
+  [[nodiscard]] SandboxLayers ActiveSandbox() const;
 
   /// Accepts and starts no further job; CheckReady and CheckRoom fail from now on.
   void Drain();
@@ -127,7 +137,6 @@ class JobService {
   ObjectVerifier verifier_;
   StorageHealth health_;
   DiskReserve reserve_;
-  std::atomic<std::int64_t> corrupt_results_{0};
   std::atomic<bool> draining_{false};
   std::atomic<std::int64_t> next_probe_{0};
   std::counting_semaphore<> probes_;

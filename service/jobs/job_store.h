@@ -22,6 +22,12 @@ struct NewJob {
   std::string client = {};       ///< who sends it
 };
 
+/// How many jobs have not ended.
+struct UnfinishedJobs {
+  std::int64_t accepted = 0;
+  std::int64_t running = 0;
+};
+
 /// How many jobs may wait.
 struct QueueBounds {
   std::int64_t all = 1000;
@@ -95,7 +101,7 @@ class JobStore {
   /// Errors: kNotFound.
   virtual Result<Job> Find(const std::string& id) = 0;
   virtual Result<JobPage> List(const JobQuery& query) = 0;
-  virtual Result<std::int64_t> CountWaiting() = 0;
+  virtual Result<UnfinishedJobs> CountUnfinished() = 0;
 
   /// Makes an accepted job running, with the next run; nullopt if none may be started now. Of the
   /// clients with the fewest running jobs, the one that was served the longest ago gets its oldest.

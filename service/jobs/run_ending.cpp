@@ -7,6 +7,7 @@
 #include "service/clock.h"
 #include "service/jobs/storage_file.h"
 #include "service/log.h"
+#include "service/metrics.h"
 #include "service/random.h"
 
 namespace farhorizon {
@@ -68,6 +69,7 @@ void RunEnding::DataFailed(const Job& job, const Error& error, const std::stop_t
   const bool stored =
       StoreSurely(job, stop, [&] { return jobs_.Fail(job.id, job.run, error, NowMs()); });
   if (!stored) return;
+  CountJobEnd("failed", std::string(error.kind));
   Log(LogLevel::kWarning, "job failed",
       {{"job_id", job.id}, {"code", error.kind}, {"error", error.message}});
 }

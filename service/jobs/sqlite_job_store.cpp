@@ -28,7 +28,7 @@ class SqliteJobStore : public JobStore {
   Status CheckQueue(const std::string& client, const QueueBounds& bounds) override;
   Result<Job> Find(const std::string& id) override;
   Result<JobPage> List(const JobQuery& query) override;
-  Result<std::int64_t> CountWaiting() override;
+  Result<UnfinishedJobs> CountUnfinished() override;
   Result<std::optional<Job>> ClaimNext(std::int64_t now_ms) override;
   Result<bool> ReportProgress(const std::string& id, std::int64_t run, int progress,
                               const std::string& message, std::int64_t now_ms) override;
@@ -128,11 +128,14 @@ Result<JobPage> SqliteJobStore::List(const JobQuery& query) {
   return Call([&] { return SelectPage(database_, query); });
 }
 
-Result<std::int64_t> SqliteJobStore::CountWaiting() {
+Result<UnfinishedJobs> SqliteJobStore::CountUnfinished() {
   return Call([&] {
-    Statement count(database_, "SELECT count(*) FROM jobs WHERE state = 'accepted'");
+    Statement count(database_,
+                    "SELECT count(*) FILTER (WHERE state = 'accepted'), "
+                    "count(*) FILTER (WHERE state = 'running') "
+                    "FROM jobs WHERE state IN ('accepted', 'running')");
     count.Step();
-    return count.Integer(0);
+    return UnfinishedJobs{count.Integer(0), count.Integer(1)};
   });
 }
 

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <sstream>
 #include <string>
-#include <sys/stat.h>
+#include <system_error>
 
 #include "core/io/file.h"
 
@@ -88,9 +88,10 @@ Status CheckSameStore(const DataDirectory& directory, JobStore& jobs, ObjectStor
 }
 
 Status WriteIdentity(const DataDirectory& directory, const StoreIdentity& identity) {
-  Status written = WriteFile(IdentityFile(directory),
-                             identity.id + " " + std::to_string(identity.generation) + "\n");
-  if (written) ::chmod(IdentityFile(directory).c_str(), 0600);
+  const fs::path file = IdentityFile(directory);
+  Status written = WriteFile(file, identity.id + " " + std::to_string(identity.generation) + "\n");
+  std::error_code ignored;  // the folder is for its owner alone, too
+  fs::permissions(file, fs::perms::owner_read | fs::perms::owner_write, ignored);
   return written;
 }
 

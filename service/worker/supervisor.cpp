@@ -4,11 +4,13 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
-#include <fstream>
+#include <fcntl.h>
+#include <iterator>
 #include <optional>
 #include <poll.h>
 #include <signal.h>
 #include <sys/eventfd.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -21,7 +23,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kLongestLine = 16384;
-constexpr std::streamoff kStderrTailBytes = 2000;
+constexpr off_t kStderrTailBytes = 2000;
 // Eight beats. The thread that sends them needs a moment of a processor a second, which a machine
 // that swaps, or a start of the program on a slow disk, may refuse it for some.
 constexpr std::chrono::seconds kLongestSilence{8 * kBeatInterval};
@@ -106,11 +108,17 @@ WaitResult WaitForChild(const ChildProcess& child, MessageReader& reader, int st
 }
 
 std::string StderrTail(const std::filesystem::path& directory) {
-  std::ifstream file(directory / "stderr.txt", std::ios::binary | std::ios::ate);
-  if (!file) return {};
-  const std::streamoff size = file.tellg();
-  file.seekg(std::max<std::streamoff>(0, size - kStderrTailBytes));
-  return {std::istreambuf_iterator<char>(file), {}};
+  // The worker may have put something else into its place.
+  const UniqueFd file(
+      ::open((directory / "stderr.txt").c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK));
+  struct stat about {};
+  if (!file || ::fstat(file.get(), &about) != 0 || !S_ISREG(about.st_mode)) return {};
+  std::string tail(static_cast<std::size_t>(std::min<off_t>(about.st_size, kStderrTailBytes)),
+                   '\0');
+  const ssize_t got =
+      ::pread(file.get(), tail.data(), tail.size(), about.st_size - std::ssize(tail));
+  tail.resize(got > 0 ? static_cast<std::size_t>(got) : 0);
+  return tail;
 }
 
 WorkerOutcome Crashed(ErrorCode code, ErrorKind kind, std::string message) {
@@ -160,10 +168,11 @@ WorkerOutcome RunWorker(const WorkerCall& call, const RunControl& control) {
   const UniqueFd stop_event(::eventfd(0, EFD_CLOEXEC));
   const std::stop_callback wake(control.stop,
                                 [&stop_event] { ::eventfd_write(stop_event.get(), 1); });
-  std::vector<std::string> arguments = {"worker"};
-  if (call.probe_only) arguments.emplace_back("--probe");
+  if (!call.spawner) {
+    return Crashed(ErrorCode::kIo, "worker-not-started", "there is nothing that starts workers");
+  }
   Result<ChildProcess> child =
-      ChildProcess::Start(call.program, arguments, call.directory, call.limits);
+      call.spawner->StartWorker({call.program, call.probe_only, call.directory, call.limits});
   if (!child) return {WorkerEnd::kCrashed, std::move(child.error()), {}, {}};
   MessageReader reader(control);
   const Clock::time_point deadline = Clock::now() + std::chrono::seconds(call.limits.wall_seconds);

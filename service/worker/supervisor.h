@@ -2,11 +2,13 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <string>
 
 #include "core/base/result.h"
 #include "core/base/run_control.h"
-#include "service/worker/child_process.h"
+#include "service/worker/spawner/spawner.h"
+#include "service/worker/worker_limits.h"
 
 namespace farhorizon {
 
@@ -32,6 +34,7 @@ struct WorkerCall {
   bool probe_only = false;          ///< read the raster, build nothing
   std::filesystem::path directory;  ///< the worker's own; contains task.json and the input
   WorkerLimits limits;
+  std::shared_ptr<Spawner> spawner = nullptr;  ///< starts the worker
 };
 
 /// Runs a worker process to its end, and passes its progress and assumptions on to `control`.

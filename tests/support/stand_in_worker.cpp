@@ -5,6 +5,7 @@
 #include <fstream>
 #include <string>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <thread>
 #include <unistd.h>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "core/io/posix_file.h"
 #include "core/io/sha256.h"
 #include "service/worker/worker_protocol.h"
+#include "tests/support/hostile_deeds.h"
 
 namespace {
 
@@ -73,6 +75,29 @@ int Misbehave(const WorkerTask& task) {
     Send(WriteMessage(
         Error{ErrorCode::kUnsupportedData, "no reference system; give --crs EPSG:4326", "no-crs"}));
     return 1;
+  }
+  if (Named(task, "escape")) {
+    std::string done;
+    for (const std::string& deed : HostileDeedsDone()) done += deed + "\n";
+    WriteOne(task.output, "done:\n" + done);
+    Send(WriteMessage(WorkerDone{}));
+    return 0;
+  }
+  if (Named(task, "children")) {
+    // Each in a session of its own, its parent gone: nobody's child.
+    for (int i = 0; i < 5; ++i) {
+      if (::fork() != 0) continue;
+      ::setsid();
+      if (::fork() == 0) std::this_thread::sleep_for(std::chrono::hours(1));
+      std::_Exit(0);
+    }
+    return 3;
+  }
+  if (Named(task, "pipe")) {
+    // Where pipes cannot be made there is no manifest, which is as bad.
+    [[maybe_unused]] const int made = ::mkfifo((task.output + "/manifest.json").c_str(), 0600);
+    Send(WriteMessage(WorkerDone{}));
+    return 0;
   }
   if (Named(task, "slow")) {
     for (int i = 0; i < 20; ++i) {

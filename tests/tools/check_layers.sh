@@ -47,13 +47,13 @@ declare -A may=(
   # What a file is by its first bytes, and grids of text: neither knows GDAL.
   [core/io/file_kind]="core/base core/io/text_grid"
   [core/io/text_grid]="core/base"
-  [core/io/raster]="core/base core/io core/io/file_kind core/io/text_grid"
+  [core/io/raster]="core/base core/geo core/io core/io/file_kind core/io/text_grid"
   [core/io/dem]="core/base core/geometry core/terrain core/geo core/io core/io/text_grid core/io/raster core/io/dem/tiff core/io/dem/values core/io/dem/place"
   # The tags and blocks of a TIFF; what the numbers of a band mean; where its cells lie. Their root
   # has what is at hand while one raster is read.
   [core/io/dem/tiff]="core/base core/io core/io/dem"
   [core/io/dem/values]="core/base core/terrain core/geo core/io core/io/text_grid core/io/dem core/io/dem/tiff"
-  [core/io/dem/place]="core/base core/terrain core/io core/io/dem"
+  [core/io/dem/place]="core/base core/terrain core/geo core/io core/io/dem"
   # Meshes that others wrote; `compare` alone reads them.
   [core/io/mesh_files]="core/base core/io"
   [core/pipeline]="$below_pipeline"
@@ -64,15 +64,18 @@ declare -A may=(
   [core/pipeline/build]="$below_pipeline core/pipeline core/pipeline/report_page"
   # The service's own root: clock, log, and the wrapper header of Asio. main.cpp is below.
   [service]="core/base"
-  [service/worker]="core/base core/io core/pipeline core/pipeline/build service"
-  [service/jobs]="core/base core/io core/pipeline service service/worker"
+  [service/worker]="core/base core/io core/pipeline core/pipeline/build service service/worker/spawner"
+  # What shuts a worker in, and what starts it so.
+  [service/worker/sandbox]="core/base core/io"
+  [service/worker/spawner]="core/base core/geo core/io service/worker service/worker/sandbox"
+  [service/jobs]="core/base core/io core/pipeline service service/worker service/worker/sandbox service/worker/spawner"
   # Looks at the data directory of a stopped service.
   [service/jobs/fsck]="core/base core/io service service/jobs"
   [service/handlers]="core/base core/io core/io/file_kind core/pipeline service service/jobs"
   [service/http]="core/base service service/handlers"
   # The configuration consists of the options of the parts, so it stands above them.
   [service/config]="core/base service service/worker service/jobs service/http"
-  [service/cli]="core/base core/io core/pipeline core/pipeline/build service service/worker service/jobs service/jobs/fsck service/handlers service/http core/pipeline/verify core/pipeline/compare core/horizon core/horizon/search service/config"
+  [service/cli]="core/base core/geo core/io core/pipeline core/pipeline/build service service/worker service/worker/sandbox service/worker/spawner service/jobs service/jobs/fsck service/handlers service/http core/pipeline/verify core/pipeline/compare core/horizon core/horizon/search service/config"
   [service/main.cpp]="core/base service service/cli"
 )
 
@@ -90,6 +93,7 @@ foreign=(
   'nlohmann/ @ ^core/(io|pipeline)/(compare/)?[^/]+\.cpp$ ^core/io/mesh_files/(gltf_json\.h|[^/]+\.cpp)$ ^service/[a-z_0-9]+\.(h|cpp)$ ^service/(handlers|jobs|worker|config|cli)/'
   'openssl/ @ ^core/io/[^/]+\.cpp$'
   'CLI/ @ ^service/cli/(command_line|run)\.cpp$'
+  'prometheus/ @ ^service/metrics\.cpp$'
   # The system's own: files in core/io, processes and sockets in service.
   '((sys|netinet|arpa|linux)/)?[a-z_0-9]+\.h$ @ ^core/io/[^/]+\.cpp$ ^service/'
 )

@@ -16,6 +16,7 @@
 #include <gdal.h>
 #include <ogr_srs_api.h>
 
+#include "core/geo/named_files.h"
 #include "core/io/dem/place/reference_system.h"
 #include "core/io/dem/values/nodata_rule.h"
 #include "core/io/dem/values/number_text.h"
@@ -163,7 +164,7 @@ class AuxReader {
     std::string wkt = *text;
     char* position = wkt.data();
     // Not from "user input", which may be the name of a file.
-    if (OSRImportFromWkt(crs.get(), &position) != OGRERR_NONE) {
+    if (NamedFileIn(wkt) != nullptr || OSRImportFromWkt(crs.get(), &position) != OGRERR_NONE) {
       Say("gives a reference system that cannot be read; name it with --crs");
       return std::nullopt;
     }

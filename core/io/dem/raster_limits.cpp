@@ -28,15 +28,20 @@ Status CheckSize(GDALRasterBandH band, std::int64_t max_posts) {
   return Ok{};
 }
 
-// GDAL decodes a block as a whole. A block much larger than the raster fills memory to no purpose.
+// GDAL decodes a block as a whole, some kinds of compression with several copies of it: a few
+// hundred bytes of a file can ask for gigabytes. A block much larger than the raster fills memory
+// to no purpose, and one of more than kMostInBlock is not what a program for elevations writes:
+// whole images in one compressed strip are, up to some 5700 x 5700 posts. (GDAL reads an
+// uncompressed one by rows.)
 Status CheckBlock(GDALRasterBandH band, std::int64_t max_posts) {
   constexpr std::int64_t kAlwaysFine = std::int64_t{1} << 20;
+  constexpr std::int64_t kMostInBlock = std::int64_t{1} << 25;
   int width = 0;
   int height = 0;
   GDALGetBlockSize(band, &width, &height);
   const std::int64_t posts =
       std::int64_t{GDALGetRasterBandXSize(band)} * GDALGetRasterBandYSize(band);
-  const std::int64_t limit = std::max(kAlwaysFine, std::min(max_posts, 4 * posts));
+  const std::int64_t limit = std::max(kAlwaysFine, std::min({max_posts, 4 * posts, kMostInBlock}));
   if (width > 0 && height > 0 && std::int64_t{width} * height <= limit) return Ok{};
   return Error{ErrorCode::kResourceExhausted,
                "the raster is stored in blocks of " + std::to_string(width) + " x " +

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <iterator>
 #include <optional>
 #include <string>
@@ -41,6 +42,15 @@ Status FindHeights(OpenedDem& opened) {
   opened.band = *band;
   if (Status fits = CheckRasterLimits(band->heights, opened.options.max_posts); !fits) return fits;
   return CheckComplete(opened.dataset, opened.path);
+}
+
+// The posts that GDAL decodes for all heights, or for one where that is more: blocks go as a whole.
+std::int64_t CostOf(GDALRasterBandH band) {
+  int width = 0;
+  int height = 0;
+  GDALGetBlockSize(band, &width, &height);
+  return std::max(std::int64_t{width} * height,
+                  std::int64_t{GDALGetRasterBandXSize(band)} * GDALGetRasterBandYSize(band));
 }
 
 // Judges the values by the heights that they would be, with `scale`.
@@ -89,6 +99,10 @@ Result<Dem> ReadOpened(OpenedDem opened) {
       ReadValueScale(opened, crs ? std::optional(*crs) : std::optional<std::string>());
   if (!scale) return std::move(scale.error());
 
+  if (CostOf(opened.band.heights) > options.most_decoded) {
+    dem.assumptions = std::move(opened.assumptions);
+    return dem;
+  }
   Result<std::vector<double>> values = ReadValues(opened, *tags);
   if (!values) return std::move(values.error());
   if (Status sound = JudgeHeights(tags->samples, *scale, dem.columns, *values, opened.assumptions);

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,6 +19,8 @@ struct DemReadOptions {
   std::optional<std::string> vertical_datum = {};  ///< overrides what `crs` or the file says
   std::vector<double> nodata = {};                 ///< raw values, beside the file's own
   std::optional<std::string> height_unit = {};     ///< "m", "ft" or "us-ft": overrides the file's
+  /// Of a raster with more posts, or with a block of more, the heights stay unread.
+  std::int64_t most_decoded = std::numeric_limits<std::int64_t>::max();
 };
 
 /// Reads the band of heights of a raster, of any format that OpenRaster opens, as a DEM.
@@ -41,7 +44,8 @@ struct DemReadOptions {
 ///   "not-a-raster", "several-bands", "no-crs", "rotated-geotransform", "degenerate-geotransform",
 ///   "too-small", "all-nodata", "infinite-height", "height-out-of-range", "unsupported-type",
 ///   "unknown-unit", "truncated"; kResourceExhausted "raster-too-large", "block-too-large", both
-///   before any pixel is read.
+///   before any pixel is read. Where `most_decoded` leaves the heights unread, they are empty, and
+///   errors that only heights show are not found.
 /// Cost: at its peak 12 bytes a post, 16 for text.
 Result<Dem> ReadDem(const std::filesystem::path& path, const DemReadOptions& options);
 

@@ -11,6 +11,7 @@
 #include <gdal.h>
 #include <ogr_srs_api.h>
 
+#include "core/geo/named_files.h"
 #include "core/io/file.h"
 #include "core/io/text_grid/arc_grid.h"
 #include "core/io/text_grid/grass_grid.h"
@@ -57,7 +58,7 @@ void AddReferenceSystem(const std::filesystem::path& path, GDALDatasetH dataset)
   for (const char* ending : {".prj", ".PRJ"}) {
     std::filesystem::path beside = path;
     Result<std::string> text = ReadFile(beside.replace_extension(ending), kMaxPrjBytes);
-    if (!text) continue;
+    if (!text || NamedFileIn(*text) != nullptr) continue;
     CPLStringList lines(CSLTokenizeString2(text->c_str(), "\r\n", 0));
     const OGRSpatialReferenceH system = OSRNewSpatialReference(nullptr);
     OSRSetAxisMappingStrategy(system, OAMS_TRADITIONAL_GIS_ORDER);

@@ -73,6 +73,30 @@ class OnTheGlobe : public ::testing::Test {
   RunControl control_;
 };
 
+TEST_F(OnTheGlobe, TheHeaderAloneIsPlacedAsTheWholeIs) {
+  const auto header = [this] { return TerrainInput::Open(dem_, {}, control_, kSide * kSide - 1); };
+  Make("EPSG:32610", 500000, 4000000, 30, -30);
+  Result<std::unique_ptr<TerrainInput>> input = header();
+  ASSERT_TRUE(input) << input.error().message;
+  EXPECT_TRUE((*input)->HeaderOnly());
+  EXPECT_EQ((*input)->georeference().CrsName(), "EPSG:32610");
+  input = TerrainInput::Open(dem_, {}, control_, kSide * kSide);
+  ASSERT_TRUE(input);
+  EXPECT_FALSE((*input)->HeaderOnly());
+
+  MakeDegrees(7, 500, 0.001);
+  input = header();
+  ASSERT_FALSE(input);
+  EXPECT_EQ(input.error().kind, "outside-crs");
+  Make("EPSG:32610", 0, 0, 1e300, -1e300);
+  input = header();
+  ASSERT_FALSE(input);
+  EXPECT_EQ(input.error().kind, "outside-crs");
+  // The row beyond the pole may have no data.
+  MakeDegrees(7, 90.0015, 0.001);
+  EXPECT_TRUE(header());
+}
+
 TEST_F(OnTheGlobe, ARegionAcross180DegreesHasItsWestEastOfItsEast) {
   for (const double turn : {0.0, -360.0}) {
     MakeDegrees(179.99 + turn, 51.5, 0.001);

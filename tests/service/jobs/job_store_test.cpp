@@ -254,7 +254,7 @@ TEST_P(JobStoreConformance, FiltersByState) {
   EXPECT_EQ(store_->List({{JobState::kRunning}, {}, 10})->jobs.size(), 1U);
   EXPECT_EQ(store_->List({{JobState::kRunning, JobState::kAccepted}, {}, 10})->jobs.size(), 2U);
   EXPECT_EQ(store_->List({{JobState::kFailed}, {}, 10})->jobs.size(), 0U);
-  EXPECT_EQ(*store_->CountWaiting(), 1);
+  EXPECT_EQ(store_->CountUnfinished()->accepted, 1);
 }
 
 TEST_P(JobStoreConformance, KeepsTheBoundOfTheQueueWhoeverComesAtOnce) {

@@ -8,6 +8,7 @@
 #include <cpl_string.h>
 #include <ogr_srs_api.h>
 
+#include "core/geo/named_files.h"
 #include "core/io/dem/place/world_file.h"
 #include "core/io/file.h"
 
@@ -18,6 +19,7 @@ namespace {
 constexpr std::uintmax_t kMostBytes = 65536;  // as CheckCrsText
 
 CrsPtr CrsIn(const std::string& text) {
+  if (NamedFileIn(text) != nullptr) return nullptr;
   CrsPtr crs(OSRNewSpatialReference(nullptr));
   CPLStringList lines(CSLTokenizeString2(text.c_str(), "\r\n", 0));
   const bool read = lines.Count() > 0 && OSRImportFromESRI(crs.get(), lines.List()) == OGRERR_NONE;

@@ -263,6 +263,12 @@ TEST_F(DemReader, RefusesBlocksThatDwarfTheRaster) {
                         .options = {"SPARSE_OK=TRUE", "TILED=YES", "BLOCKXSIZE=16384",
                                     "BLOCKYSIZE=16384", "COMPRESS=DEFLATE"}}),
             "block-too-large");
+  // As large as the raster, but a block of 64 million posts is a few hundred bytes of LERC.
+  EXPECT_EQ(KindOfTiff({.columns = 8000,
+                        .rows = 8000,
+                        .values = {},
+                        .options = {"SPARSE_OK=TRUE", "BLOCKYSIZE=8000", "COMPRESS=DEFLATE"}}),
+            "block-too-large");
 }
 
 TEST_F(DemReader, BlocksLeftOutOfASparseFileWithNodataAreNoData) {

@@ -1,0 +1,165 @@
+#include "service/worker/spawner/spawner_process.h"
+
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <poll.h>
+#include <set>
+#include <signal.h>
+#include <string>
+#include <sys/prctl.h>
+#include <sys/signalfd.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <nlohmann/json.hpp>
+
+#include "core/io/file.h"
+#include "core/io/posix_file.h"
+#include "service/worker/run_task.h"
+#include "service/worker/spawner/contained_child.h"
+#include "service/worker/spawner/fd_message.h"
+#include "service/worker/worker_protocol.h"
+
+namespace farhorizon {
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+// A worker does all that is done once in a process: drivers, the database of reference systems, the
+// geoid, tables of the C++ library.
+constexpr const char* kWarmGrid =
+    "ncols 3\nnrows 3\nxllcorner 7\nyllcorner 46\ncellsize 0.001\nNODATA_value -9999\n"
+    "1 2 3\n2 3 1\n3 1 2\n";
+
+bool WarmUp() {
+  std::error_code failure;
+  fs::create_directory("in", failure);
+  fs::create_directory("out", failure);
+  const WorkerTask task{
+      "in/warm.asc", "out", {{"crs", "EPSG:4326+5773"}, {"heightUnit", "m"}}, 100, 1};
+  return WriteFile(task.input, kWarmGrid) && WriteTaskFile(".", task) && RunTask(true) == 0;
+}
+
+// A thread would not be copied, and what it held would be locked for good in each copy.
+bool HasOneThread() {
+  const fs::directory_iterator threads("/proc/self/task");
+  return std::distance(begin(threads), end(threads)) == 1;
+}
+
+class SpawnerLoop {
+ public:
+  // Which layers there are, as a child finds out.
+  bool FindLayers() {
+    std::array<int, 2> ends{};
+    if (::pipe(ends.data()) != 0) return false;
+    const UniqueFd reading(ends[0]);
+    UniqueFd writing(ends[1]);
+    LaunchOrder order;
+    order.directory = fs::current_path();
+    Result<ContainedChild> child = StartContained(order, writing.get(), {.trial = true});
+    writing.Reset();
+    if (!child) return false;
+    std::array<char, sizeof(layers_)> bytes{};
+    std::size_t filled = 0;
+    while (filled < bytes.size()) {
+      const std::int64_t got = ReadSome(reading.get(), std::span(bytes).subspan(filled));
+      if (got <= 0) return false;
+      filled += static_cast<std::size_t>(got);
+    }
+    std::memcpy(&layers_, bytes.data(), sizeof(layers_));
+    ::waitpid(child->pid, nullptr, 0);
+    return true;
+  }
+
+  bool SayReady() const {
+    return SendFds(kSpawnerSocket,
+                   json({{"namespaces", layers_.namespaces},
+                         {"privateRoot", layers_.private_root},
+                         {"landlock", layers_.landlock},
+                         {"seccomp", layers_.seccomp}})
+                       .dump(),
+                   {});
+  }
+
+  // Until the service closes its end.
+  void Serve(int ended_children) {
+    for (;;) {
+      std::array<struct pollfd, 2> waits = {
+          {{kSpawnerSocket, POLLIN, 0}, {ended_children, POLLIN, 0}}};
+      if (::poll(waits.data(), waits.size(), -1) < 0 && errno != EINTR) return;
+      if (waits[1].revents != 0) Reap(ended_children);
+      if (waits[0].revents != 0 && !Answer()) return;
+    }
+  }
+
+ private:
+  bool Answer() {
+    FdMessage asked = ReceiveFds(kSpawnerSocket);
+    if (asked.text.empty()) return false;
+    Result<LaunchOrder> order = ReadOrder(asked.text);
+    if (!order || asked.descriptors.size() != 1) return false;
+    Result<ContainedChild> child = StartContained(*order, asked.descriptors[0].get(),
+                                                  {.layers = layers_,
+                                                   .own_filter = Ready(own_filter_),
+                                                   .other_filter = Ready(other_filter_)});
+    if (!child) {
+      const Error& error = child.error();
+      return SendFds(kSpawnerSocket,
+                     json({{"code", ErrorCodeName(error.code)}, {"message", error.message}}).dump(),
+                     {});
+    }
+    keepers_.insert(child->pid);
+    return SendFds(kSpawnerSocket, json({{"pid", child->pid}}).dump(),
+                   {child->pidfd.get(), child->status.get()});
+  }
+
+  // Reaps keepers. Where there are no PID namespaces, a process that a worker left has this one for
+  // its parent: it is ended.
+  void Reap(int ended_children) {
+    struct signalfd_siginfo info {};
+    while (::read(ended_children, &info, sizeof(info)) > 0) {
+    }
+    for (pid_t pid = 0; (pid = ::waitpid(-1, nullptr, WNOHANG)) > 0;) keepers_.erase(pid);
+    std::ifstream children("/proc/self/task/" + std::to_string(::getpid()) + "/children");
+    for (pid_t pid = 0; children >> pid;) {
+      if (!keepers_.contains(pid)) ::kill(pid, SIGKILL);
+    }
+  }
+
+  static const SyscallFilter* Ready(const std::optional<SyscallFilter>& filter) {
+    return filter ? &*filter : nullptr;
+  }
+
+  std::optional<SyscallFilter> own_filter_ = MakeSyscallFilter(kWorkerPid, false);
+  std::optional<SyscallFilter> other_filter_ = MakeSyscallFilter(kWorkerPid, true);
+  SandboxLayers layers_;
+  std::set<pid_t> keepers_;
+};
+
+}  // namespace
+
+int RunSpawner() {
+  ::prctl(PR_SET_CHILD_SUBREAPER, 1);
+  ::prctl(PR_SET_NAME, "farhorizon-spwn");
+  sigset_t signals;
+  ::sigemptyset(&signals);
+  ::sigaddset(&signals, SIGCHLD);
+  ::sigprocmask(SIG_BLOCK, &signals, nullptr);
+  const UniqueFd ended_children(::signalfd(-1, &signals, SFD_CLOEXEC | SFD_NONBLOCK));
+  SpawnerLoop loop;
+  if (!ended_children || !WarmUp() || !HasOneThread() || !loop.FindLayers() || !loop.SayReady()) {
+    std::fprintf(stderr, "farhorizon: the process that starts workers cannot get ready\n");
+    return 70;
+  }
+  loop.Serve(ended_children.get());
+  return 0;
+}
+
+}  // namespace farhorizon
