@@ -1,6 +1,7 @@
 #include "service/log.h"
 
 #include <atomic>
+#include <poll.h>
 #include <unistd.h>
 
 #include <nlohmann/json.hpp>
@@ -80,6 +81,15 @@ void Log(LogLevel level, std::string_view message, std::span<const LogField> fie
   std::string line = LineOf(level, message, fields);
   if (LineWriter* writer = background) return writer->Write(std::move(line));
   // A log that cannot be written must not stop the work.
+  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, line.data(), line.size());
+}
+
+void LogLast(LogLevel level, std::string_view message, std::initializer_list<LogField> fields) {
+  const std::string line = LineOf(level, message, std::span(fields.begin(), fields.size()));
+  struct pollfd room {
+    STDERR_FILENO, POLLOUT, 0
+  };
+  if (::poll(&room, 1, 1000) != 1) return;
   [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, line.data(), line.size());
 }
 

@@ -51,4 +51,8 @@ std::int64_t LogLinesDropped();
 void Log(LogLevel level, std::string_view message, std::span<const LogField> fields);
 void Log(LogLevel level, std::string_view message, std::initializer_list<LogField> fields = {});
 
+/// As Log, for the last line of a process: written at once, past the background log, unless nobody
+/// takes it within a second.
+void LogLast(LogLevel level, std::string_view message, std::initializer_list<LogField> fields);
+
 }  // namespace farhorizon

@@ -19,11 +19,11 @@ std::function<void()>& LastCall() {
 void BeforeSyncEnd(std::function<void()> call) { LastCall() = std::move(call); }
 
 void EndAfterFailedSync(const std::string& what) {
-  Log(LogLevel::kError,
-      "the disk failed to keep what was written; the service ends, because nothing that it would "
-      "answer could be trusted: look at the disk, then start it again",
-      {{"error", what}});
   if (LastCall()) LastCall()();
+  LogLast(LogLevel::kError,
+          "the disk failed to keep what was written; the service ends, because nothing that it "
+          "would answer could be trusted: look at the disk, then start it again",
+          {{"error", what}});
   ::_exit(kExitDisk);
 }
 

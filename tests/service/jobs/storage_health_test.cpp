@@ -70,7 +70,7 @@ TEST(EndAfterFailedSync, EndsWithAStatusOfItsOwn) {
         BeforeSyncEnd([] { std::fputs("last call\n", stderr); });
         EndAfterFailedSync("sync an object: Input/output error");
       },
-      testing::ExitedWithCode(74), "sync an object: Input/output error.*\n.*last call");
+      testing::ExitedWithCode(74), "last call\n.*sync an object: Input/output error");
 }
 
 }  // namespace
