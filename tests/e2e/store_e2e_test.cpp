@@ -66,6 +66,29 @@ TEST_F(StoreE2e, ALimitOfTheFileSizeIsAFullDisk) {
   EXPECT_EQ(Ask(port_, "GET", "/jobs").status, 200);
 }
 
+TEST_F(StoreE2e, ASyncThatFailsEndsTheServiceAndNothingIsLost) {
+#if defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "AddressSanitizer must be the first library";
+#endif
+  const std::filesystem::path broken = folder_ / "broken";
+  StartStandIn({std::string("LD_PRELOAD=") + FAILING_SYNC, "FAILING_SYNC=" + broken.string()});
+  const std::string done = Submit("good.asc");
+  ASSERT_EQ(WaitForEnd(done), "successful");
+  const std::string running = Submit("slow.asc");
+  ASSERT_EQ(WaitFor(running, {"running"}), "running");
+  SpillFile(broken, "");
+  EXPECT_NE(Ask(port_, "POST", "/jobs?crs=EPSG:4326&filename=a.asc", "Content-Type: text/plain\r\n",
+                SmallGrid())
+                .status,
+            201);
+  EXPECT_EQ(service_->Wait(), 74);
+  EXPECT_THAT(SlurpFile(folder_ / "log"), testing::HasSubstr("the disk failed to keep"));
+  StartStandIn();
+  EXPECT_EQ(StatusOf(done)["status"], "successful");
+  EXPECT_EQ(WaitForEnd(running), "successful");
+  EXPECT_EQ(StatusOf(running)["attempt"], 1) << "a fault of the machine spends none";
+}
+
 TEST_F(StoreE2e, NothingOfTheDataIsForOtherUsers) {
   StartStandIn();
   ASSERT_EQ(WaitForEnd(Submit("good.asc")), "successful");
