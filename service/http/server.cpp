@@ -28,7 +28,7 @@ constexpr std::chrono::milliseconds kAcceptPause{100};
 constexpr int kSurplus = 16;
 // Descriptors that connections must leave: for libraries, standard streams, the database with its
 // journal and index, each thread's spooled upload and opened artifact, the pipes of workers.
-constexpr rlim_t kReservedFiles = 24;
+constexpr rlim_t kReservedFiles = 32;
 
 // As many descriptors as the system gives this process, at most as many as `options` may use.
 rlim_t RaiseFileLimit() {

@@ -1,7 +1,7 @@
-// The embedded job store: each call of JobStore under the one mutex. The statements of the queue
-// are in sqlite_queue.h, of running jobs in sqlite_runs.h, those that remove jobs in
-// sqlite_removal.h, the rows in sqlite_rows.h, the tables in sqlite_schema.h, and sqlite.h has the
-// wrapper of SQLite.
+// The embedded job store: calls that write under one mutex, those that answer clients on connections
+// of their own. The statements of the queue are in sqlite_queue.h, of running jobs in sqlite_runs.h,
+// those that remove jobs in sqlite_removal.h, the rows in sqlite_rows.h, the tables in
+// sqlite_schema.h; sqlite.h has the wrapper of SQLite.
 #include "service/jobs/sqlite_job_store.h"
 
 #include <algorithm>
@@ -11,6 +11,7 @@
 
 #include "service/jobs/sqlite.h"
 #include "service/jobs/sqlite_queue.h"
+#include "service/jobs/sqlite_readers.h"
 #include "service/jobs/sqlite_removal.h"
 #include "service/jobs/sqlite_rows.h"
 #include "service/jobs/sqlite_runs.h"
@@ -70,12 +71,22 @@ class SqliteJobStore : public JobStore {
   auto Call(Work work) -> Result<decltype(work())> {
     return Guarded([&]() -> Result<decltype(work())> { return work(); });
   }
+  // Runs work(connection) beside whoever writes.
+  template <typename Work>
+  auto Read(Work work) -> decltype(work(std::declval<const Database&>())) {
+    try {
+      return readers_.Read(work);
+    } catch (SqliteFailure& failure) {
+      return std::move(failure.error);
+    }
+  }
   // The time for a row that is written now: never before one that the store has. Requires: the
   // mutex is held.
   std::int64_t Later(std::int64_t now_ms) { return latest_ms_ = std::max(latest_ms_, now_ms); }
 
   std::mutex mutex_;
   Database database_;
+  SqliteReaders readers_;
   ClientTurns turns_;
   std::int64_t latest_ms_ = 0;
 };
@@ -91,6 +102,7 @@ Status SqliteJobStore::Open(const std::filesystem::path& path) {
       PrepareSchema(database_);
       Statement latest(database_, "SELECT max(updated_ms) FROM jobs");
       if (latest.Step()) latest_ms_ = latest.Integer(0);
+      readers_.Open(path);
     } catch (SqliteFailure& failure) {
       if (failure.error.kind == "no-space") return std::move(failure.error);
       return Unusable(failure.error.message,
@@ -113,24 +125,27 @@ Result<Job> SqliteJobStore::Insert(const NewJob& job, const QueueBounds& bounds,
 }
 
 Status SqliteJobStore::CheckQueue(const std::string& client, const QueueBounds& bounds) {
-  return Guarded([&]() -> Status { return farhorizon::CheckQueue(database_, client, bounds); });
+  return Read([&](const Database& database) -> Status {
+    return farhorizon::CheckQueue(database, client, bounds);
+  });
 }
 
 Result<Job> SqliteJobStore::Find(const std::string& id) {
-  return Guarded([&]() -> Result<Job> {
-    std::optional<Job> job = SelectJob(database_, id);
+  return Read([&](const Database& database) -> Result<Job> {
+    std::optional<Job> job = SelectJob(database, id);
     if (!job) return NoSuchJob();
     return *std::move(job);
   });
 }
 
 Result<JobPage> SqliteJobStore::List(const JobQuery& query) {
-  return Call([&] { return SelectPage(database_, query); });
+  return Read(
+      [&](const Database& database) -> Result<JobPage> { return SelectPage(database, query); });
 }
 
 Result<UnfinishedJobs> SqliteJobStore::CountUnfinished() {
-  return Call([&] {
-    Statement count(database_,
+  return Read([&](const Database& database) -> Result<UnfinishedJobs> {
+    Statement count(database,
                     "SELECT count(*) FILTER (WHERE state = 'accepted'), "
                     "count(*) FILTER (WHERE state = 'running') "
                     "FROM jobs WHERE state IN ('accepted', 'running')");
@@ -192,7 +207,9 @@ Result<std::int64_t> SqliteJobStore::RecoverRunning(PreviousEnd end, std::int64_
 }
 
 Result<std::vector<Artifact>> SqliteJobStore::Artifacts(const std::string& id) {
-  return Call([&] { return SelectArtifacts(database_, id); });
+  return Read([&](const Database& database) -> Result<std::vector<Artifact>> {
+    return SelectArtifacts(database, id);
+  });
 }
 
 Result<bool> SqliteJobStore::IsReferenced(const std::string& sha256) {
