@@ -20,6 +20,7 @@
 #include <nlohmann/json.hpp>
 
 #include "service/worker/spawner/fd_message.h"
+#include "service/worker/spawner/run_program.h"
 #include "service/worker/spawner/spawner_process.h"
 #include "service/worker/worker_protocol.h"
 
@@ -104,14 +105,6 @@ std::vector<std::string> Environment() {
   return variables;
 }
 
-std::vector<char*> Pointers(std::vector<std::string>& texts) {
-  std::vector<char*> pointers;
-  pointers.reserve(texts.size() + 1);
-  for (std::string& text : texts) pointers.push_back(text.data());
-  pointers.push_back(nullptr);
-  return pointers;
-}
-
 Result<SandboxLayers> ReadLayers(const std::string& text) {
   const json said = json::parse(text, nullptr, false);
   if (!said.is_object()) return NotStarted("the process that starts workers did not get ready");
@@ -157,8 +150,8 @@ Status Spawner::StartProcess() {
   const SpawnActions actions(theirs.get(), folder.path());
   std::vector<std::string> words = {"farhorizon", "worker", "--spawner"};
   std::vector<std::string> variables = Environment();
-  const std::vector<char*> arguments = Pointers(words);
-  const std::vector<char*> environment = Pointers(variables);
+  const std::vector<char*> arguments = ArgumentPointers(words);
+  const std::vector<char*> environment = ArgumentPointers(variables);
   const int failed = ::posix_spawn(&pid_, program_.c_str(), actions.files(), actions.attributes(),
                                    arguments.data(), environment.data());
   if (failed != 0) {
