@@ -116,8 +116,7 @@ TEST_F(SandboxE2e, WhatStartsWorkersIsStartedAgainAndEndsWithTheService) {
   const auto runs = [&second] {
     std::error_code failure;
     const std::string process = "/proc/" + std::to_string(*second.begin());
-    std::filesystem::read_symlink(process + "/exe", failure);
-    return !failure;
+    return !std::filesystem::read_symlink(process + "/exe", failure).empty() && !failure;
   };
   for (int tries = 0; tries < 500 && runs(); ++tries) {
     std::this_thread::sleep_for(std::chrono::milliseconds(20));

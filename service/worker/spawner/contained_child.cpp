@@ -64,6 +64,7 @@ class Child {
     const pid_t keeper = ::getpid();
     const pid_t worker = ::fork();
     if (worker == 0) RunWorkerProcess(keeper);
+    ::prctl(PR_SET_NAME, "farhorizon-keep");
     ::close_range(0, kStatusFd - 1, 0);
     ::close(kOrderFd);
     ::prctl(PR_SET_DUMPABLE, 0);
@@ -104,6 +105,7 @@ class Child {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (::getppid() != keeper) ::_exit(kCannotStart);
     ::close(kStatusFd);
+    ::prctl(PR_SET_NAME, "farhorizon-wait");
     OpenReferenceData();
     FdMessage asked = ReceiveFds(kOrderFd);
     Result<LaunchOrder> order = ReadOrder(asked.text);
@@ -111,6 +113,7 @@ class Child {
         !TakeFolder(order->directory, asked.descriptors[0].get()) || !ShutIn(*order)) {
       ::_exit(kCannotStart);
     }
+    ::prctl(PR_SET_NAME, "farhorizon-job");
     asked.descriptors.clear();
     ::close(kOrderFd);
     if (containment_.trial) ReportLayers();
@@ -120,7 +123,6 @@ class Child {
       RunProgram(*order);
       ::_exit(kCannotStart);
     }
-    ::prctl(PR_SET_NAME, "farhorizon-job");
     const int status = RunTask(order->probe_only);
     std::fflush(nullptr);
     ::_exit(status);

@@ -31,6 +31,8 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
+constexpr int kMostTries = 4;
+
 Error NotStarted(const std::string& what) {
   return {ErrorCode::kIo, "start a worker: " + what, "worker-not-started"};
 }
@@ -158,10 +160,10 @@ Status Spawner::StartProcess() {
     pid_ = -1;
     return NotStarted(std::generic_category().message(failed));
   }
-  socket_ = std::move(own);
-  Result<SandboxLayers> layers = ReadLayers(ReceiveFds(socket_.get()).text);
+  Result<SandboxLayers> layers = ReadLayers(ReceiveFds(own.get()).text);
   if (!layers) return std::move(layers.error());
   layers_ = *layers;
+  socket_ = std::move(own);
   return Ok{};
 }
 
@@ -171,12 +173,20 @@ Result<ChildProcess> Spawner::StartWorker(LaunchOrder order) {
   if (failure) return NotStarted("its folder is gone");
   if (order.program != kThisProgram) order.program = fs::absolute(order.program);
   const std::lock_guard lock(mutex_);
-  if (socket_) {
+  // Somebody may end the process again while it gets ready.
+  Error last = NotStarted("");
+  for (int tries = 0; tries < kMostTries; ++tries) {
+    if (!socket_) {
+      if (Status started = StartProcess(); !started) {
+        last = std::move(started.error());
+        continue;
+      }
+    }
     Result<ChildProcess> child = Ask(order);
     if (child || socket_) return child;
+    last = std::move(child.error());
   }
-  if (Status started = StartProcess(); !started) return std::move(started.error());
-  return Ask(order);
+  return last;
 }
 
 // The socket is gone afterwards where the process is.
