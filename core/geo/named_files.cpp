@@ -101,10 +101,15 @@ const char* NamedGridAnywhere(std::string_view lower) {
   return nullptr;
 }
 
-const char* NamedFileAnywhere(std::string_view lower) {
+std::string Squeezed(std::string_view lower) {
   std::string squeezed;
   std::ranges::copy_if(lower, std::back_inserter(squeezed),
                        [](char c) { return !IsSpace(c) && c != '"' && c != '\''; });
+  return squeezed;
+}
+
+const char* NamedFileAnywhere(std::string_view lower) {
+  const std::string squeezed = Squeezed(lower);
   constexpr std::array<std::string_view, 11> kWords = {
       "proj=pipeline", "+step",       "init=",    "file=",    "model=", "catalog=",
       "parameterfile", "proj4_grids", "tinshift", "defmodel", "@http"};
@@ -138,6 +143,25 @@ const char* NamedFileInJson(std::string_view lower) {
 }
 
 }  // namespace
+
+bool NamesFileSomewhere(std::string_view bytes) {
+  const std::string lower = Lower(std::string(bytes));
+  const std::string squeezed = Squeezed(lower);
+  // Fewer words than of a definition: the bytes may be of anything.
+  for (const std::string_view word :
+       {"proj4_grids", "parameterfile", "init=", "proj-basedoperation", "projcrsstring"}) {
+    if (squeezed.find(word) != std::string::npos) return true;
+  }
+  return NamedGridAnywhere(lower) != nullptr;
+}
+
+Error SystemNamesFile(const std::string& whose) {
+  return {ErrorCode::kUnsupportedData,
+          whose +
+              " reference system names a file, which is not opened; state the system with a code: "
+              "gdal_translate -a_srs EPSG:CODE IN OUT.tif",
+          "unknown-crs"};
+}
 
 const char* NamedFileIn(std::string_view text) {
   const std::string lower = Lower(std::string(text));

@@ -12,6 +12,8 @@
 
 #include <proj.h>
 
+#include "core/geo/proj_session.h"
+
 namespace farhorizon {
 
 namespace {
@@ -63,6 +65,11 @@ void SealContext(PJ_CONTEXT* context) {
 
 const char* ProjDataFolder() { return kFolder.data(); }
 const char* GdalDataFolder() { return FARHORIZON_GDAL_DATA; }
+
+void OpenReferenceData() {
+  const ProjSession session;
+  const ProjObject crs(proj_create(session.get(), "EPSG:4326"));
+}
 
 Status CheckReferenceData() {
   std::error_code failure;

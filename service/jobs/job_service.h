@@ -27,9 +27,10 @@ namespace farhorizon {
 /// Limits of reading an upload before its job is accepted.
 struct ProbeOptions {
   std::int64_t max_bytes = std::int64_t{1} << 31U;  ///< larger uploads are read by their job only
-  /// As much as a job has: what ends a probe for want of memory is no fault of the DEM.
-  std::int64_t memory_bytes = std::int64_t{1} << 32U;
-  std::int64_t wall_seconds = 20;
+  /// What ends a probe for want of memory is no fault of the DEM: its job has more.
+  std::int64_t memory_bytes = std::int64_t{1} << 30U;
+  /// A probe reads the header of a large raster alone: it takes some 100 ms of a free core.
+  std::int64_t wall_seconds = 5;
 };
 
 struct JobServiceOptions {

@@ -22,6 +22,9 @@ constexpr std::int64_t kMostCrashes = 3;
 // Ends from without are no fault of a job's. But a job that kills the process, whatever the way,
 // is stopped after an hour or two of a supervisor that starts the service again every few seconds.
 constexpr std::int64_t kMostAttempts = 1000;
+// So long a job that must run alone lets others pass while some run. Any value is sound; this one
+// is a small part of the longest job's time.
+constexpr std::int64_t kLongestPatienceMs = std::int64_t{600} * 1000;
 // Beyond as many clients, those that are forgotten were served long ago.
 constexpr std::size_t kMostClients = 10'000;
 
@@ -71,12 +74,14 @@ struct Candidate {
   std::string id;
   bool alone = false;
 };
-std::optional<Candidate> CandidateOf(const Database& database, const std::string& client,
+std::optional<Candidate> CandidateOf(const Database& database, const std::string& client, bool busy,
                                      std::int64_t now_ms) {
   Statement oldest(database,
                    "SELECT id, crashes FROM jobs WHERE state = 'accepted' AND client = ? AND "
-                   "(not_before_ms <= ? OR not_before_ms > ?) ORDER BY id LIMIT 1");
+                   "(not_before_ms <= ? OR not_before_ms > ?) AND "
+                   "(crashes = 0 OR NOT ? OR updated_ms <= ?) ORDER BY id LIMIT 1");
   oldest.Bind(client).Bind(now_ms).Bind(now_ms + kLongestDelayMs);
+  oldest.Bind(std::int64_t{busy ? 1 : 0}).Bind(now_ms - kLongestPatienceMs);
   if (!oldest.Step()) return std::nullopt;
   return Candidate{oldest.Text(0), oldest.Integer(1) > 0};
 }
@@ -165,9 +170,9 @@ std::optional<Job> ClaimJob(Database& database, ClientTurns& turns, std::int64_t
   const bool busy = Any(database, "state = 'running'");
   if (busy && Any(database, "state = 'running' AND crashes > 0")) return std::nullopt;
   for (const WaitingClient& client : WaitingClients(database, turns)) {
-    const std::optional<Candidate> next = CandidateOf(database, client.name, now_ms);
+    const std::optional<Candidate> next = CandidateOf(database, client.name, busy, now_ms);
     if (!next) continue;
-    // It waits for the others to end, and they for it: so its turn comes.
+    // It has waited for long enough: now the others wait, until those that run have ended.
     if (next->alone && busy) return std::nullopt;
     std::optional<Job> job = Start(database, next->id, now_ms);
     transaction.Commit();

@@ -3,6 +3,7 @@
 #include <fstream>
 #include <memory>
 #include <set>
+#include <signal.h>
 #include <string>
 #include <sys/stat.h>
 #include <thread>
@@ -40,6 +41,16 @@ class SandboxE2e : public testing::Test {
   }
   bool HasLayer(const std::string& name) const {
     return SlurpFile(folder_ / "log").find(name) != std::string::npos;
+  }
+  /// The processes that the service has started, and that run.
+  std::set<int> Spawners() const {
+    std::set<int> found;
+    for (const auto& task : std::filesystem::directory_iterator(
+             "/proc/" + std::to_string(service_->pid()) + "/task")) {
+      std::ifstream list(task.path() / "children");
+      for (int pid = 0; list >> pid;) found.insert(pid);
+    }
+    return found;
   }
   json Run(const std::string& name, const std::string& query = "crs=EPSG:4326") {
     const RawAnswer answer = Ask(port_, "POST", "/jobs?" + query + "&levels=1&filename=" + name,
@@ -88,6 +99,29 @@ TEST_F(SandboxE2e, NoProcessOfAWorkerOutlivesIt) {
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
   EXPECT_THAT(left(), testing::IsEmpty());
+}
+
+TEST_F(SandboxE2e, WhatStartsWorkersIsStartedAgainAndEndsWithTheService) {
+  Start({});
+  ASSERT_EQ(Run("hills.asc")["status"], "successful");
+  const std::set<int> first = Spawners();
+  ASSERT_EQ(first.size(), 1U);
+  ::kill(*first.begin(), SIGKILL);
+  EXPECT_EQ(Run("hills.asc")["status"], "successful");
+  const std::set<int> second = Spawners();
+  ASSERT_EQ(second.size(), 1U);
+  EXPECT_NE(first, second);
+  service_->Signal(SIGKILL);
+  // A process that has ended, whether anybody waits for it or not, has no program.
+  const auto runs = [&second] {
+    std::error_code failure;
+    const std::string process = "/proc/" + std::to_string(*second.begin());
+    return !std::filesystem::read_symlink(process + "/exe", failure).empty() && !failure;
+  };
+  for (int tries = 0; tries < 500 && runs(); ++tries) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  EXPECT_FALSE(runs());
 }
 
 TEST_F(SandboxE2e, APipeForAManifestFailsTheJobAlone) {

@@ -20,6 +20,7 @@ class Process {
   Process& operator=(const Process&) = delete;
   ~Process();
 
+  [[nodiscard]] pid_t pid() const { return pid_; }
   void Signal(int signal) const;
   /// Its exit status, or 128 + the signal that ended it; -1 where it runs longer
   /// than `most`.

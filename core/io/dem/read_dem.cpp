@@ -14,6 +14,7 @@
 
 #include <gdal.h>
 
+#include "core/geo/named_files.h"
 #include "core/io/dem/band_values.h"
 #include "core/io/dem/complete_raster.h"
 #include "core/io/dem/height_band.h"
@@ -36,6 +37,12 @@ Status FindHeights(OpenedDem& opened) {
   if (driver == "GTiff") {
     opened.tiff = TiffFile::Open(opened.path);
     if (!opened.tiff) return Truncated("the list of its tags cannot be read");
+    // GDAL looks at the reference system when it is asked for the first time, which is later.
+    for (std::size_t i = 0; i < opened.tiff->size(); ++i) {
+      const std::string text =
+          opened.tiff->WholeText(i, TiffTag::kGeoAsciiParams, std::uint64_t{1} << 24U);
+      if (NamesFileSomewhere(text)) return SystemNamesFile("the raster's");
+    }
   }
   Result<HeightBand> band = FindHeightBand(opened.dataset, opened.Tiff());
   if (!band) return std::move(band.error());

@@ -7,6 +7,7 @@
 
 #include <cpl_conv.h>
 
+#include "core/geo/named_files.h"
 #include "core/io/file.h"
 #include "core/io/raster/sealed_folder.h"
 #include "core/io/text_grid/esri_header.h"
@@ -42,6 +43,7 @@ Result<RasterPtr> OpenDescribedRaster(const std::filesystem::path& path,
   Result<std::string> text = ReadFile(*header, kMaxHeaderBytes);
   if (!text) return std::move(text.error());
   const bool is_envi = text->starts_with("ENVI");
+  if (is_envi && NamesFileSomewhere(*text)) return SystemNamesFile("the header's");
   const std::string name = path.filename().string();
   const std::string stem = path.stem().string();
   std::vector<SealedFolder::Member> members = {{name, path}, {stem + ".hdr", *header}};
@@ -49,7 +51,11 @@ Result<RasterPtr> OpenDescribedRaster(const std::filesystem::path& path,
     std::error_code failure;
     const auto bytes = static_cast<std::int64_t>(std::filesystem::file_size(path, failure));
     if (Status sound = CheckEsriHeader(*header, bytes); !sound) return std::move(sound.error());
-    if (const auto prj = Beside(path, ".prj", ".PRJ")) members.push_back({stem + ".prj", *prj});
+    if (const auto prj = Beside(path, ".prj", ".PRJ")) {
+      const Result<std::string> system = ReadFile(*prj, kMaxHeaderBytes);
+      if (system && NamesFileSomewhere(*system)) return SystemNamesFile("the .prj's");
+      members.push_back({stem + ".prj", *prj});
+    }
   }
   const SealedFolder folder(members);
   // GDAL sees files beside only without EMPTY_DIR.

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "core/geo/named_files.h"
 #include "core/io/file_kind/file_kind.h"
 #include "core/io/file_kind/hgt_name.h"
 #include "core/io/file_kind/unread_formats.h"
@@ -56,18 +57,18 @@ RasterPtr OpenSealed(const std::filesystem::path& path, const char* driver) {
   return OpenWith(folder.PathOf(name), driver);
 }
 
-// Whether the node that names such a file stands in the tree, which lies before the cells of a
-// raster that has them elsewhere.
-bool HoldsCellsBeside(const std::filesystem::path& path) {
-  constexpr std::size_t kTreeBytes = std::size_t{1} << 20U;
+std::string BeginningOf(const std::filesystem::path& path, std::size_t at_most) {
   std::ifstream in(path, std::ios::binary);
-  std::string bytes(kTreeBytes, '\0');
+  std::string bytes(at_most, '\0');
   in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  return bytes.find("ExternalRasterDMS") != std::string::npos;
+  bytes.resize(static_cast<std::size_t>(in.gcount()));
+  return bytes;
 }
 
 // The driver opens a file whose tree is cut as far as that goes, with complaints.
 Result<RasterPtr> OpenErdas(const std::filesystem::path& path, const GdalSession& session) {
+  const std::string tree = BeginningOf(path, std::size_t{1} << 20U);
+  if (NamesFileSomewhere(tree)) return SystemNamesFile("the raster's");
   RasterPtr dataset = OpenSealed(path, "HFA");
   if (!dataset || session.Failed()) {
     return Error{ErrorCode::kUnsupportedData,
@@ -75,7 +76,9 @@ Result<RasterPtr> OpenErdas(const std::filesystem::path& path, const GdalSession
                  "fetch or make the file again",
                  "truncated"};
   }
-  if (HoldsCellsBeside(path)) {
+  // The node that names such a file stands in the tree, which lies before the cells of a raster
+  // that has them elsewhere.
+  if (tree.find("ExternalRasterDMS") != std::string::npos) {
     return Error{ErrorCode::kUnsupportedData,
                  "the raster keeps its cells in another file (.ige), which is not opened; put them "
                  "into one file with gdal_translate IN.img OUT.tif",

@@ -2,36 +2,37 @@
 // of a namespace ignores signals that it has no handler for, so that the worker, which limits end
 // by signals, is the second; and when the first ends, the kernel ends all others.
 //
-// The order within: namespaces and the private root while the keeper still has the capabilities of
-// its user namespace; limits, capabilities, Landlock and system calls in the worker, the most
-// powerful of the calls last.
+// Both are made before there is an order, for that and opening the database of reference systems
+// take half of the time of a look at a small DEM. The order within: the private root while the
+// worker still has the capabilities of its user namespace, then limits, capabilities, Landlock, and
+// system calls, the most powerful of all, last.
 #include "service/worker/spawner/contained_child.h"
 
-#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdio>
-#include <cstdlib>
 #include <fcntl.h>
-#include <linux/capability.h>
 #include <linux/sched.h>
 #include <optional>
 #include <poll.h>
 #include <signal.h>
 #include <string>
 #include <sys/prctl.h>
-#include <sys/resource.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <system_error>
 #include <unistd.h>
-#include <vector>
 
+#include "core/geo/reference_data.h"
 #include "core/io/posix_file.h"
 #include "service/worker/run_task.h"
 #include "service/worker/sandbox/landlock.h"
 #include "service/worker/sandbox/private_root.h"
+#include "service/worker/spawner/fd_message.h"
+#include "service/worker/spawner/process_limits.h"
+#include "service/worker/spawner/run_program.h"
 #include "service/worker/spawner/worker_files.h"
 #include "service/worker/worker_protocol.h"
 
@@ -40,110 +41,32 @@ namespace farhorizon {
 namespace {
 
 constexpr int kCannotStart = 127;
-constexpr int kStatusFd = kWorkerMessageFd + 1;  // the keeper's alone
+// The worker's are as documented once it works; these are both processes' until then.
+constexpr int kStatusFd = kWorkerMessageFd + 1;
+constexpr int kOrderFd = kWorkerMessageFd + 2;
 
 constexpr unsigned long kNamespaces = CLONE_NEWUSER | CLONE_NEWNS | CLONE_NEWPID | CLONE_NEWNET |
                                       CLONE_NEWIPC | CLONE_NEWUTS | CLONE_NEWCGROUP;
-// As many threads as a worker may have, and then some: its programs start no process.
-constexpr std::int64_t kMostThreads = 2048;
 
-#if defined(__SANITIZE_ADDRESS__)
-constexpr bool kLimitAddressSpace = false;  // AddressSanitizer reserves terabytes
-#else
-constexpr bool kLimitAddressSpace = true;
-#endif
-
-// A lower limit of the service's own stays.
-bool SetLimit(__rlimit_resource_t resource, std::int64_t value, std::int64_t grace = 0) {
-  struct rlimit limit {};
-  if (::getrlimit(resource, &limit) != 0) return false;
-  limit.rlim_max = std::min(limit.rlim_max, static_cast<rlim_t>(value + grace));
-  limit.rlim_cur = std::min(limit.rlim_max, static_cast<rlim_t>(value));
-  return ::setrlimit(resource, &limit) == 0;
-}
-
-// The number of processes is counted by user, and in a namespace by that: elsewhere a limit would
-// count what others of the user run.
-bool ApplyLimits(const WorkerLimits& limits, bool own_user) {
-  return (!kLimitAddressSpace || SetLimit(RLIMIT_AS, limits.memory_bytes)) &&
-         SetLimit(RLIMIT_CPU, limits.cpu_seconds, 5) && SetLimit(RLIMIT_FSIZE, limits.file_bytes) &&
-         SetLimit(RLIMIT_NOFILE, limits.open_files) && SetLimit(RLIMIT_CORE, 0) &&
-         SetLimit(RLIMIT_MSGQUEUE, 0) && (!own_user || SetLimit(RLIMIT_NPROC, kMostThreads));
-}
-
-// Without new privileges, a program that root starts has no more capabilities than there were.
-bool DropCapabilities() {
-  struct __user_cap_header_struct head {
-    _LINUX_CAPABILITY_VERSION_3, 0
-  };
-  std::array<struct __user_cap_data_struct, 2> none{};
-  return ::syscall(SYS_capset, &head, none.data()) == 0 &&
-         ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0;
-}
-
-// All of a worker's environment: of the parent's, only the options of the sanitizers.
-std::vector<std::string> Environment(const std::filesystem::path& directory) {
-  std::vector<std::string> variables = {"LANG=C.UTF-8", "TMPDIR=" + (directory / "out").string()};
-  for (const char* name : {"ASAN_OPTIONS", "UBSAN_OPTIONS"}) {
-    const char* value = std::getenv(name);  // NOLINT(concurrency-mt-unsafe): one thread
-    if (value != nullptr) variables.push_back(std::string(name) + "=" + value);
-  }
-#if defined(__SANITIZE_ADDRESS__)
-  variables.emplace_back("LSAN_OPTIONS=detect_leaks=0");  // it would trace the process
-#endif
-  return variables;
-}
-
-std::vector<char*> Pointers(std::vector<std::string>& texts) {
-  std::vector<char*> pointers;
-  pointers.reserve(texts.size() + 1);
-  for (std::string& text : texts) pointers.push_back(text.data());
-  pointers.push_back(nullptr);
-  return pointers;
-}
-
-int RunProgram(const LaunchOrder& order) {
-  std::vector<std::string> words = {order.program, "worker"};
-  if (order.probe_only) words.emplace_back("--probe");
-  std::vector<std::string> variables = Environment(order.directory);
-  const std::vector<char*> arguments = Pointers(words);
-  const std::vector<char*> environment = Pointers(variables);
-  ::execve(order.program.c_str(), arguments.data(), environment.data());
-  return kCannotStart;
-}
-
-void ResetSignals() {
-  struct sigaction default_action {};
-  default_action.sa_handler = SIG_DFL;
-  for (int signal = 1; signal < NSIG; ++signal) ::sigaction(signal, &default_action, nullptr);
-  sigset_t none;
-  ::sigemptyset(&none);
-  ::sigprocmask(SIG_SETMASK, &none, nullptr);
-}
-
-// Both processes of a child; `status`: where the keeper reports to.
+// Both processes of a child.
 class Child {
  public:
-  Child(const LaunchOrder& order, const Containment& containment, bool namespaces, unsigned user,
-        unsigned group)
-      : order_(order),
-        containment_(containment),
-        layers_{.namespaces = namespaces},
-        user_(user),
-        group_(group) {}
+  Child(const Containment& containment, bool namespaces, unsigned user, unsigned group)
+      : containment_(containment), layers_{.namespaces = namespaces}, user_(user), group_(group) {}
 
-  [[noreturn]] void RunKeeper(int messages, int status) {
+  // status: where the keeper reports to. order: where the worker gets its order from.
+  [[noreturn]] void RunKeeper(int status, int order) {
     ::setpgid(0, 0);
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     ResetSignals();
     ::umask(077);
-    if (!TakeDescriptors(messages, status) || !ParentLives() || !EnterNamespaces()) {
-      ::_exit(kCannotStart);
-    }
+    if (!TakeDescriptors(status, order) || !ParentLives() || !MapUser()) ::_exit(kCannotStart);
     const pid_t keeper = ::getpid();
     const pid_t worker = ::fork();
     if (worker == 0) RunWorkerProcess(keeper);
+    ::prctl(PR_SET_NAME, "farhorizon-keep");
     ::close_range(0, kStatusFd - 1, 0);
+    ::close(kOrderFd);
     ::prctl(PR_SET_DUMPABLE, 0);
     int ended = worker < 0 || !DropCapabilities() ? kCannotStart << 8 : WaitFor(worker);
     [[maybe_unused]] const bool told =
@@ -152,18 +75,15 @@ class Child {
   }
 
  private:
-  bool TakeDescriptors(int messages, int status) const {
-    if (::chdir(order_.directory.c_str()) != 0) return false;
+  static bool TakeDescriptors(int status, int order) {
     const int null = ::open("/dev/null", O_RDWR);
-    const int errors = ::open("stderr.txt", O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW, 0600);
     // They may have the numbers that the next lines replace.
-    const int moved_messages = ::fcntl(messages, F_DUPFD, 10);
     const int moved_status = ::fcntl(status, F_DUPFD, 10);
-    return null >= 0 && errors >= 0 && moved_messages >= 0 && moved_status >= 0 &&
-           ::dup2(null, 0) == 0 && ::dup2(null, 1) == 1 && ::dup2(errors, 2) == 2 &&
-           ::dup2(moved_messages, kWorkerMessageFd) == kWorkerMessageFd &&
+    const int moved_order = ::fcntl(order, F_DUPFD, 10);
+    return null >= 0 && moved_status >= 0 && moved_order >= 0 && ::dup2(null, 0) == 0 &&
+           ::dup2(null, 1) == 1 && ::dup2(null, kWorkerMessageFd) == kWorkerMessageFd &&
            ::dup2(moved_status, kStatusFd) == kStatusFd &&
-           ::close_range(kStatusFd + 1, ~0U, 0) == 0;
+           ::dup2(moved_order, kOrderFd) == kOrderFd && ::close_range(kOrderFd + 1, ~0U, 0) == 0;
   }
 
   // The spawner may have died before prctl; only it and the service read the status.
@@ -174,41 +94,64 @@ class Child {
     return ::poll(&reader, 1, 0) == 1 && (reader.revents & POLLERR) == 0;
   }
 
-  bool EnterNamespaces() {
+  bool MapUser() {
     if (!layers_.namespaces) return !containment_.layers.namespaces || containment_.trial;
-    if (!MapToNobody(user_, group_)) {
-      layers_.namespaces = false;
-      return containment_.trial;
-    }
-    if (!containment_.trial && !containment_.layers.private_root) return true;
-    PrivateRootPlan plan{order_.directory};
-    if (order_.program != kThisProgram) plan.read.emplace_back(order_.program);
-    layers_.private_root = EnterPrivateRoot(plan);
-    // After a failure half way the process may stand anywhere.
-    return layers_.private_root || (containment_.trial && ::chdir(order_.directory.c_str()) == 0);
+    if (MapToNobody(user_, group_)) return true;
+    layers_.namespaces = false;
+    return containment_.trial;
   }
 
   [[noreturn]] void RunWorkerProcess(pid_t keeper) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (::getppid() != keeper) ::_exit(kCannotStart);
     ::close(kStatusFd);
-    const bool own_program = order_.program == kThisProgram;
-    if (!ApplyLimits(order_.limits, layers_.namespaces) || !DropCapabilities()) {
+    ::prctl(PR_SET_NAME, "farhorizon-wait");
+    OpenReferenceData();
+    FdMessage asked = ReceiveFds(kOrderFd);
+    Result<LaunchOrder> order = ReadOrder(asked.text);
+    if (!order || asked.descriptors.size() != 1 ||
+        !TakeFolder(order->directory, asked.descriptors[0].get()) || !ShutIn(*order)) {
       ::_exit(kCannotStart);
     }
-    if (containment_.trial || containment_.layers.landlock > 0) {
-      layers_.landlock = RestrictFiles(RightsOf(order_));
-    }
-    if (containment_.trial || containment_.layers.seccomp) {
-      layers_.seccomp = RestrictSyscalls(own_program);
-    }
+    ::prctl(PR_SET_NAME, "farhorizon-job");
+    asked.descriptors.clear();
+    ::close(kOrderFd);
     if (containment_.trial) ReportLayers();
     if (layers_ != containment_.layers) ::_exit(kCannotStart);
-    if (!own_program) ::_exit(RunProgram(order_));
-    ::prctl(PR_SET_NAME, "farhorizon-job");
-    const int status = RunTask(order_.probe_only);
+    if (order->program != kThisProgram) {
+      ::close_range(kWorkerMessageFd + 1, ~0U, 0);
+      RunProgram(*order);
+      ::_exit(kCannotStart);
+    }
+    const int status = RunTask(order->probe_only);
     std::fflush(nullptr);
     ::_exit(status);
+  }
+
+  static bool TakeFolder(const std::filesystem::path& directory, int messages) {
+    if (::chdir(directory.c_str()) != 0) return false;
+    const UniqueFd errors(
+        ::open("stderr.txt", O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, 0600));
+    return errors && ::dup2(errors.get(), 2) == 2 &&
+           ::dup2(messages, kWorkerMessageFd) == kWorkerMessageFd;
+  }
+
+  bool ShutIn(const LaunchOrder& order) {
+    const bool own_program = order.program == kThisProgram;
+    const bool trial = containment_.trial;
+    if (layers_.namespaces && (trial || containment_.layers.private_root)) {
+      PrivateRootPlan plan{order.directory};
+      if (!own_program) plan.read.emplace_back(order.program);
+      layers_.private_root = EnterPrivateRoot(plan);
+      // After a failure half way the process may stand anywhere.
+      if (!layers_.private_root && (!trial || ::chdir(order.directory.c_str()) != 0)) return false;
+    }
+    if (!ApplyLimits(order.limits, layers_.namespaces) || !DropCapabilities()) return false;
+    if (trial || containment_.layers.landlock > 0) {
+      layers_.landlock = RestrictFiles(RightsOf(order));
+    }
+    if (trial || containment_.layers.seccomp) layers_.seccomp = RestrictSyscalls(own_program);
+    return true;
   }
 
   bool RestrictSyscalls(bool own_program) const {
@@ -235,7 +178,6 @@ class Child {
     }
   }
 
-  const LaunchOrder& order_;
   Containment containment_;
   SandboxLayers layers_;
   unsigned user_;
@@ -258,13 +200,17 @@ pid_t Clone(unsigned long flags) {
 
 }  // namespace
 
-Result<ContainedChild> StartContained(const LaunchOrder& order, int messages,
-                                      const Containment& containment) {
+Result<ContainedChild> StartContained(const Containment& containment) {
   std::array<int, 2> ends{};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0) return CannotStart("pipe");
   ContainedChild child;
   child.status.Reset(ends[0]);
   const UniqueFd report(ends[1]);
+  if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) != 0) {
+    return CannotStart("socket");
+  }
+  child.order.Reset(ends[0]);
+  const UniqueFd order(ends[1]);
   const unsigned user = ::geteuid();
   const unsigned group = ::getegid();
   bool namespaces = containment.trial || containment.layers.namespaces;
@@ -275,7 +221,7 @@ Result<ContainedChild> StartContained(const LaunchOrder& order, int messages,
   }
   if (child.pid < 0) return CannotStart("fork");
   if (child.pid == 0) {
-    Child(order, containment, namespaces, user, group).RunKeeper(messages, report.get());
+    Child(containment, namespaces, user, group).RunKeeper(report.get(), order.get());
   }
   ::setpgid(child.pid, child.pid);  // also called by the child: whichever is first takes effect
   // By number: glibc 2.36 declares pidfd_open without extern "C".
@@ -286,6 +232,10 @@ Result<ContainedChild> StartContained(const LaunchOrder& order, int messages,
     return error;
   }
   return child;
+}
+
+bool GiveOrder(const ContainedChild& child, const LaunchOrder& order, int messages) {
+  return SendFds(child.order.get(), WriteOrder(order), {messages});
 }
 
 }  // namespace farhorizon

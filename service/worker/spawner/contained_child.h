@@ -10,12 +10,14 @@
 
 namespace farhorizon {
 
-/// A worker process inside its sandbox, seen from outside.
+/// A worker process inside its namespaces, seen from outside. It waits for its order, with the
+/// database of reference systems open.
 struct ContainedChild {
   pid_t pid = -1;  ///< of its keeper: the first process of its PID namespace
   UniqueFd pidfd;  ///< readable when the keeper has ended, and every process below it
   UniqueFd
-      status;  ///< the read end of a pipe with the worker's status, as of waitpid, when it ends
+      status;      ///< the read end of a pipe with the worker's status, as of waitpid, when it ends
+  UniqueFd order;  ///< the socket to the worker
 };
 
 /// How a contained child is to be shut in.
@@ -32,12 +34,15 @@ struct Containment {
 /// The pid of a worker in its own PID namespace; its keeper is the first process.
 constexpr pid_t kWorkerPid = 2;
 
-/// Starts a keeper that starts the worker of `order` in every layer, waits for it and reports how
-/// it ended. The worker ends with its keeper, the keeper with this process. The worker has
-/// /dev/null as standard input and output, the file stderr.txt of its directory as standard error,
-/// `messages` as descriptor kWorkerMessageFd, and no other descriptor.
+/// Starts a keeper that starts a worker, waits for it and reports how it ended. The worker ends
+/// with its keeper, the keeper with this process.
 /// Requires: this process has one thread. Errors: kIo, kResourceExhausted "worker-not-started".
-Result<ContainedChild> StartContained(const LaunchOrder& order, int messages,
-                                      const Containment& containment);
+Result<ContainedChild> StartContained(const Containment& containment);
+
+/// Has the worker shut itself into every layer and do the work of `order`, once. It has /dev/null
+/// as standard input and output, the file stderr.txt of its directory as standard error, `messages`
+/// as descriptor kWorkerMessageFd, and no other descriptor but, as this program, the database's.
+/// False where it has died.
+bool GiveOrder(const ContainedChild& child, const LaunchOrder& order, int messages);
 
 }  // namespace farhorizon

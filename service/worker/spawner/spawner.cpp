@@ -20,6 +20,7 @@
 #include <nlohmann/json.hpp>
 
 #include "service/worker/spawner/fd_message.h"
+#include "service/worker/spawner/run_program.h"
 #include "service/worker/spawner/spawner_process.h"
 #include "service/worker/worker_protocol.h"
 
@@ -29,6 +30,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+
+constexpr int kMostTries = 4;
 
 Error NotStarted(const std::string& what) {
   return {ErrorCode::kIo, "start a worker: " + what, "worker-not-started"};
@@ -104,14 +107,6 @@ std::vector<std::string> Environment() {
   return variables;
 }
 
-std::vector<char*> Pointers(std::vector<std::string>& texts) {
-  std::vector<char*> pointers;
-  pointers.reserve(texts.size() + 1);
-  for (std::string& text : texts) pointers.push_back(text.data());
-  pointers.push_back(nullptr);
-  return pointers;
-}
-
 Result<SandboxLayers> ReadLayers(const std::string& text) {
   const json said = json::parse(text, nullptr, false);
   if (!said.is_object()) return NotStarted("the process that starts workers did not get ready");
@@ -157,18 +152,18 @@ Status Spawner::StartProcess() {
   const SpawnActions actions(theirs.get(), folder.path());
   std::vector<std::string> words = {"farhorizon", "worker", "--spawner"};
   std::vector<std::string> variables = Environment();
-  const std::vector<char*> arguments = Pointers(words);
-  const std::vector<char*> environment = Pointers(variables);
+  const std::vector<char*> arguments = ArgumentPointers(words);
+  const std::vector<char*> environment = ArgumentPointers(variables);
   const int failed = ::posix_spawn(&pid_, program_.c_str(), actions.files(), actions.attributes(),
                                    arguments.data(), environment.data());
   if (failed != 0) {
     pid_ = -1;
     return NotStarted(std::generic_category().message(failed));
   }
-  socket_ = std::move(own);
-  Result<SandboxLayers> layers = ReadLayers(ReceiveFds(socket_.get()).text);
+  Result<SandboxLayers> layers = ReadLayers(ReceiveFds(own.get()).text);
   if (!layers) return std::move(layers.error());
   layers_ = *layers;
+  socket_ = std::move(own);
   return Ok{};
 }
 
@@ -178,12 +173,20 @@ Result<ChildProcess> Spawner::StartWorker(LaunchOrder order) {
   if (failure) return NotStarted("its folder is gone");
   if (order.program != kThisProgram) order.program = fs::absolute(order.program);
   const std::lock_guard lock(mutex_);
-  if (socket_) {
+  // Somebody may end the process again while it gets ready.
+  Error last = NotStarted("");
+  for (int tries = 0; tries < kMostTries; ++tries) {
+    if (!socket_) {
+      if (Status started = StartProcess(); !started) {
+        last = std::move(started.error());
+        continue;
+      }
+    }
     Result<ChildProcess> child = Ask(order);
     if (child || socket_) return child;
+    last = std::move(child.error());
   }
-  if (Status started = StartProcess(); !started) return std::move(started.error());
-  return Ask(order);
+  return last;
 }
 
 // The socket is gone afterwards where the process is.

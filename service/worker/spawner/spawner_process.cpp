@@ -4,6 +4,8 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <deque>
+#include <fcntl.h>
 #include <filesystem>
 #include <fstream>
 #include <optional>
@@ -15,6 +17,7 @@
 #include <sys/signalfd.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -53,19 +56,22 @@ bool HasOneThread() {
   return std::distance(begin(threads), end(threads)) == 1;
 }
 
+// One for a job and one for a look at an upload, which come in turns.
+constexpr std::size_t kWaiting = 2;
+
 class SpawnerLoop {
  public:
   // Which layers there are, as a child finds out.
   bool FindLayers() {
     std::array<int, 2> ends{};
-    if (::pipe(ends.data()) != 0) return false;
+    if (::pipe2(ends.data(), O_CLOEXEC) != 0) return false;
     const UniqueFd reading(ends[0]);
     UniqueFd writing(ends[1]);
     LaunchOrder order;
     order.directory = fs::current_path();
-    Result<ContainedChild> child = StartContained(order, writing.get(), {.trial = true});
+    Result<ContainedChild> child = StartContained({.trial = true});
+    if (!child || !GiveOrder(*child, order, writing.get())) return false;
     writing.Reset();
-    if (!child) return false;
     std::array<char, sizeof(layers_)> bytes{};
     std::size_t filled = 0;
     while (filled < bytes.size()) {
@@ -91,6 +97,7 @@ class SpawnerLoop {
   // Until the service closes its end.
   void Serve(int ended_children) {
     for (;;) {
+      Refill();
       std::array<struct pollfd, 2> waits = {
           {{kSpawnerSocket, POLLIN, 0}, {ended_children, POLLIN, 0}}};
       if (::poll(waits.data(), waits.size(), -1) < 0 && errno != EINTR) return;
@@ -105,19 +112,47 @@ class SpawnerLoop {
     if (asked.text.empty()) return false;
     Result<LaunchOrder> order = ReadOrder(asked.text);
     if (!order || asked.descriptors.size() != 1) return false;
-    Result<ContainedChild> child = StartContained(*order, asked.descriptors[0].get(),
-                                                  {.layers = layers_,
-                                                   .own_filter = Ready(own_filter_),
-                                                   .other_filter = Ready(other_filter_)});
+    Result<ContainedChild> child = Give(*order, asked.descriptors[0].get());
     if (!child) {
       const Error& error = child.error();
       return SendFds(kSpawnerSocket,
                      json({{"code", ErrorCodeName(error.code)}, {"message", error.message}}).dump(),
                      {});
     }
-    keepers_.insert(child->pid);
     return SendFds(kSpawnerSocket, json({{"pid", child->pid}}).dump(),
                    {child->pidfd.get(), child->status.get()});
+  }
+
+  // A child that has the order: one that waited, unless all have died.
+  Result<ContainedChild> Give(const LaunchOrder& order, int messages) {
+    while (!waiting_.empty()) {
+      ContainedChild child = std::move(waiting_.front());
+      waiting_.pop_front();
+      if (GiveOrder(child, order, messages)) return child;
+    }
+    Result<ContainedChild> child = StartOne();
+    if (child && !GiveOrder(*child, order, messages)) {
+      return Error{ErrorCode::kIo, "start a worker: it died at once", "worker-not-started"};
+    }
+    return child;
+  }
+
+  Result<ContainedChild> StartOne() {
+    Result<ContainedChild> child = StartContained({.layers = layers_,
+                                                   .own_filter = Ready(own_filter_),
+                                                   .other_filter = Ready(other_filter_)});
+    if (child) keepers_.insert(child->pid);
+    return child;
+  }
+
+  // Children that wait, so that an order need not. Failures are left to the next order.
+  void Refill() {
+    bool more = true;
+    while (more && waiting_.size() < kWaiting) {
+      Result<ContainedChild> child = StartOne();
+      more = child.has_value();
+      if (more) waiting_.push_back(std::move(*child));
+    }
   }
 
   // Reaps keepers. Where there are no PID namespaces, a process that a worker left has this one for
@@ -141,6 +176,7 @@ class SpawnerLoop {
   std::optional<SyscallFilter> other_filter_ = MakeSyscallFilter(kWorkerPid, true);
   SandboxLayers layers_;
   std::set<pid_t> keepers_;
+  std::deque<ContainedChild> waiting_;
 };
 
 }  // namespace

@@ -72,5 +72,16 @@ TEST(NamedFileIn, SeesFilesOfEveryOtherKind) {
   EXPECT_NE(NamedFileIn(std::string_view("EPSG:4326\0x", 11)), nullptr);
 }
 
+TEST(NamesFileSomewhere, SeesADefinitionAmongOtherWords) {
+  EXPECT_TRUE(
+      NamesFileSomewhere("ESRI PE String = GEOGCS[\"x\",EXTENSION[\"PROJ4_GRIDS\",\"/x\"]]|"));
+  EXPECT_TRUE(NamesFileSomewhere(std::string_view("a\0+nadgrids = /tmp/canary", 25)));
+  EXPECT_FALSE(NamesFileSomewhere(""));
+  EXPECT_FALSE(
+      NamesFileSomewhere("IMAGINE GeoTIFF Support\nProjection Name = UTM\nUnits = meters|OSGB36 / "
+                         "British National Grid|"
+                         "+nadgrids=@null +wktext|"));
+}
+
 }  // namespace
 }  // namespace farhorizon

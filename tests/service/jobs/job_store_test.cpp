@@ -423,6 +423,31 @@ TEST_P(JobStoreConformance, WhatRanInACrashRunsAloneUntilItIsKnownWhichDidIt) {
   EXPECT_EQ(Claim().id, later.id);
 }
 
+TEST_P(JobStoreConformance, AJobThatMustRunAloneLetsOthersPassForAWhile) {
+  const Job suspect = Insert();
+  Claim();
+  Reopen();
+  ASSERT_TRUE(store_->RecoverRunning(PreviousEnd::kCrashed, ++time_));
+  const Job running = InsertOf("another");
+  {
+    // Started before it: as of a slot that took a job while the service came up.
+    Database database;
+    database.Open(folder_ / "jobs.sqlite");
+    database.Execute(
+        "UPDATE jobs SET state = 'running', run = 1, attempt = 1 WHERE client = 'another'");
+  }
+  const Job passing = InsertOf("third");
+  EXPECT_EQ(Claim().id, passing.id);
+  InsertOf("third");
+  time_ += 600'000;
+  const auto none = store_->ClaimNext(time_);
+  ASSERT_TRUE(none);
+  EXPECT_FALSE(*none) << "its patience is at an end";
+  ASSERT_TRUE(*store_->Publish(running.id, 1, {}, {}, ++time_));
+  ASSERT_TRUE(*store_->Publish(passing.id, 1, {}, {}, ++time_));
+  EXPECT_EQ(Claim().id, suspect.id);
+}
+
 class Expiry : public JobStoreConformance {
  protected:
   std::string Done(std::int64_t bytes) {

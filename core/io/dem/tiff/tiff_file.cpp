@@ -185,4 +185,10 @@ std::string TiffFile::Text(std::size_t directory, TiffTag tag) {
   return bytes.substr(0, bytes.find('\0'));
 }
 
+std::string TiffFile::WholeText(std::size_t directory, TiffTag tag, std::uint64_t at_most) {
+  const Entry* entry = Find(directory, tag);
+  if (entry == nullptr || entry->type != 2 || entry->count > at_most) return "";
+  return Bytes(entry->place, entry->count);
+}
+
 }  // namespace farhorizon

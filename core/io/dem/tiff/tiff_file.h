@@ -30,6 +30,7 @@ enum class TiffTag : std::uint16_t {
   kModelPixelScale = 33550,
   kModelTiepoint = 33922,
   kGeoKeyDirectory = 34735,
+  kGeoAsciiParams = 34737,
   kGdalNodata = 42113,
 };
 
@@ -54,6 +55,8 @@ class TiffFile {
   std::optional<int> GeoKey(int key);
   /// A tag of text up to its first NUL; at most 256 bytes of it.
   std::string Text(std::size_t directory, TiffTag tag);
+  /// All bytes of a tag of text; empty where it has none, or more than `at_most`.
+  std::string WholeText(std::size_t directory, TiffTag tag, std::uint64_t at_most);
 
  private:
   struct Entry {
