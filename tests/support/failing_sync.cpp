@@ -1,14 +1,22 @@
 // A library to be preloaded: every sync fails, as of a disk that is broken, from when the file
-// exists that the variable FAILING_SYNC names.
+// exists that the variable FAILING_SYNC names. It is read when the library is loaded: the program
+// keeps no variable that it does not know.
 #include <cerrno>
 #include <cstdlib>
+#include <cstring>
 #include <sys/syscall.h>
 #include <unistd.h>
 
 namespace {
 
-int SyncOrFail(long call, int fd) {
+const char* FileNamed() {
   const char* file = std::getenv("FAILING_SYNC");
+  return file == nullptr ? nullptr : ::strdup(file);
+}
+
+const char* const file = FileNamed();
+
+int SyncOrFail(long call, int fd) {
   if (file != nullptr && ::access(file, F_OK) == 0) {
     errno = EIO;
     return -1;
