@@ -2,14 +2,18 @@
 // exists that the variable FAILING_SYNC names.
 #include <cerrno>
 #include <cstdlib>
+#include <string>
 #include <sys/syscall.h>
 #include <unistd.h>
 
 namespace {
 
+// Read when the library is loaded: the program may empty its environment.
+const char* const kVariable = std::getenv("FAILING_SYNC");
+const std::string kFile = kVariable == nullptr ? "" : kVariable;
+
 int SyncOrFail(long call, int fd) {
-  const char* file = std::getenv("FAILING_SYNC");
-  if (file != nullptr && ::access(file, F_OK) == 0) {
+  if (!kFile.empty() && ::access(kFile.c_str(), F_OK) == 0) {
     errno = EIO;
     return -1;
   }
