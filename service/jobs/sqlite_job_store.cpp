@@ -104,7 +104,9 @@ Status SqliteJobStore::Open(const std::filesystem::path& path) {
       if (latest.Step()) latest_ms_ = latest.Integer(0);
       readers_.Open(path);
     } catch (SqliteFailure& failure) {
-      if (failure.error.kind == "no-space") return std::move(failure.error);
+      // Of these, the message says the remedy.
+      const ErrorKind kind = failure.error.kind;
+      if (kind == "no-space" || kind == "job-store-unusable") return std::move(failure.error);
       return Unusable(failure.error.message,
                       "it may be damaged: restore it from a backup, let `farhorizon fsck DIR "
                       "--repair` take out of it what can be read, or move the data directory away "

@@ -95,12 +95,18 @@ void PrepareSchema(Database& database) {
   const std::int64_t version = database.Pragma("user_version");
   const bool is_new = database.Pragma("page_count") == 0;
   if (!is_new && application != kApplicationId) {
-    throw SqliteFailure{{ErrorCode::kIo, "the file is no job store of farhorizon"}};
+    throw SqliteFailure{{ErrorCode::kIo,
+                         "job store: the file is no job store of farhorizon; put the right one "
+                         "back, or give another data directory",
+                         "job-store-unusable"}};
   }
   if (version > kSchemaVersion) {
-    throw SqliteFailure{{ErrorCode::kIo, "the file comes from a newer farhorizon (schema " +
-                                             std::to_string(version) + ", this one knows " +
-                                             std::to_string(kSchemaVersion) + ")"}};
+    throw SqliteFailure{{ErrorCode::kIo,
+                         "job store: the file comes from a newer farhorizon (schema " +
+                             std::to_string(version) + ", this one knows " +
+                             std::to_string(kSchemaVersion) +
+                             "); start that one, or put the backup from before it back",
+                         "job-store-unusable"}};
   }
   database.Execute(
       "PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA foreign_keys = ON;"

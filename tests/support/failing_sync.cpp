@@ -1,23 +1,19 @@
 // A library to be preloaded: every sync fails, as of a disk that is broken, from when the file
-// exists that the variable FAILING_SYNC names. It is read when the library is loaded: the program
-// keeps no variable that it does not know.
+// exists that the variable FAILING_SYNC names.
 #include <cerrno>
 #include <cstdlib>
-#include <cstring>
+#include <string>
 #include <sys/syscall.h>
 #include <unistd.h>
 
 namespace {
 
-const char* FileNamed() {
-  const char* file = std::getenv("FAILING_SYNC");
-  return file == nullptr ? nullptr : ::strdup(file);
-}
-
-const char* const file = FileNamed();
+// Read when the library is loaded: the program may empty its environment.
+const char* const kVariable = std::getenv("FAILING_SYNC");
+const std::string kFile = kVariable == nullptr ? "" : kVariable;
 
 int SyncOrFail(long call, int fd) {
-  if (file != nullptr && ::access(file, F_OK) == 0) {
+  if (!kFile.empty() && ::access(kFile.c_str(), F_OK) == 0) {
     errno = EIO;
     return -1;
   }
