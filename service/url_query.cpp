@@ -62,6 +62,9 @@ std::string WithSpaces(std::string_view value) {
   return spaced;
 }
 
+// Texts go on to functions that end at a NUL, and would mean less than they say.
+bool HasNul(std::string_view text) { return text.find('\0') != std::string_view::npos; }
+
 }  // namespace
 
 std::string PercentEncode(std::string_view text) {
@@ -119,6 +122,7 @@ std::optional<Parameters> DecodeQuery(std::string_view query,
                            ? std::optional<std::string>("")
                            : PercentDecode(WithSpaces(pair.substr(equals + 1)));
     if (!name || !value || name->empty()) return std::nullopt;
+    if (HasNul(*name) || HasNul(*value)) return std::nullopt;
     const auto [known, inserted] = parameters.emplace(*name, *value);
     if (inserted) continue;
     if (std::find(lists.begin(), lists.end(), *name) == lists.end()) return std::nullopt;

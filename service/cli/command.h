@@ -17,6 +17,8 @@ void AddSkyline(Command& program, SelectedCommand& selected);
 void AddCompare(Command& program, SelectedCommand& selected);
 void AddVerify(Command& program, SelectedCommand& selected);
 void AddServe(Command& program, SelectedCommand& selected);
+void AddBackup(Command& program, SelectedCommand& selected);
+void AddFsck(Command& program, SelectedCommand& selected);
 void AddSubmit(Command& program, SelectedCommand& selected);
 void AddHealthcheck(Command& program, SelectedCommand& selected);
 void AddWorker(Command& program, SelectedCommand& selected);

@@ -22,7 +22,8 @@ int RunProgram(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer(
       "Exit status: 0 done, 1 the data or a claim is at fault, 2 the call is, 70 our own bug,\n"
-      "130 interrupted. 'farhorizon COMMAND --help' tells more.");
+      "74 the disk under a service failed, 130 interrupted.\n"
+      "'farhorizon COMMAND --help' tells more.");
   Command program(app);
   SelectedCommand selected;
   AddBuild(program, selected);
@@ -31,6 +32,8 @@ int RunProgram(int argc, char** argv) {
   AddCompare(program, selected);
   AddVerify(program, selected);
   AddServe(program, selected);
+  AddBackup(program, selected);
+  AddFsck(program, selected);
   AddSubmit(program, selected);
   AddHealthcheck(program, selected);
   AddWorker(program, selected);

@@ -17,16 +17,30 @@ sigset_t StopSignals() {
   return set;
 }
 
-}  // namespace
-
-void BlockSignals() {
-  const sigset_t set = StopSignals();
-  ::pthread_sigmask(SIG_BLOCK, &set, nullptr);
-  ::signal(SIGPIPE, SIG_IGN);
+sigset_t ServiceSignals() {
+  sigset_t set = StopSignals();
+  ::sigaddset(&set, SIGHUP);
+  ::sigaddset(&set, SIGUSR1);
+  ::sigaddset(&set, SIGUSR2);
+  return set;
 }
 
+void Block(const sigset_t& set) {
+  ::pthread_sigmask(SIG_BLOCK, &set, nullptr);
+  ::signal(SIGPIPE, SIG_IGN);
+  ::signal(SIGXFSZ, SIG_IGN);  // a write beyond RLIMIT_FSIZE then fails as on a full disk
+}
+
+}  // namespace
+
+void BlockSignals() { Block(StopSignals()); }
+
+void BlockServiceSignals() { Block(ServiceSignals()); }
+
+bool IsStopSignal(int signal) { return signal == SIGINT || signal == SIGTERM; }
+
 std::optional<int> WaitForSignal(std::chrono::milliseconds most) {
-  const sigset_t set = StopSignals();
+  const sigset_t set = ServiceSignals();
   struct timespec time {};
   time.tv_sec = static_cast<std::time_t>(most.count() / 1000);
   time.tv_nsec = static_cast<decltype(time.tv_nsec)>((most.count() % 1000) * 1'000'000);

@@ -8,11 +8,19 @@
 
 namespace farhorizon {
 
-/// Blocks SIGINT and SIGTERM in this thread and in those that it starts later; ignores SIGPIPE.
+/// Blocks SIGINT and SIGTERM in this thread and in those that it starts later; ignores SIGPIPE
+/// and SIGXFSZ.
 void BlockSignals();
 
-/// Waits for a blocked SIGINT or SIGTERM and returns it; nullopt if none comes within `most`.
+/// The same, and SIGHUP, SIGUSR1 and SIGUSR2, so that none of them ends a service.
+void BlockServiceSignals();
+
+/// Waits for a signal that BlockServiceSignals blocks and returns it; nullopt if none comes within
+/// `most`.
 std::optional<int> WaitForSignal(std::chrono::milliseconds most);
+
+/// Whether the signal is SIGINT or SIGTERM.
+bool IsStopSignal(int signal);
 
 /// While this object lives, the first SIGINT or SIGTERM becomes a stop request, and the second ends
 /// the program at once.

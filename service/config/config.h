@@ -14,13 +14,12 @@ namespace farhorizon {
 /// field that can be configured; the defaults of the fields are those of config/default.json.
 struct Config {
   std::string listen = "127.0.0.1:8080";  ///< HOST:PORT, from which http.host and http.port follow
-  std::string public_url;
   int workers = 0;  ///< 0: as many as there are cores; jobs.workers follows from this
   ServerOptions http;
   std::int64_t max_body_bytes = std::int64_t{1} << 31U;
   JobServiceOptions jobs;
-  // Kubernetes kills 30 seconds after it has asked: running jobs are given back before.
-  std::chrono::seconds drain_time{20};
+  // Docker kills 10 seconds after it has asked: running jobs are given back before.
+  std::chrono::seconds drain_time{8};
   std::string sandbox_require = "none";  ///< as CheckSandbox takes it
   LogOptions log;
 };

@@ -40,7 +40,7 @@ ConfigKey Number(std::string name, Field field, std::int64_t least, std::int64_t
     auto& target = field(config);
     target = static_cast<std::remove_reference_t<decltype(target)>>(std::get<std::int64_t>(value));
   };
-  return {std::move(name), std::move(help), least, most, {}, get, set};
+  return {std::move(name), std::move(help), least, most, {}, get, set, false};
 }
 
 // field: a string or a path.
@@ -52,7 +52,7 @@ ConfigKey Text(std::string name, Field field, std::string help) {
   const auto set = [field](Config& config, const ConfigValue& value) {
     field(config) = std::get<std::string>(value);
   };
-  return {std::move(name), std::move(help), 0, 0, {}, get, set};
+  return {std::move(name), std::move(help), 0, 0, {}, get, set, false};
 }
 
 // field: an enum whose enumerators have `names`, in this order.
@@ -69,7 +69,7 @@ ConfigKey Choice(std::string name, Field field, const std::array<const char*, kC
     target = static_cast<std::remove_reference_t<decltype(target)>>(
         std::distance(choices.begin(), found));
   };
-  return {std::move(name), std::move(help), 0, 0, choices, get, set};
+  return {std::move(name), std::move(help), 0, 0, choices, get, set, false};
 }
 
 std::vector<ConfigKey> HttpKeys() {
@@ -77,7 +77,9 @@ std::vector<ConfigKey> HttpKeys() {
   return {
       Number("http.ioThreads", http(&ServerOptions::io_threads), 1, 64, "threads that move bytes"),
       Number("http.handlerThreads", http(&ServerOptions::handler_threads), 1, 256,
-             "threads that answer requests"),
+             "threads for answers that wait for disk and database"),
+      Number("http.uploadThreads", http(&ServerOptions::upload_threads), 1, 256,
+             "uploads that are looked into at once; more wait"),
       Number("http.maxBodyBytes", Path(&Config::max_body_bytes), 1, kTebibyte,
              "largest upload taken; larger ones get 413"),
       Number("http.maxHeadBytes", http(&ServerOptions::max_head_bytes), 1024, 1 << 20,
@@ -96,20 +98,35 @@ std::vector<ConfigKey> HttpKeys() {
              "connections at once; more get 503"),
       Number("http.maxConnectionsPerAddress", http(&ServerOptions::max_connections_per_address), 1,
              1'000'000, "connections at once from one address"),
+      Text("http.allowedHosts", http(&ServerOptions::allowed_hosts),
+           "names in Host that are the service's, beside that of publicUrl: a list with commas; "
+           "addresses and names without a dot always are"),
       Text("http.corsOrigin", http(&ServerOptions::cors_origin),
-           "web pages of which origin may read answers: * for all, empty for none"),
+           "origins whose web pages may use the service: a list with commas, * for all, empty for "
+           "none"),
   };
 }
 
 std::vector<ConfigKey> JobKeys() {
   const auto jobs = [](auto... fields) { return Path(&Config::jobs, fields...); };
+  const auto keep = [](auto field) {
+    return Path(&Config::jobs, &JobServiceOptions::retention, field);
+  };
   return {
       Number("jobs.maxWaiting", jobs(&JobServiceOptions::max_waiting), 1, 1'000'000,
              "jobs that may wait; more are refused with 503"),
+      Number("jobs.maxWaitingPerClient", jobs(&JobServiceOptions::max_waiting_per_client), 0,
+             1'000'000, "of these, jobs of one address; more get 429; 0: all but an eighth"),
       Number("jobs.maxPosts", jobs(&JobServiceOptions::runner, &RunnerOptions::max_posts), 4,
              1'000'000'000, "largest DEM taken, in posts; larger ones get 413"),
       Number("jobs.minFreeBytes", jobs(&JobServiceOptions::min_free_bytes), 0, kTebibyte,
              "room on the disk below which uploads are refused with 507"),
+      Number("jobs.keepSeconds", keep(&Retention::seconds), 0, 100 * 365 * kDay,
+             "time that a job and its results are kept after its end; 0: without end"),
+      Number("jobs.keepJobs", keep(&Retention::jobs), 0, 1'000'000'000,
+             "jobs that have ended that are kept, the newest; 0: all"),
+      Number("jobs.keepBytes", keep(&Retention::bytes), 0, 1024 * kTebibyte,
+             "bytes of uploads and results that are kept, the newest jobs'; 0: all"),
       Number("jobs.drainSeconds", Path(&Config::drain_time), 0, kDay,
              "time that running jobs get to end when the service is stopped"),
   };
@@ -147,13 +164,21 @@ std::vector<ConfigKey> WorkerKeys() {
   };
 }
 
+// The limits of connections and the log; threads and what handlers were built with stay.
+bool Reloads(const std::string& name) {
+  constexpr std::array kStay = {"http.ioThreads", "http.handlerThreads", "http.uploadThreads",
+                                "http.maxBodyBytes"};
+  const bool stays = std::find(kStay.begin(), kStay.end(), name) != kStay.end();
+  return !stays && (name.rfind("http.", 0) == 0 || name.rfind("log.", 0) == 0);
+}
+
 std::vector<ConfigKey> AllKeys() {
   std::vector<ConfigKey> keys = {
       Text("listen", Path(&Config::listen),
            "HOST:PORT to listen on; port 0 takes any that is free"),
       Text("data", Path(&Config::jobs, &JobServiceOptions::data),
            "the folder for jobs, uploads and artifacts"),
-      Text("publicUrl", Path(&Config::public_url),
+      Text("publicUrl", Path(&Config::http, &ServerOptions::public_url),
            "the URL under which clients reach the service; empty: http:// and the address"),
       Number("workers", Path(&Config::workers), 0, 1024,
              "jobs at once; 0: as many as there are cores"),
@@ -165,6 +190,7 @@ std::vector<ConfigKey> AllKeys() {
                         "the least that is logged"));
   keys.push_back(Choice("log.format", Path(&Config::log, &LogOptions::format), kLogFormatNames,
                         "auto: text on a terminal, else JSON"));
+  for (ConfigKey& key : keys) key.reloads = Reloads(key.name);
   return keys;
 }
 

@@ -24,6 +24,8 @@ struct ConfigKey {
   /// Requires: a value of the same type as that of `get`, within the limits or of the choices.
   std::function<void(Config&, const ConfigValue&)> set;
 
+  bool reloads = false;  ///< whether a running service takes a new value at SIGHUP
+
   /// True if the key's values are texts, false if they are numbers.
   [[nodiscard]] bool IsText() const;
   /// "FARHORIZON_HTTP_MAX_BODY_BYTES".

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "service/config/config_keys.h"
+#include "service/strict_json.h"
 
 namespace farhorizon {
 
@@ -92,12 +93,13 @@ Status LoadFile(const std::filesystem::path& path, LoadedConfig& loaded) {
                  "no-config"};
   }
   const std::string text((std::istreambuf_iterator<char>(file)), {});
-  const nlohmann::json document = nlohmann::json::parse(text, nullptr, false);
-  if (!document.is_object()) {
-    return Error{ErrorCode::kInvalidArgument, path.string() + " is no JSON object",
+  const Result<nlohmann::json> document = ParseStrictJson(text);
+  if (!document || !document->is_object()) {
+    const std::string why = document ? "it is no object" : document.error().message;
+    return Error{ErrorCode::kInvalidArgument, path.string() + " is no configuration: " + why,
                  "invalid-config"};
   }
-  return SetSection(document, "", path.string(), loaded);
+  return SetSection(*document, "", path.string(), loaded);
 }
 
 }  // namespace
@@ -115,7 +117,10 @@ Result<LoadedConfig> LoadConfig(const std::optional<std::filesystem::path>& file
     const auto key = std::find_if(keys.begin(), keys.end(), [&](const ConfigKey& candidate) {
       return candidate.Environment() == variable;
     });
-    if (key == keys.end()) return UnknownKey("variable " + variable, "the environment");
+    if (key == keys.end()) {
+      loaded.ignored.push_back(variable);
+      continue;
+    }
     Status set = Set(*key, value, variable, loaded);
     if (!set) return std::move(set.error());
   }

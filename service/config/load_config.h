@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/base/result.h"
 #include "service/config/config.h"
@@ -14,6 +15,9 @@ namespace farhorizon {
 struct LoadedConfig {
   Config config;
   std::map<std::string, std::string> origins;
+  /// Variables of the environment that name no key. Kubernetes makes such of each service's name,
+  /// FARHORIZON_PORT among them.
+  std::vector<std::string> ignored;
 };
 
 /// Sets the keys from flags, environment and file; a key that is in several of them gets its value
@@ -21,7 +25,7 @@ struct LoadedConfig {
 ///
 /// flags: by key name. environment: all variables that start with kEnvironmentPrefix.
 /// Errors: kInvalidArgument for a value, with key, origin, value and the expected values, and for
-///   an unknown key or variable; kNotFound where the file cannot be read.
+///   an unknown key of the file; kNotFound where the file cannot be read.
 Result<LoadedConfig> LoadConfig(const std::optional<std::filesystem::path>& file,
                                 const std::map<std::string, std::string>& environment,
                                 const std::map<std::string, std::string>& flags);

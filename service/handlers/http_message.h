@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/io/unique_fd.h"
+#include "core/base/result.h"
 #include "service/url_query.h"
 
 namespace farhorizon {
@@ -29,16 +29,31 @@ struct HttpRequest {
   bool keep_alive = true;
 
   std::string peer;                     ///< address, for the log
-  std::vector<std::string> parameters;  ///< the values of {…} in the route's pattern, decoded
+  std::string request_id;               ///< likewise
+  std::string route;                    ///< the pattern of its path; empty: there is no route
+  std::vector<std::string> parameters;  ///< the values of {…} in that pattern, decoded
 
   /// The first field of that name (in lower case); nullptr if there is none.
   [[nodiscard]] const std::string* Header(std::string_view name) const;
   [[nodiscard]] bool HasBody() const { return chunked || content_length.value_or(0) > 0; }
 };
 
-/// Part of an open file as a body.
+/// Bytes that are read as they are sent.
+class BodySource {
+ public:
+  BodySource() = default;
+  virtual ~BodySource() = default;
+  BodySource(const BodySource&) = delete;
+  BodySource& operator=(const BodySource&) = delete;
+
+  /// Bytes from `offset` on: at least one and at most `most`, valid until the next call. After an
+  /// error the connection is closed: the client sees a body that is too short, never a wrong one.
+  virtual Result<std::string_view> Read(std::int64_t offset, std::int64_t most) = 0;
+};
+
+/// Part of a source as a body.
 struct FileBody {
-  std::shared_ptr<UniqueFd> fd;
+  std::shared_ptr<BodySource> source;
   std::int64_t offset = 0;
   std::int64_t bytes = 0;
 };
@@ -50,6 +65,9 @@ struct HttpResponse {
   std::vector<std::pair<std::string, std::string>> headers;
   std::string body;
   std::optional<FileBody> file;  ///< sent in place of `body`
+
+  std::string code;    ///< of the problem that it is, for the log
+  std::string job_id;  ///< of the job that it is about, for the log
 
   void Set(std::string name, std::string value) {
     headers.emplace_back(std::move(name), std::move(value));

@@ -82,13 +82,14 @@ HttpResponse ListJobs(const HandlerContext& context, const HttpRequest& request)
     next["cursor"] = *page->next;
     link("next", next);
   }
-  return JsonResponse(document);
+  return TaggedJsonResponse(request, document);
 }
 
 HttpResponse ShowJob(const HandlerContext& context, const HttpRequest& request) {
   const Result<Job> job = FindJob(context, request.parameters.at(0));
   if (!job) return ProblemResponse(request, ProblemOf(job.error()));
-  HttpResponse response = JsonResponse(StatusInfo(*job, context.base));
+  HttpResponse response = TaggedJsonResponse(request, StatusInfo(*job, context.base));
+  response.job_id = job->id;
   if (!IsTerminal(job->state)) response.Set("Retry-After", "1");
   return response;
 }
@@ -97,7 +98,9 @@ HttpResponse DismissJob(const HandlerContext& context, const HttpRequest& reques
   Result<Job> job = FindJob(context, request.parameters.at(0));
   if (job) job = context.jobs.Dismiss(job->id);
   if (!job) return ProblemResponse(request, ProblemOf(job.error()));
-  return JsonResponse(StatusInfo(*job, context.base));
+  HttpResponse response = JsonResponse(StatusInfo(*job, context.base));
+  response.job_id = job->id;
+  return response;
 }
 
 }  // namespace

@@ -1,15 +1,10 @@
 #include "service/handlers/json.h"
 
-#include <set>
-#include <vector>
+#include "core/io/sha256.h"
+#include "service/handlers/byte_range.h"
+#include "service/handlers/problem.h"
 
 namespace farhorizon {
-
-namespace {
-
-constexpr int kMaxDepth = 64;
-
-}  // namespace
 
 std::string DumpJson(const nlohmann::ordered_json& document) {
   return document.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
@@ -23,32 +18,23 @@ HttpResponse JsonResponse(const nlohmann::ordered_json& document) {
   return response;
 }
 
-Result<nlohmann::json> ParseClientJson(std::string_view text) {
-  using nlohmann::json;
-  // nlohmann's parser does not recurse, but its dump and its destructor do: deep text is refused
-  // before a document is built of it.
-  bool too_deep = false;
-  bool twice = false;
-  std::vector<std::set<std::string>> names;
-  const auto visit = [&](int depth, json::parse_event_t event, json& value) {
-    if (depth > kMaxDepth) too_deep = true;
-    if (event == json::parse_event_t::object_start) names.emplace_back();
-    if (event == json::parse_event_t::object_end && !names.empty()) names.pop_back();
-    if (event == json::parse_event_t::key && !names.empty()) {
-      twice = !names.back().insert(value.get<std::string>()).second || twice;
-    }
-    return !too_deep;
-  };
-  json document = json::parse(text, visit, false);
-  const char* fault = too_deep                  ? "it is more than 64 deep"
-                      : document.is_discarded() ? "it cannot be parsed"
-                      : twice                   ? "an object has a name twice"
-                                                : nullptr;
-  if (fault != nullptr) {
-    return Error{ErrorCode::kInvalidArgument, std::string("the JSON is at fault: ") + fault,
-                 "invalid-json"};
+HttpResponse TaggedJsonResponse(const HttpRequest& request,
+                                const nlohmann::ordered_json& document) {
+  HttpResponse response = JsonResponse(document);
+  const std::string etag = "\"" + Sha256Hex(response.body) + "\"";
+  HttpRequest whole = request;  // a range of a status helps nobody
+  std::erase_if(whole.headers, [](const auto& field) { return field.first == "range"; });
+  const int status =
+      SelectBytes(whole, etag, static_cast<std::int64_t>(response.body.size())).status;
+  if (status == 412) {
+    return ProblemResponse(request,
+                           {"precondition-failed", "it is not the one that If-Match names"});
   }
-  return document;
+  response.headers = {
+      {"Content-Type", "application/json"}, {"Cache-Control", "no-cache"}, {"ETag", etag}};
+  response.status = status;
+  if (status == 304) response.body.clear();
+  return response;
 }
 
 }  // namespace farhorizon

@@ -1,11 +1,9 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 
 #include <nlohmann/json.hpp>
 
-#include "core/base/result.h"
 #include "service/handlers/http_message.h"
 
 namespace farhorizon {
@@ -17,8 +15,8 @@ std::string DumpJson(const nlohmann::ordered_json& document);
 /// 200 with `document` as application/json, not to be cached.
 HttpResponse JsonResponse(const nlohmann::ordered_json& document);
 
-/// Parses JSON that a client sent: at most 64 levels deep, no name twice in an object.
-/// Errors: kInvalidArgument "invalid-json".
-Result<nlohmann::json> ParseClientJson(std::string_view text);
+/// The same with an entity tag, for what clients ask for again and again: 304 to a client that has
+/// this document, 412 where If-Match names another.
+HttpResponse TaggedJsonResponse(const HttpRequest& request, const nlohmann::ordered_json& document);
 
 }  // namespace farhorizon

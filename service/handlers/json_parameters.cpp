@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "service/handlers/json.h"
+#include "service/strict_json.h"
 
 namespace farhorizon {
 
@@ -18,7 +18,7 @@ std::optional<std::string> ScalarText(const nlohmann::json& value) {
 }  // namespace
 
 Result<Parameters> ParametersOfJson(const std::string& text) {
-  Result<nlohmann::json> document = ParseClientJson(text);
+  Result<nlohmann::json> document = ParseStrictJson(text);
   if (!document) return std::move(document.error());
   const auto invalid = [](const std::string& what) {
     return Error{ErrorCode::kInvalidArgument, what, "invalid-parameter"};

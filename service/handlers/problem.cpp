@@ -19,9 +19,9 @@ constexpr const char* kOgc = "http://www.opengis.net/def/exceptions/ogcapi-proce
 constexpr const char* kOurs = "urn:farhorizon:problem:";
 
 constexpr ErrorKind kKinds400[] = {
-    "digest-mismatch",
     "bad-azimuth",
     "bad-request",
+    "digest-mismatch",
     "invalid-address",
     "invalid-argument",
     "invalid-config",
@@ -49,7 +49,10 @@ constexpr ErrorKind kKinds408[] = {"request-timeout"};
 constexpr ErrorKind kKinds412[] = {"precondition-failed"};
 constexpr ErrorKind kKinds413[] = {"body-not-allowed", "body-too-large", "raster-too-large"};
 constexpr ErrorKind kKinds414[] = {"target-too-long"};
-constexpr ErrorKind kKinds415[] = {"not-a-raster", "unsupported-media-type"};
+constexpr ErrorKind kKinds415[] = {
+    "not-a-raster",
+    "unsupported-media-type",
+};
 constexpr ErrorKind kKinds416[] = {"range-not-satisfiable"};
 constexpr ErrorKind kKinds417[] = {"expectation-failed"};
 constexpr ErrorKind kKinds421[] = {"misdirected-request"};
@@ -99,16 +102,17 @@ constexpr ErrorKind kKinds422[] = {
     "work-budget",
 };
 constexpr ErrorKind kKinds429[] = {"too-many-jobs"};
-constexpr ErrorKind kKinds431[] = {"head-too-large", "too-many-header-fields"};
+constexpr ErrorKind kKinds431[] = {
+    "head-too-large",
+    "too-many-header-fields",
+};
 constexpr ErrorKind kKinds500[] = {
-    "worker-stuck",    "poison-job",
-    "cannot-listen",   "connection",
-    "data-directory",  "input-corrupt",
-    "internal-error",  "io",
-    "job-store",       "job-store-unusable",
-    "reference-data",  "result-corrupt",
-    "sandbox-missing", "storage",
-    "worker-crashed",  "worker-program",
+    "cannot-listen",  "connection",         "data-directory",
+    "input-corrupt",  "internal-error",     "io",
+    "job-store",      "job-store-unusable", "poison-job",
+    "reference-data", "result-corrupt",     "sandbox-missing",
+    "storage",        "worker-crashed",     "worker-program",
+    "worker-stuck",
 };
 constexpr ErrorKind kKinds501[] = {"transfer-encoding-not-implemented"};
 constexpr ErrorKind kKinds503[] = {
@@ -183,8 +187,10 @@ Problem ProblemOf(const Error& error) {
       error.kind.empty() ? ErrorKind::FromName(ErrorCodeName(error.code)).value() : error.kind;
   Problem problem(code, WithParameterNames(error.message));
   // The message of such a failure may name paths of this machine: it belongs in the log alone.
-  const bool crash = code == ErrorKind("worker-crashed") || code == ErrorKind("result-corrupt");
-  if (problem.status == 500 && !crash) {
+  constexpr ErrorKind kTold[] = {"input-corrupt", "poison-job", "result-corrupt", "worker-crashed",
+                                 "worker-stuck"};
+  const bool told = std::find(std::begin(kTold), std::end(kTold), code) != std::end(kTold);
+  if (problem.status == 500 && !told) {
     problem.detail = "the service failed inside; its log says why";
   }
   return problem;
@@ -201,6 +207,7 @@ HttpResponse ProblemResponse(const HttpRequest& request, const Problem& problem)
       {"instance", request.path},          {"code", problem.code.name()}};
   HttpResponse response;
   response.status = problem.status;
+  response.code = problem.code.name();
   response.Set("Content-Type",
                WantsPlainJson(request) ? "application/json" : "application/problem+json");
   response.Set("Cache-Control", "no-store");

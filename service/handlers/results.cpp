@@ -49,7 +49,9 @@ HttpResponse ListResults(const HandlerContext& context, const HttpRequest& reque
         {"length", artifact.bytes},
         {"sha256", artifact.sha256}};
   }
-  return JsonResponse(document);
+  HttpResponse response = TaggedJsonResponse(request, document);
+  response.job_id = job->id;
+  return response;
 }
 
 // For a page, the one artifact that a browser shows and runs: its own script and style, no loads,
@@ -65,6 +67,24 @@ void SetDisposition(HttpResponse& response, const Artifact& artifact) {
                                           "; filename=\"" + artifact.name + "\"");
   if (page) response.Set("Content-Security-Policy", kPagePolicy);
 }
+
+// The artifact piece by piece, each verified.
+class ArtifactSource : public BodySource {
+ public:
+  explicit ArtifactSource(std::shared_ptr<VerifiedObject> object) : object_(std::move(object)) {}
+
+  Result<std::string_view> Read(std::int64_t offset, std::int64_t most) override {
+    Result<std::string_view> bytes = object_->Read(offset, most);
+    if (!bytes) {
+      Log(LogLevel::kError, "artifact damaged while it was sent",
+          {{"error", bytes.error().message}});
+    }
+    return bytes;
+  }
+
+ private:
+  std::shared_ptr<VerifiedObject> object_;
+};
 
 HttpResponse SendArtifact(const HttpRequest& request, OpenArtifact open) {
   const Artifact& artifact = open.artifact;
@@ -97,8 +117,8 @@ HttpResponse SendArtifact(const HttpRequest& request, OpenArtifact open) {
   const std::optional<Digest> digest = Digest::FromHex(artifact.sha256);
   Check(digest.has_value(), "an artifact's sha256 is one");
   response.Set("Repr-Digest", "sha-256=:" + digest->Base64() + ":");
-  response.file = FileBody{std::make_shared<UniqueFd>(std::move(open.object.fd)), selection.offset,
-                           selection.bytes};
+  response.file = FileBody{std::make_shared<ArtifactSource>(std::move(open.object)),
+                           selection.offset, selection.bytes};
   return response;
 }
 
@@ -106,7 +126,11 @@ HttpResponse GetArtifact(const HandlerContext& context, const HttpRequest& reque
   Result<Job> job = FinishedJob(context, request.parameters.at(0));
   if (!job) return ProblemResponse(request, ProblemOf(job.error()));
   Result<OpenArtifact> open = context.jobs.Open(job->id, request.parameters.at(1));
-  if (open) return SendArtifact(request, *std::move(open));
+  if (open) {
+    HttpResponse response = SendArtifact(request, *std::move(open));
+    response.job_id = job->id;
+    return response;
+  }
   const Problem problem = ProblemOf(open.error());
   if (problem.status >= 500) {
     Log(LogLevel::kError, "artifact lost", {{"job_id", job->id}, {"error", open.error().message}});

@@ -72,7 +72,8 @@ HttpResponse AnswerOptions(const std::string& methods) {
   response.Set("Allow", methods);
   response.Set("Access-Control-Allow-Methods", methods);
   response.Set("Access-Control-Allow-Headers",
-               "Content-Type, Idempotency-Key, If-Match, If-None-Match, If-Range, Range");
+               "Authorization, Content-Digest, Content-Type, Idempotency-Key, If-Match, "
+               "If-None-Match, If-Range, Prefer, Range, traceparent, X-Request-Id");
   response.Set("Access-Control-Max-Age", "86400");
   return response;
 }
@@ -80,7 +81,8 @@ HttpResponse AnswerOptions(const std::string& methods) {
 }  // namespace
 
 Route BodylessRoute(std::string method, std::string pattern,
-                    std::function<HttpResponse(const HttpRequest& request)> answer) {
+                    std::function<HttpResponse(const HttpRequest& request)> answer,
+                    WaitsFor waits_for) {
   const auto begin = [answer = std::move(answer)](const HttpRequest& request) -> Admission {
     if (request.HasBody()) {
       return ProblemResponse(
@@ -88,19 +90,25 @@ Route BodylessRoute(std::string method, std::string pattern,
     }
     return std::make_unique<BodylessExchange>(request, answer);
   };
-  return {std::move(method), std::move(pattern), begin};
+  return {std::move(method), std::move(pattern), begin, waits_for};
 }
 
-const Route* Router::Find(HttpRequest& request) const {
+const Route* Router::Find(const HttpRequest& request, std::vector<std::string>& values) const {
   const std::string& method = request.method == "HEAD" ? std::string("GET") : request.method;
   for (const Route& route : routes_) {
     if (route.method != method) continue;
-    if (auto values = Match(route.pattern, request.path)) {
-      request.parameters = *std::move(values);
+    if (auto matched = Match(route.pattern, request.path)) {
+      values = *std::move(matched);
       return &route;
     }
   }
   return nullptr;
+}
+
+WaitsFor Router::WaitOf(const HttpRequest& request) const {
+  std::vector<std::string> values;
+  const Route* route = Find(request, values);
+  return route == nullptr ? WaitsFor::kNothing : route->waits_for;
 }
 
 std::vector<std::string> Router::MethodsAt(const std::string& path) const {
@@ -115,7 +123,10 @@ std::vector<std::string> Router::MethodsAt(const std::string& path) const {
 }
 
 Admission Router::Begin(HttpRequest& request) const {
-  if (const Route* route = Find(request)) return route->begin(request);
+  if (const Route* route = Find(request, request.parameters)) {
+    request.route = route->pattern;
+    return route->begin(request);
+  }
   const std::vector<std::string> methods = MethodsAt(request.path);
   if (methods.empty() && request.target != "*") {
     return ProblemResponse(request,

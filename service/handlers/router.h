@@ -10,17 +10,26 @@
 
 namespace farhorizon {
 
+/// What the answer to a request may have to wait for.
+enum class WaitsFor {
+  kNothing,
+  kStore,   ///< disk and database
+  kProcess  ///< a worker that looks at an upload
+};
+
 /// One method on one path.
 struct Route {
   std::string method;
   std::string pattern;  ///< "/jobs/{id}/results/{name}": {…} matches any one segment
   /// Decides from the head. The request outlives the exchange that this returns.
   std::function<Admission(const HttpRequest& request)> begin;
+  WaitsFor waits_for = WaitsFor::kStore;
 };
 
 /// A route for requests without a body; one that has a body is answered 413 "body-not-allowed".
 Route BodylessRoute(std::string method, std::string pattern,
-                    std::function<HttpResponse(const HttpRequest& request)> answer);
+                    std::function<HttpResponse(const HttpRequest& request)> answer,
+                    WaitsFor waits_for = WaitsFor::kStore);
 
 /// Finds the route of a request. Answers by itself requests that have none: 404, 405, OPTIONS. HEAD
 /// takes the route of GET; the server leaves out the body of the response.
@@ -30,13 +39,18 @@ class Router {
   explicit Router(std::vector<Route> routes) : routes_(std::move(routes)) {}
 
   /// Admits or answers a request of which only the head has been read, and sets
-  /// request.parameters. Requires: `request` outlives the exchange.
+  /// request.route and request.parameters. Requires: `request` outlives the exchange.
   Admission Begin(HttpRequest& request) const;
+
+  /// What Begin and the exchange may wait for. Nothing where there is no route.
+  [[nodiscard]] WaitsFor WaitOf(const HttpRequest& request) const;
 
   [[nodiscard]] const std::vector<Route>& routes() const { return routes_; }
 
  private:
-  [[nodiscard]] const Route* Find(HttpRequest& request) const;
+  /// The route of the request, and in `values` what stands for the pattern's variables.
+  [[nodiscard]] const Route* Find(const HttpRequest& request,
+                                  std::vector<std::string>& values) const;
   [[nodiscard]] std::vector<std::string> MethodsAt(const std::string& path) const;
 
   std::vector<Route> routes_;

@@ -32,6 +32,7 @@ ordered_json StatusInfo(const Job& job, const std::string& base) {
   if (job.started_ms) info["started"] = FormatTime(*job.started_ms);
   if (job.finished_ms) info["finished"] = FormatTime(*job.finished_ms);
   info["updated"] = FormatTime(job.updated_ms);
+  if (job.expires_ms) info["expires"] = FormatTime(*job.expires_ms);
   info["filename"] = job.filename;
   info["attempt"] = job.attempt;
   if (!job.timings.empty()) info["timings"] = job.timings;

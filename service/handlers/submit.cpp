@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/pipeline/build_options.h"
+#include "service/handlers/content_digest.h"
 #include "service/handlers/json.h"
 #include "service/handlers/json_parameters.h"
 #include "service/handlers/problem.h"
@@ -17,6 +18,7 @@
 #include "service/handlers/upload_body.h"
 #include "service/handlers/upload_media.h"
 #include "service/log.h"
+#include "service/metrics.h"
 
 namespace farhorizon {
 
@@ -29,6 +31,7 @@ struct SubmissionHead {
   Parameters parameters;  // of the query, except the file name
   std::optional<std::string> filename;
   std::optional<std::string> idempotency_key;
+  ContentDigest digest;
 };
 
 // The field holds a quoted string; text without the quotes is taken, too.
@@ -67,10 +70,13 @@ Result<SubmissionHead> ReadSubmissionHead(const HttpRequest& request) {
   if (!query) {
     return Error{
         ErrorCode::kInvalidArgument,
-        "the query cannot be read: a name is empty or stands twice, or an escape is broken",
+        "the query cannot be read: a name is empty or stands twice, an escape is broken, or "
+        "there is a NUL",
         "invalid-parameter"};
   }
-  SubmissionHead head{*std::move(query), {}, *std::move(key)};
+  Result<ContentDigest> digest = ContentDigest::Of(request);
+  if (!digest) return std::move(digest.error());
+  SubmissionHead head{*std::move(query), {}, *std::move(key), *std::move(digest)};
   TakeFilename(head);
   Status parameters = CheckParameters(head.parameters);
   if (!parameters) return std::move(parameters.error());
@@ -101,12 +107,16 @@ class SubmitExchange : public Exchange {
         head_(std::move(head)),
         body_(std::move(spool), context.max_body_bytes, boundary) {}
 
-  Status Take(std::string_view piece) override { return body_.Take(piece); }
+  Status Take(std::string_view piece) override {
+    CountUploadedBytes(static_cast<std::int64_t>(piece.size()));
+    head_.digest.Add(piece);
+    return body_.Take(piece);
+  }
   HttpResponse Finish() override;
 
  private:
-  Result<Submission> ReadSubmission() const;
-  Result<Job> Submit() const;
+  Result<Submission> ReadSubmission();
+  Result<Job> Submit();
 
   const HandlerContext& context_;
   const HttpRequest& request_;
@@ -115,18 +125,22 @@ class SubmitExchange : public Exchange {
 };
 
 // Head and form joined.
-Result<Submission> SubmitExchange::ReadSubmission() const {
-  SubmissionHead head = head_;
+Result<Submission> SubmitExchange::ReadSubmission() {
   if (body_.params()) {
-    Status added = AddFormParameters(*body_.params(), head);
+    Status added = AddFormParameters(*body_.params(), head_);
     if (!added) return std::move(added.error());
   }
-  const std::string name = head.filename.value_or(body_.filename().value_or(""));
-  return Submission{SafeFilename(name), std::move(head.parameters),
-                    std::move(head.idempotency_key)};
+  const std::string name = head_.filename.value_or(body_.filename().value_or(""));
+  return Submission{SafeFilename(name),
+                    std::move(head_.parameters),
+                    std::move(head_.idempotency_key),
+                    {},
+                    request_.peer};
 }
 
-Result<Job> SubmitExchange::Submit() const {
+Result<Job> SubmitExchange::Submit() {
+  Status intact = head_.digest.Check();
+  if (!intact) return std::move(intact.error());
   Status complete = body_.Finish();
   if (!complete) return std::move(complete.error());
   Result<Submission> submission = ReadSubmission();
@@ -159,6 +173,7 @@ HttpResponse SubmitExchange::Finish() {
   }
   HttpResponse response = JsonResponse(StatusInfo(*job, context_.base));
   response.status = 201;
+  response.job_id = job->id;
   response.Set("Location", context_.base + "/jobs/" + job->id);
   response.Set("Retry-After", "1");
   return response;
@@ -172,7 +187,7 @@ Admission BeginSubmission(const HandlerContext& context, const HttpRequest& requ
   }
   Result<SubmissionHead> head = ReadSubmissionHead(request);
   if (!head) return ProblemResponse(request, ProblemOf(head.error()));
-  const Status room = context.jobs.CheckRoom();
+  const Status room = context.jobs.CheckRoom(request.peer);
   if (!room) return ProblemResponse(request, ProblemOf(room.error()));
   Result<SpoolFile> spool = context.jobs.NewSpoolFile();
   if (!spool) {
@@ -187,7 +202,8 @@ Admission BeginSubmission(const HandlerContext& context, const HttpRequest& requ
 
 Route SubmitRoute(const HandlerContext& context) {
   return {"POST", "/jobs",
-          [context](const HttpRequest& request) { return BeginSubmission(context, request); }};
+          [context](const HttpRequest& request) { return BeginSubmission(context, request); },
+          WaitsFor::kProcess};
 }
 
 }  // namespace farhorizon

@@ -8,7 +8,7 @@
 namespace farhorizon {
 
 std::string ResponseHead(const HttpRequest& request, const HttpResponse& response, bool keep_alive,
-                         const std::string& cors_origin) {
+                         const Cors& cors) {
   std::string head =
       "HTTP/1.1 " + std::to_string(response.status) + " " + ReasonPhrase(response.status) + "\r\n";
   const auto add = [&head](std::string_view name, std::string_view value) {
@@ -26,15 +26,13 @@ std::string ResponseHead(const HttpRequest& request, const HttpResponse& respons
       std::any_of(response.headers.begin(), response.headers.end(),
                   [](const auto& field) { return field.first == "Content-Security-Policy"; });
   if (!has_policy) add("Content-Security-Policy", "default-src 'none'");
-  if (!cors_origin.empty()) {
-    add("Access-Control-Allow-Origin", cors_origin);
+  if (!cors.readable_by.empty()) {
+    add("Access-Control-Allow-Origin", cors.readable_by);
     add("Access-Control-Expose-Headers",
         "Location, ETag, Link, Retry-After, Content-Range, Accept-Ranges, Repr-Digest");
-    if (cors_origin != "*") add("Vary", "Origin");
   }
-  if (const std::string* id = request.Header("x-request-id"); id != nullptr && id->size() <= 200) {
-    add("X-Request-Id", *id);
-  }
+  if (cors.depends_on_origin) add("Vary", "Origin");
+  if (!request.request_id.empty()) add("X-Request-Id", request.request_id);
   return head + "\r\n";
 }
 

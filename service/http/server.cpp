@@ -1,10 +1,14 @@
 #include "service/http/server.h"
 
+#include <algorithm>
 #include <charconv>
 #include <condition_variable>
+#include <deque>
+#include <future>
 #include <map>
 #include <mutex>
 #include <set>
+#include <sys/resource.h>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -20,18 +24,47 @@ using asio::ip::tcp;
 using boost::system::error_code;
 
 constexpr std::chrono::milliseconds kAcceptPause{100};
+// Connections beyond the limit that may ask for the service's health.
+constexpr int kSurplus = 16;
+// Descriptors that connections must leave: for libraries, standard streams, the database with its
+// journal and index, each thread's spooled upload and opened artifact, the pipes of workers.
+constexpr rlim_t kReservedFiles = 24;
+
+// As many descriptors as the system gives this process, at most as many as `options` may use.
+rlim_t RaiseFileLimit() {
+  struct rlimit limit {};
+  if (::getrlimit(RLIMIT_NOFILE, &limit) != 0) return 256;
+  if (limit.rlim_cur < limit.rlim_max) {
+    limit.rlim_cur = limit.rlim_max;
+    ::setrlimit(RLIMIT_NOFILE, &limit);
+    ::getrlimit(RLIMIT_NOFILE, &limit);
+  }
+  return limit.rlim_cur;
+}
+
+// At most as many connections as leave descriptors to the rest of the process.
+int ConnectionsFor(const ServerOptions& options) {
+  const auto threads = static_cast<rlim_t>(options.handler_threads + options.upload_threads);
+  const rlim_t reserved = kReservedFiles + 2 * threads + kSurplus;
+  const rlim_t files = RaiseFileLimit();
+  // Each connection has one more: the upload or the artifact that it moves.
+  const rlim_t most = files > reserved + 8 ? (files - reserved) / 2 : 4;
+  return static_cast<int>(std::min(most, static_cast<rlim_t>(options.max_connections)));
+}
 
 class AsioServer : public Server {
  public:
   explicit AsioServer(const ServerOptions& options)
-      : options_(options),
-        acceptor_(asio::make_strand(context_)),
-        handlers_(static_cast<std::size_t>(options.handler_threads)) {}
+      : first_options_(options), acceptor_(asio::make_strand(context_)), work_(options) {
+    AsioServer::Reload(options);
+  }
   ~AsioServer() override { AsioServer::Stop(std::chrono::milliseconds(0)); }
 
   Status Open();
   [[nodiscard]] std::uint16_t port() const override { return acceptor_.local_endpoint().port(); }
+  void Reload(const ServerOptions& options) override;
   void Serve(const Router& router) override;
+  bool Responds(std::chrono::milliseconds most) override;
   void Stop(std::chrono::milliseconds most) override;
 
  private:
@@ -39,29 +72,34 @@ class AsioServer : public Server {
   void Begin(const Router& router, tcp::socket socket);
   void End(const std::shared_ptr<Session>& session, const std::string& peer);
 
-  ServerOptions options_;
+  const ServerOptions first_options_;
   asio::io_context context_;
   tcp::acceptor acceptor_;
-  asio::thread_pool handlers_;
+  WorkThreads work_;
   std::vector<std::thread> threads_;
   std::atomic<bool> stopping_{false};
 
   std::mutex mutex_;
+  std::shared_ptr<const ServerOptions> options_;
+  std::shared_ptr<const AccessRules> access_;
+  int max_connections_ = 0;
   std::condition_variable ended_;
   std::set<std::shared_ptr<Session>> sessions_;
+  std::deque<std::shared_ptr<Session>> surplus_;  // of them, the oldest first
   std::map<std::string, int> by_address_;
 };
 
 Status AsioServer::Open() {
   const auto cannot = [&](const error_code& failure) {
     return Error{ErrorCode::kIo,
-                 "cannot listen on " + options_.host + ":" + std::to_string(options_.port) + ": " +
-                     failure.message() + "; give another --listen HOST:PORT",
+                 "cannot listen on " + first_options_.host + ":" +
+                     std::to_string(first_options_.port) + ": " + failure.message() +
+                     "; give another --listen HOST:PORT",
                  "cannot-listen"};
   };
   error_code failure;
   tcp::resolver resolver(context_);
-  const auto found = resolver.resolve(options_.host, std::to_string(options_.port),
+  const auto found = resolver.resolve(first_options_.host, std::to_string(first_options_.port),
                                       tcp::resolver::passive, failure);
   if (failure || found.empty()) return cannot(failure);
   const tcp::endpoint endpoint = found.begin()->endpoint();
@@ -73,11 +111,31 @@ Status AsioServer::Open() {
   return Ok{};
 }
 
+void AsioServer::Reload(const ServerOptions& options) {
+  auto access = std::make_shared<const AccessRules>(
+      ReadAccessRules(options.public_url, options.allowed_hosts, options.cors_origin));
+  const int connections = ConnectionsFor(options);
+  if (connections < options.max_connections) {
+    Log(LogLevel::kWarning, "fewer connections than http.maxConnections, for want of descriptors",
+        {{"connections", std::int64_t{connections}}});
+  }
+  const std::lock_guard lock(mutex_);
+  options_ = std::make_shared<const ServerOptions>(options);
+  access_ = std::move(access);
+  max_connections_ = connections;
+}
+
 void AsioServer::Serve(const Router& router) {
   asio::co_spawn(acceptor_.get_executor(), Accept(router), asio::detached);
-  for (int i = 0; i < options_.io_threads; ++i) {
+  for (int i = 0; i < first_options_.io_threads; ++i) {
     threads_.emplace_back([this] { context_.run(); });
   }
+}
+
+bool AsioServer::Responds(std::chrono::milliseconds most) {
+  const auto done = std::make_shared<std::promise<void>>();
+  asio::post(context_, [done] { done->set_value(); });
+  return done->get_future().wait_for(most) == std::future_status::ready;
 }
 
 asio::awaitable<void> AsioServer::Accept(const Router& router) {
@@ -102,33 +160,37 @@ void AsioServer::Begin(const Router& router, tcp::socket socket) {
   const std::string peer = socket.remote_endpoint(failure).address().to_string();
   if (failure) return;
   socket.set_option(tcp::no_delay(true), failure);
-  const SessionContext context{options_, router, handlers_, stopping_};
-  const auto session =
-      std::make_shared<Session>(context, beast::tcp_stream(std::move(socket)), peer);
-  bool full = false;
+  std::shared_ptr<Session> session;
   {
     const std::lock_guard lock(mutex_);
-    const int from_there = ++by_address_[peer];
-    sessions_.insert(session);
-    full = static_cast<int>(sessions_.size()) > options_.max_connections ||
-           from_there > options_.max_connections_per_address;
-    if (static_cast<int>(sessions_.size()) > 2 * options_.max_connections) {
-      // With so many connections even the answers 503 would cost too much.
-      sessions_.erase(session);
-      if (--by_address_[peer] == 0) by_address_.erase(peer);
-      return;
+    const int count = static_cast<int>(sessions_.size());
+    // The newest may ask for the service's health: the surplus connection that has said nothing for
+    // the longest time makes room. With yet more even the answers 503 would cost too much.
+    if (count >= max_connections_ + 2 * kSurplus) return;
+    if (count >= max_connections_ + kSurplus && !surplus_.empty()) {
+      surplus_.front()->Close();
+      surplus_.pop_front();
     }
+    const int from_there = ++by_address_[peer];
+    const bool surplus =
+        count >= max_connections_ || from_there > options_->max_connections_per_address;
+    session = std::make_shared<Session>(
+        SessionContext{options_, access_, router, work_, stopping_, surplus},
+        beast::tcp_stream(std::move(socket)), peer);
+    sessions_.insert(session);
+    if (surplus) surplus_.push_back(session);
   }
   const auto done = [this, session, peer](const std::exception_ptr& bug) {
     if (bug) Log(LogLevel::kError, "a connection ended in an exception", {{"peer", peer}});
     End(session, peer);
   };
-  asio::co_spawn(session->executor(), full ? session->Refuse() : session->Run(), done);
+  asio::co_spawn(session->executor(), session->Run(), done);
 }
 
 void AsioServer::End(const std::shared_ptr<Session>& session, const std::string& peer) {
   const std::lock_guard lock(mutex_);
   sessions_.erase(session);
+  std::erase(surplus_, session);
   if (--by_address_[peer] == 0) by_address_.erase(peer);
   ended_.notify_all();
 }
@@ -149,7 +211,8 @@ void AsioServer::Stop(std::chrono::milliseconds most) {
       ended_.wait_for(lock, std::chrono::seconds(1), none);
     }
   }
-  handlers_.join();
+  work_.uploads.join();
+  work_.store.join();
   context_.stop();
   for (std::thread& thread : threads_) thread.join();
   threads_.clear();

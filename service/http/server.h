@@ -14,7 +14,8 @@ struct ServerOptions {
   std::string host;
   std::uint16_t port = 0;  ///< 0: any that is free
   int io_threads = 2;
-  int handler_threads = 8;
+  int handler_threads = 8;  ///< for answers that wait for disk and database
+  int upload_threads = 16;  ///< for uploads that are looked into
   std::size_t max_head_bytes = 16384;
   std::chrono::seconds head_time{10};   ///< from its first byte, and of a connection's first
   std::chrono::seconds idle_time{60};   ///< between requests
@@ -23,7 +24,9 @@ struct ServerOptions {
   std::chrono::seconds write_time{30};  ///< for each 64 KiB that the client does not take
   int max_connections = 1024;
   int max_connections_per_address = 256;
-  std::string cors_origin = "*";  ///< empty: no CORS fields
+  std::string public_url;     ///< its host and its pages are ours
+  std::string allowed_hosts;  ///< further names of ours, a list with commas
+  std::string cors_origin;    ///< origins whose pages may use the service, a list with commas
 };
 
 /// The HTTP server: accepts connections and runs a Session on each.
@@ -37,8 +40,15 @@ class Server {
 
   [[nodiscard]] virtual std::uint16_t port() const = 0;
 
+  /// Takes the limits and lists of `options` for connections that come from now on; its threads,
+  /// host and port stay. Threads: safe.
+  virtual void Reload(const ServerOptions& options) = 0;
+
   /// Starts the threads that answer. Requires: `router` outlives Stop.
   virtual void Serve(const Router& router) = 0;
+
+  /// Whether the threads that move bytes do a task within `most`. Requires: Serve was called.
+  virtual bool Responds(std::chrono::milliseconds most) = 0;
 
   /// Accepts no further connection, lets requests that are being answered end for at most `most`,
   /// then closes the rest.

@@ -5,16 +5,17 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <limits>
 #include <memory>
-#include <unistd.h>
 #include <utility>
 #include <variant>
 
 #include "service/handlers/problem.h"
+#include "service/http/body_reader.h"
 #include "service/http/request_head.h"
+#include "service/http/request_ids.h"
+#include "service/http/request_log.h"
 #include "service/http/response_head.h"
-#include "service/log.h"
+#include "service/metrics.h"
 
 namespace farhorizon {
 
@@ -23,29 +24,31 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using boost::system::error_code;
 
-constexpr std::size_t kPieceBytes = 65536;
 constexpr std::size_t kLingerBytes = std::size_t{1} << 20U;
 constexpr std::chrono::seconds kLingerTime{2};
 
 auto Into(error_code& failure) { return asio::redirect_error(asio::use_awaitable, failure); }
 
-// A head for Beast to frame the body by. The client's own head is read by ReadRequestHead alone;
-// Beast gets the one field that decides where the body ends [RFC 9112, section 6.3], as it was
-// established there. Two readers of one head could disagree about the end of the body, and part of
-// it could pass for a request (section 11.2).
-std::string FramingHead(const HttpRequest& request) {
-  return "POST / HTTP/1.1\r\n" +
-         (request.chunked ? std::string("Transfer-Encoding: chunked")
-                          : "Content-Length: " + std::to_string(*request.content_length)) +
-         "\r\n\r\n";
-}
+// A surplus connection is there to ask for the service's health: a head comes at once.
+constexpr std::chrono::seconds kSurplusTime{2};
 
 }  // namespace
 
+Session::Session(const SessionContext& context, beast::tcp_stream stream, std::string peer)
+    : context_(context),
+      stream_(std::move(stream)),
+      deadline_(stream_.get_executor()),
+      peer_(std::move(peer)),
+      // Room for a head beside a piece of a body: Beast keeps a chunk's head and the trailers in
+      // it until they are whole.
+      buffer_(context.options->max_head_bytes + kBodyPieceBytes) {}
+
 asio::awaitable<void> Session::Run() {
   const auto self = shared_from_this();
+  const ServerOptions& options = *context_.options;
+  const auto head_time = context_.surplus ? kSurplusTime : options.head_time;
   for (bool first = true;; first = false) {
-    WaitUntil(Clock::now() + (first ? context_.options.head_time : context_.options.idle_time));
+    WaitUntil(Clock::now() + (first ? head_time : options.idle_time));
     const std::optional<std::string> head = co_await ReadHeadBytes();
     if (!head) break;
     idle_ = false;
@@ -56,6 +59,7 @@ asio::awaitable<void> Session::Run() {
     }
     HttpRequest& request = std::get<HttpRequest>(read);
     request.peer = peer_;
+    request.request_id = RequestIdOf(request);
     const Next next = co_await Answer(std::move(request));
     if (next == Next::kClose) break;
     idle_ = true;
@@ -77,14 +81,6 @@ void Session::WaitUntil(std::chrono::steady_clock::time_point time) {
     error_code ignored;
     self->stream_.socket().cancel(ignored);
   });
-}
-
-asio::awaitable<void> Session::Refuse() {
-  const auto self = shared_from_this();
-  const Problem problem("too-many-connections", "there are too many connections; try again soon");
-  co_await SendLast(problem);
-  stream_.close();
-  deadline_.cancel();
 }
 
 void Session::CloseIfIdle() {
@@ -110,21 +106,21 @@ asio::awaitable<std::optional<std::string>> Session::ReadHeadBytes() {
       continue;
     }
     const std::size_t end = have.find("\r\n\r\n");
-    if (end != std::string_view::npos && end + 4 <= context_.options.max_head_bytes) {
+    if (end != std::string_view::npos && end + 4 <= context_.options->max_head_bytes) {
       std::string head(have.substr(0, end + 4));
       buffer_.consume(end + 4);
       co_return head;
     }
-    if (have.size() >= context_.options.max_head_bytes) {
+    if (have.size() >= context_.options->max_head_bytes) {
       const Problem problem("head-too-large", "the request's head has more than " +
-                                                  std::to_string(context_.options.max_head_bytes) +
+                                                  std::to_string(context_.options->max_head_bytes) +
                                                   " bytes");
       co_await SendLast(problem);
       co_return std::nullopt;
     }
     // From its first byte on, the whole head has to arrive within its time.
     if (!begun && !have.empty()) {
-      WaitUntil(Clock::now() + context_.options.head_time);
+      WaitUntil(Clock::now() + context_.options->head_time);
       begun = true;
     }
     if (context_.stopping && have.empty()) co_return std::nullopt;
@@ -133,50 +129,60 @@ asio::awaitable<std::optional<std::string>> Session::ReadHeadBytes() {
     const std::size_t size = co_await stream_.async_read_some(space, Into(failure));
     buffer_.commit(size);
     if (failure && late_ && buffer_.size() > 0) {
-      const HttpRequest none;
-      const HttpResponse response =
-          ProblemResponse(none, {"request-timeout", "the request's head came too slowly"});
-      co_await Send(none, response, false);
+      co_await SendLast({"request-timeout", "the request's head came too slowly"});
     }
     if (failure) co_return std::nullopt;
   }
 }
 
+template <typename Work>
+asio::awaitable<std::invoke_result_t<Work>> Session::RunOn(WaitsFor waits_for, Work work) {
+  if (waits_for == WaitsFor::kNothing) co_return work();
+  asio::thread_pool& threads =
+      waits_for == WaitsFor::kStore ? context_.threads.store : context_.threads.uploads;
+  // Asio 1.74 wants a value that can be made out of nothing.
+  using Value = std::invoke_result_t<Work>;
+  const auto on_thread = [&work]() -> asio::awaitable<std::optional<Value>> { co_return work(); };
+  std::optional<Value> value =
+      co_await asio::co_spawn(threads.get_executor(), on_thread, asio::use_awaitable);
+  co_return *std::move(value);
+}
+
 asio::awaitable<Session::Next> Session::Answer(HttpRequest request) {
   const Clock::time_point start = Clock::now();
-  HttpResponse response;
-  bool read_whole = true;  // nothing of the request is left in the socket
-  {
-    // The exchange, and with it the spooled body, is gone before the client has the response.
-    Admission admission = context_.router.Begin(request);
-    if (HttpResponse* early = std::get_if<HttpResponse>(&admission)) {
-      read_whole = !request.HasBody();
-      response = std::move(*early);
-    } else {
-      Exchange& exchange = *std::get<std::unique_ptr<Exchange>>(admission);
-      std::optional<HttpResponse> refusal = co_await ReadBody(request, exchange);
-      read_whole = !refusal;
-      // Not by ?: with co_await in one arm: g++ 12 destroys the response twice.
-      if (read_whole) {
-        response = co_await Finish(request, exchange);
-      } else {
-        response = *std::move(refusal);
-      }
-    }
-  }
-  const bool keep_alive = read_whole && request.keep_alive && !context_.stopping;
+  bool read_whole = true;
+  const HttpResponse response = co_await MakeResponse(request, read_whole);
+  const bool keep_alive =
+      read_whole && request.keep_alive && !context_.stopping && !context_.surplus;
   const bool sent = co_await Send(request, response, keep_alive);
-  const auto took = std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - start);
-  const bool health = request.path == "/healthz" || request.path == "/readyz";
-  Log(health ? LogLevel::kDebug : LogLevel::kInfo, "request",
-      {{"method", request.method},
-       {"path", request.path},
-       {"status", std::int64_t{response.status}},
-       {"bytes", response.BodyBytes()},
-       {"dur_ms", std::int64_t{took.count()}},
-       {"peer", peer_}});
+  const Clock::duration took = Clock::now() - start;
+  CountRequest(request.method, request.route, response.status, took);
+  LogRequest(request, response, took);
   if (sent && !read_whole) co_await Linger();
   co_return sent&& keep_alive ? Next::kKeepAlive : Next::kClose;
+}
+
+asio::awaitable<HttpResponse> Session::MakeResponse(HttpRequest& request, bool& read_whole) {
+  read_whole = !request.HasBody();
+  if (const auto problem = CheckAccess(request, *context_.access)) {
+    co_return ProblemResponse(request, *problem);
+  }
+  const WaitsFor waits_for = context_.router.WaitOf(request);
+  if (context_.surplus && waits_for != WaitsFor::kNothing) {
+    co_return ProblemResponse(
+        request, {"too-many-connections", "there are too many connections; try again soon"});
+  }
+  // What decides on a request looks into the store and makes a file, but waits for no process.
+  const WaitsFor begin_waits = std::min(waits_for, WaitsFor::kStore);
+  Admission admission = co_await RunOn(begin_waits, [&] { return context_.router.Begin(request); });
+  if (HttpResponse* early = std::get_if<HttpResponse>(&admission)) co_return std::move(*early);
+  // The exchange, and with it the spooled body, is gone before the client has the response.
+  Exchange& exchange = *std::get<std::unique_ptr<Exchange>>(admission);
+  std::optional<HttpResponse> refusal = co_await ReadBody(request, exchange);
+  read_whole = !refusal;
+  // Not by ?: with co_await in one arm: g++ 12 destroys the response twice.
+  if (refusal) co_return *std::move(refusal);
+  co_return co_await RunOn(waits_for, [&] { return FinishExchange(exchange, request); });
 }
 
 asio::awaitable<std::optional<HttpResponse>> Session::ReadBody(const HttpRequest& request,
@@ -188,54 +194,39 @@ asio::awaitable<std::optional<HttpResponse>> Session::ReadBody(const HttpRequest
       co_return ProblemResponse(request, {"request-timeout", "the client took no 100 Continue"});
     }
   }
-  http::request_parser<http::buffer_body> parser;
-  parser.body_limit(std::numeric_limits<std::uint64_t>::max());  // none is 0 in Beast 1.74
-  parser.header_limit(static_cast<std::uint32_t>(context_.options.max_head_bytes));
-  error_code failure;
-  parser.put(asio::buffer(FramingHead(request)), failure);
-  Check(!failure && parser.is_header_done(), "Beast reads a head of ours");
+  const ServerOptions& options = *context_.options;
+  BodyReader reader(request, options.max_head_bytes);
   const Clock::time_point start = Clock::now();
-  std::int64_t received = 0;
-  std::vector<char> piece(kPieceBytes);
-  while (!parser.is_done()) {
-    parser.get().body() = {piece.data(), piece.size(), true};
-    const auto earned = std::chrono::seconds(received / context_.options.body_bytes_per_second);
-    WaitUntil(start + context_.options.body_grace + earned);
-    co_await http::async_read_some(stream_, buffer_, parser, Into(failure));
-    if (failure == http::error::need_buffer) failure = {};
+  while (!reader.done()) {
+    const auto earned = std::chrono::seconds(reader.received() / options.body_bytes_per_second);
+    WaitUntil(start + options.body_grace + earned);
+    error_code failure;
+    const std::string_view piece = co_await reader.ReadSome(stream_, buffer_, failure);
     if (failure && late_) {
       co_return ProblemResponse(request, {"request-timeout", "the body came too slowly"});
     }
-    if (failure) {
-      co_return ProblemResponse(request, {"bad-request", "the body is broken off or ill framed"});
-    }
-    const std::size_t size = piece.size() - parser.get().body().size;
-    received += static_cast<std::int64_t>(size);
-    const Status taken = exchange.Take({piece.data(), size});
+    if (failure) co_return ProblemResponse(request, ProblemOfBody(failure));
+    if (piece.empty()) continue;
+    const Status taken = co_await RunOn(WaitsFor::kStore, [&] { return exchange.Take(piece); });
     if (!taken) co_return ProblemResponse(request, ProblemOf(taken.error()));
   }
   co_return std::nullopt;
 }
 
-asio::awaitable<HttpResponse> Session::Finish(const HttpRequest& request, Exchange& exchange) {
-  const auto work = [&request, &exchange]() -> asio::awaitable<HttpResponse> {
-    co_return FinishExchange(exchange, request);
-  };
-  HttpResponse response =
-      co_await asio::co_spawn(context_.handlers.get_executor(), work, asio::use_awaitable);
-  co_return response;
-}
-
 asio::awaitable<void> Session::SendLast(const Problem& problem) {
-  const HttpRequest none;
+  HttpRequest none;
+  none.peer = peer_;
+  none.request_id = RequestIdOf(none);
   const HttpResponse response = ProblemResponse(none, problem);
   const bool sent = co_await Send(none, response, false);
+  CountRequest(none.method, none.route, response.status, {});
+  LogRequest(none, response, {});
   if (sent) co_await Linger();
 }
 
 asio::awaitable<bool> Session::Send(const HttpRequest& request, const HttpResponse& response,
                                     bool keep_alive) {
-  std::string text = ResponseHead(request, response, keep_alive, context_.options.cors_origin);
+  std::string text = ResponseHead(request, response, keep_alive, CorsOf(request, *context_.access));
   const bool has_body =
       request.method != "HEAD" && response.status != 204 && response.status != 304;
   if (has_body && !response.file) text += response.body;
@@ -247,8 +238,8 @@ asio::awaitable<bool> Session::Send(const HttpRequest& request, const HttpRespon
 asio::awaitable<bool> Session::SendText(std::string_view text) {
   while (!text.empty()) {
     error_code failure;
-    WaitUntil(Clock::now() + context_.options.write_time);
-    const std::string_view piece = text.substr(0, kPieceBytes);
+    WaitUntil(Clock::now() + context_.options->write_time);
+    const std::string_view piece = text.substr(0, kBodyPieceBytes);
     co_await asio::async_write(stream_, asio::buffer(piece.data(), piece.size()), Into(failure));
     if (failure) co_return false;
     text.remove_prefix(piece.size());
@@ -257,16 +248,15 @@ asio::awaitable<bool> Session::SendText(std::string_view text) {
 }
 
 asio::awaitable<bool> Session::SendFile(const FileBody& file) {
-  std::vector<char> piece(kPieceBytes);
   for (std::int64_t sent = 0; sent < file.bytes;) {
-    const auto wanted = static_cast<std::size_t>(
-        std::min<std::int64_t>(file.bytes - sent, static_cast<std::int64_t>(piece.size())));
-    const ssize_t size = ::pread(file.fd->get(), piece.data(), wanted, file.offset + sent);
-    // The client then sees a body that is too short, never a wrong one.
-    if (size <= 0) co_return false;
-    const bool taken = co_await SendText({piece.data(), static_cast<std::size_t>(size)});
+    const std::int64_t most =
+        std::min<std::int64_t>(file.bytes - sent, static_cast<std::int64_t>(kBodyPieceBytes));
+    const Result<std::string_view> piece = co_await RunOn(
+        WaitsFor::kStore, [&] { return file.source->Read(file.offset + sent, most); });
+    if (!piece) co_return false;
+    const bool taken = co_await SendText(*piece);
     if (!taken) co_return false;
-    sent += size;
+    sent += static_cast<std::int64_t>(piece->size());
   }
   co_return true;
 }

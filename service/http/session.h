@@ -10,31 +10,40 @@
 #include "service/asio.h"
 #include "service/handlers/problem.h"
 #include "service/handlers/router.h"
+#include "service/http/access_rules.h"
 #include "service/http/server.h"
 
 namespace farhorizon {
 
-/// What every connection of a server shares.
+/// The threads of a server that do what may wait, so that those that move bytes never do.
+struct WorkThreads {
+  explicit WorkThreads(const ServerOptions& options)
+      : store(static_cast<std::size_t>(options.handler_threads)),
+        uploads(static_cast<std::size_t>(options.upload_threads)) {}
+
+  asio::thread_pool store;    ///< for what waits for disk and database
+  asio::thread_pool uploads;  ///< for what waits for a process
+};
+
+/// What the connections of a server share.
 struct SessionContext {
-  const ServerOptions& options;
+  std::shared_ptr<const ServerOptions> options;  ///< those of when the connection was accepted
+  std::shared_ptr<const AccessRules> access;
   const Router& router;
-  asio::thread_pool& handlers;
+  WorkThreads& threads;
   const std::atomic<bool>& stopping;
+  /// The server has as many connections as it may: this one may ask for the service's health,
+  /// once, and gets 503 for anything else.
+  bool surplus = false;
 };
 
 /// One connection: request after request, with a deadline on every wait.
 /// Threads: runs on the strand of its stream; CloseIfIdle and Close are safe from any thread.
 class Session : public std::enable_shared_from_this<Session> {
  public:
-  Session(const SessionContext& context, beast::tcp_stream stream, std::string peer)
-      : context_(context),
-        stream_(std::move(stream)),
-        deadline_(stream_.get_executor()),
-        peer_(std::move(peer)) {}
+  Session(const SessionContext& context, beast::tcp_stream stream, std::string peer);
 
   asio::awaitable<void> Run();
-  /// Answers 503 "too-many-connections" and closes.
-  asio::awaitable<void> Refuse();
 
   [[nodiscard]] beast::tcp_stream::executor_type executor() { return stream_.get_executor(); }
 
@@ -53,12 +62,14 @@ class Session : public std::enable_shared_from_this<Session> {
   /// client has been told why if it could be.
   asio::awaitable<std::optional<std::string>> ReadHeadBytes();
   asio::awaitable<Next> Answer(HttpRequest request);
-  /// Gives the body to `exchange`. The response that refuses the request, if there was an error;
-  /// then some of the request may be left in the socket.
+  /// The response, and in `read_whole` whether nothing of the request is left in the socket.
+  asio::awaitable<HttpResponse> MakeResponse(HttpRequest& request, bool& read_whole);
+  /// Gives the body to `exchange`. The response that refuses the request, if there was an error.
   asio::awaitable<std::optional<HttpResponse>> ReadBody(const HttpRequest& request,
                                                         Exchange& exchange);
-  /// Finishes on the threads for handlers, which wait for disk and database.
-  asio::awaitable<HttpResponse> Finish(const HttpRequest& request, Exchange& exchange);
+  /// Runs `work` on the threads for what `waits_for` says, and waits for it without a thread.
+  template <typename Work>
+  asio::awaitable<std::invoke_result_t<Work>> RunOn(WaitsFor waits_for, Work work);
   /// Sends `problem` as the last response of the connection.
   asio::awaitable<void> SendLast(const Problem& problem);
   asio::awaitable<bool> Send(const HttpRequest& request, const HttpResponse& response,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 
 #include "core/base/hex.h"
 #include "service/random.h"
@@ -15,6 +16,36 @@ constexpr std::array kStates = {JobState::kAccepted, JobState::kRunning, JobStat
 constexpr std::size_t kLongestFilename = 100;
 // Where a UUID's text has its dashes, in rising order.
 constexpr std::array<std::size_t, 4> kDashes = {8, 13, 18, 23};
+
+// What orders the ids: 48 bits of time, then the 12 between version and variant, as one number.
+constexpr unsigned kCounterBits = 12;
+
+std::uint64_t RandomCounter() {
+  const auto bytes = RandomBytes();
+  return (bytes[0] << 4U | bytes[1] >> 4U) & ((1U << kCounterBits) - 1);
+}
+
+// A UUIDv7 with these 60 bits; the other 62 are random.
+std::string WithOrder(std::uint64_t order) {
+  std::array<unsigned char, 16> bytes = RandomBytes();
+  for (std::size_t i = 0; i < 6; ++i) {
+    bytes[i] = static_cast<unsigned char>(order >> (kCounterBits + 8U * (5 - i)));
+  }
+  bytes[6] = static_cast<unsigned char>(0x70U | (order >> 8U & 0x0FU));  // RFC 9562: version 7
+  bytes[7] = static_cast<unsigned char>(order);
+  bytes[8] = static_cast<unsigned char>(0x80U | (bytes[8] & 0x3FU));  // and its variant
+  std::string id = ToHex(bytes);
+  for (const std::size_t dash : kDashes) id.insert(dash, 1, '-');
+  return id;
+}
+
+// The inverse of WithOrder, for any UUID: its digits without the dashes and the version.
+std::uint64_t OrderOf(const std::string& id) {
+  const std::string digits = id.substr(0, 8) + id.substr(9, 4) + id.substr(15, 3);
+  std::uint64_t order = 0;
+  std::from_chars(digits.data(), digits.data() + digits.size(), order, 16);
+  return order;
+}
 
 bool IsFilenameCharacter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' ||
@@ -57,15 +88,15 @@ bool MayFollow(JobState from, JobState to) {
 }
 
 std::string NewJobId(std::int64_t now_ms) {
-  std::array<unsigned char, 16> bytes = RandomBytes();
-  for (std::size_t i = 0; i < 6; ++i) {
-    bytes[i] = static_cast<unsigned char>(static_cast<std::uint64_t>(now_ms) >> (8U * (5 - i)));
-  }
-  bytes[6] = static_cast<unsigned char>(0x70U | (bytes[6] & 0x0FU));  // RFC 9562: version 7
-  bytes[8] = static_cast<unsigned char>(0x80U | (bytes[8] & 0x3FU));  // and its variant
-  std::string id = ToHex(bytes);
-  for (const std::size_t dash : kDashes) id.insert(dash, 1, '-');
-  return id;
+  return WithOrder((static_cast<std::uint64_t>(now_ms) << kCounterBits) | RandomCounter());
+}
+
+std::string NextJobId(std::int64_t now_ms, const std::string& last) {
+  std::string id = NewJobId(now_ms);
+  if (id > last) return id;
+  // The clock has gone back, or this is the same millisecond: one more than the last (RFC 9562,
+  // section 6.2, method 1).
+  return WithOrder(OrderOf(last) + 1);
 }
 
 bool IsJobId(std::string_view text) {

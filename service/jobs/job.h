@@ -30,6 +30,9 @@ bool MayFollow(JobState from, JobState to);
 
 /// A UUIDv7 in lower-case text: 48 bits of time, 74 random ones.
 std::string NewJobId(std::int64_t now_ms);
+/// The same, and greater than `last`, whatever the clock says: ids have the order in which they
+/// were given out. Requires: `last` is a job's id.
+std::string NextJobId(std::int64_t now_ms, const std::string& last);
 /// True for a UUID in lower-case text. Requests with any other text as an id are refused before
 /// they reach a store.
 bool IsJobId(std::string_view text);
@@ -48,11 +51,16 @@ struct Job {
   std::optional<std::int64_t> started_ms;
   std::optional<std::int64_t> finished_ms;
   std::int64_t updated_ms = 0;
-  std::int64_t attempt = 0;  ///< number of starts so far; identifies the current run
+  std::string client;        ///< who sent it: the peer's address
+  std::int64_t run = 0;      ///< number of starts so far; identifies the current one
+  std::int64_t attempt = 0;  ///< of those, the starts that the job has spent: not those that a stop
+                             ///< of the service or a fault of the machine has ended
   std::int64_t crash_count = 0;
-  std::optional<Error> failure;           ///< set if and only if state is kFailed
-  std::map<std::string, double> timings;  ///< seconds by stage, of the run that succeeded
-  Assumptions assumptions;                ///< of the last run that has read the DEM, or the probe
+  std::int64_t retries = 0;                ///< starts that a fault of the machine has ended
+  std::optional<std::int64_t> expires_ms;  ///< when retention removes it; JobService sets it
+  std::optional<Error> failure;            ///< set if and only if state is kFailed
+  std::map<std::string, double> timings;   ///< seconds by stage, of the run that succeeded
+  Assumptions assumptions;                 ///< of the last run that has read the DEM, or the probe
 };
 
 /// One output file of a job.

@@ -10,6 +10,7 @@ namespace farhorizon {
 
 namespace {
 
+// Jobs that were postponed come of age without anybody's call.
 constexpr std::chrono::milliseconds kRetryInterval{1000};
 
 }  // namespace
@@ -72,18 +73,13 @@ void JobEngine::RunSlot() {
       runner_.Run(**job, stop.get_token());
       lock.lock();
       running_.erase((*job)->id);
+      ++wakes_;  // one that must run alone may be waiting for this one's end
     }
     --busy_;
     changed_.notify_all();
     if (job && *job) continue;
     if (!job) Log(LogLevel::kError, "cannot take a job", {{"error", job.error().message}});
-    // Wake ends the wait; so does the interval if the store could not be read.
-    const auto something_new = [&] { return !taking_ || wakes_ != seen; };
-    if (job) {
-      changed_.wait(lock, something_new);
-    } else {
-      changed_.wait_for(lock, kRetryInterval, something_new);
-    }
+    changed_.wait_for(lock, kRetryInterval, [&] { return !taking_ || wakes_ != seen; });
   }
 }
 

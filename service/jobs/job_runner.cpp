@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <memory>
+#include <new>
 #include <optional>
 #include <system_error>
 
@@ -9,6 +10,7 @@
 #include "service/clock.h"
 #include "service/jobs/collect_artifacts.h"
 #include "service/log.h"
+#include "service/metrics.h"
 #include "service/worker/worker_protocol.h"
 
 namespace farhorizon {
@@ -18,40 +20,42 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::chrono::milliseconds kReportInterval{500};
-constexpr std::chrono::milliseconds kRetryInterval{1000};
-constexpr std::int64_t kMaxRestarts = 1;
 
 }  // namespace
 
-JobRunner::JobRunner(JobStore& jobs, ObjectStore& objects, ObjectCollector& collector,
-                     fs::path work_directory, RunnerOptions options)
-    : jobs_(jobs),
-      objects_(objects),
-      collector_(collector),
+JobRunner::JobRunner(const Stores& stores, fs::path work_directory, RunnerOptions options)
+    : jobs_(stores.jobs),
+      objects_(stores.objects),
+      collector_(stores.collector),
+      ending_(stores.jobs, stores.health),
       work_directory_(std::move(work_directory)),
       options_(std::move(options)) {}
 
 void JobRunner::Run(const Job& job, const std::stop_token& stop) {
+  CountJobStart(std::chrono::milliseconds(NowMs() - job.created_ms));
   Log(LogLevel::kInfo, "job starts", {{"job_id", job.id}, {"attempt", job.attempt}});
-  const fs::path directory = work_directory_ / (job.id + "-" + std::to_string(job.attempt));
+  const fs::path directory = work_directory_ / (job.id + "-" + std::to_string(job.run));
   try {
     // A dismissal between the claim and this line had no worker to stop.
-    Result<bool> current = jobs_.ReportProgress(job.id, job.attempt, 0, "starting", NowMs());
+    Result<bool> current = jobs_.ReportProgress(job.id, job.run, 0, "starting", NowMs());
     if (current && !*current) return;
+    if (job.failure) return ending_.DataFailed(job, *job.failure, stop);  // of its row
     Status prepared = Prepare(job, directory);
     if (!prepared) {
-      StoreFailure(job, prepared.error(), stop);
+      ending_.Failed(job, prepared.error(), stop);
     } else {
       const WorkerCall call{options_.worker_program, false, directory, options_.limits,
                             options_.spawner};
       const RunControl control{ReportTo(job), stop, {}, StoreAssumptionsOf(job)};
       StoreOutcome(job, RunWorker(call, control), directory, stop);
     }
+  } catch (const std::bad_alloc&) {
+    ending_.Failed(job, {ErrorCode::kResourceExhausted, "the service is out of memory"}, stop);
   } catch (const std::exception& bug) {
     Log(LogLevel::kError, "internal error", {{"job_id", job.id}, {"error", bug.what()}});
-    StoreFailure(job,
-                 {ErrorCode::kIo, "the service failed inside; the fault is ours", "internal-error"},
-                 stop);
+    ending_.Failed(
+        job, {ErrorCode::kIo, "the service failed inside; the fault is ours", "internal-error"},
+        stop);
   }
   std::error_code ignored;
   fs::remove_all(directory, ignored);
@@ -67,6 +71,9 @@ Status JobRunner::Prepare(const Job& job, const fs::path& directory) {
   }
   const fs::path input = fs::path("in") / job.filename;
   Status copied = objects_.CopyTo(job.input_sha256, directory / input);
+  if (!copied && copied.error().code == ErrorCode::kNotFound) {
+    return Error{ErrorCode::kIo, "the stored upload is lost; send it again", "input-corrupt"};
+  }
   if (!copied) return copied;
   return WriteTaskFile(
       directory, {input.string(), "out", job.parameters, options_.max_posts, options_.threads});
@@ -80,27 +87,27 @@ Progress JobRunner::ReportTo(const Job& job) {
     std::optional<Stage> stage;
     Clock::time_point at;
   };
-  return [this, id = job.id, attempt = job.attempt, shown = std::make_shared<Shown>()](
-             Stage stage, double done) {
+  return [this, id = job.id, run = job.run, shown = std::make_shared<Shown>()](Stage stage,
+                                                                               double done) {
     const int percent = shown->overall.Percent(stage, done);
     const Clock::time_point now = Clock::now();
     if (shown->stage == stage && now - shown->at < kReportInterval) return;
     if (shown->stage != stage && now - shown->at < kReportInterval / 5) return;
     shown->stage = stage;
     shown->at = now;
-    Result<bool> stored = jobs_.ReportProgress(id, attempt, percent, StageName(stage), NowMs());
+    Result<bool> stored = jobs_.ReportProgress(id, run, percent, StageName(stage), NowMs());
     if (!stored) Log(LogLevel::kWarning, "progress lost", {{"error", stored.error().message}});
   };
 }
 
 // Those of this run alone, so that a second run does not double what the first has stored.
 AssumptionHandler JobRunner::StoreAssumptionsOf(const Job& job) {
-  return [this, id = job.id, attempt = job.attempt,
+  return [this, id = job.id, run = job.run,
           met = std::make_shared<Assumptions>()](const Assumption& assumption) {
     met->push_back(assumption);
     Log(LogLevel::kInfo, "assumed",
         {{"job_id", id}, {"code", assumption.code}, {"text", assumption.text}});
-    Result<bool> stored = jobs_.ReportAssumptions(id, attempt, *met, NowMs());
+    Result<bool> stored = jobs_.ReportAssumptions(id, run, *met, NowMs());
     if (!stored) Log(LogLevel::kWarning, "assumption lost", {{"error", stored.error().message}});
   };
 }
@@ -110,11 +117,11 @@ void JobRunner::StoreOutcome(const Job& job, const WorkerOutcome& outcome,
   switch (outcome.end) {
     case WorkerEnd::kDone: {
       Status published = Publish(job, outcome, directory);
-      if (!published) StoreFailure(job, published.error(), stop);
+      if (!published) ending_.Failed(job, published.error(), stop);
       return;
     }
     case WorkerEnd::kFailed:
-      StoreFailure(job, outcome.error, stop);
+      ending_.WorkerFailed(job, outcome.error, stop);
       return;
     case WorkerEnd::kCrashed:
       Log(LogLevel::kError, "worker crashed",
@@ -122,26 +129,11 @@ void JobRunner::StoreOutcome(const Job& job, const WorkerOutcome& outcome,
            {"code", outcome.error.kind},
            {"error", outcome.error.message},
            {"last_words", outcome.stderr_tail}});
-      StoreCrash(job, outcome.error, stop);
+      ending_.WorkerCrashed(job, outcome.error, stop);
       return;
     case WorkerEnd::kStopped:
-      // Either the job was dismissed, and Requeue has no effect, or the service is being stopped.
-      Result<bool> requeued =
-          jobs_.Requeue(job.id, job.attempt, RequeueReason::kServiceStopped, NowMs());
-      Log(LogLevel::kInfo, "job stopped",
-          {{"job_id", job.id}, {"requeued", std::int64_t{requeued && *requeued ? 1 : 0}}});
+      ending_.Stopped(job, stop);
       return;
-  }
-}
-
-void JobRunner::StoreCrash(const Job& job, const Error& error, const std::stop_token& stop) {
-  // A second run would exceed the same limit of time or file size again. Memory may have been short
-  // because another job used it.
-  const bool repeatable = error.kind == "timeout" || error.kind == "file-limit";
-  if (repeatable || job.crash_count >= kMaxRestarts) return StoreFailure(job, error, stop);
-  Result<bool> again = jobs_.Requeue(job.id, job.attempt, RequeueReason::kWorkerCrashed, NowMs());
-  if (!again) {
-    Log(LogLevel::kError, "cannot requeue", {{"job_id", job.id}, {"error", again.error().message}});
   }
 }
 
@@ -151,33 +143,20 @@ Status JobRunner::Publish(const Job& job, const WorkerOutcome& outcome, const fs
     const auto pin = collector_.Pin();
     Result<std::vector<Artifact>> artifacts = CollectArtifacts(directory / "out", objects_);
     if (!artifacts) return std::move(artifacts.error());
-    Result<bool> published =
-        jobs_.Publish(job.id, job.attempt, *artifacts, outcome.timings, NowMs());
+    Result<bool> published = jobs_.Publish(job.id, job.run, *artifacts, outcome.timings, NowMs());
     if (!published) return std::move(published.error());
+    for (const Artifact& artifact : *artifacts) objects.push_back(artifact.sha256);
     if (*published) {
+      objects_.Keep(objects);
       const std::int64_t took = NowMs() - job.started_ms.value_or(job.created_ms);
+      CountJobEnd("successful", "");
+      CountStages(outcome.timings);
       Log(LogLevel::kInfo, "job successful", {{"job_id", job.id}, {"dur_ms", took}});
       return Ok{};
     }
-    for (const Artifact& artifact : *artifacts) objects.push_back(artifact.sha256);
   }
   // The job was dismissed while it ran: no row references its artifacts.
   return collector_.RemoveUnreferenced(objects);
-}
-
-void JobRunner::StoreFailure(const Job& job, const Error& error, const std::stop_token& stop) {
-  for (;;) {
-    Result<bool> failed = jobs_.Fail(job.id, job.attempt, error, NowMs());
-    if (failed) break;
-    // The store cannot be written. The job stays running in it; if the store does not recover
-    // before the service ends, RecoverRunning makes the job accepted at the next start.
-    Log(LogLevel::kError, "cannot store a failure",
-        {{"job_id", job.id}, {"error", failed.error().message}});
-    Pause(kRetryInterval, stop);
-    if (stop.stop_requested()) return;
-  }
-  Log(LogLevel::kWarning, "job failed",
-      {{"job_id", job.id}, {"code", error.kind}, {"error", error.message}});
 }
 
 }  // namespace farhorizon

@@ -11,6 +11,7 @@
 #include "service/jobs/job_store.h"
 #include "service/jobs/object_collector.h"
 #include "service/jobs/object_store.h"
+#include "service/jobs/run_ending.h"
 #include "service/worker/supervisor.h"
 
 namespace farhorizon {
@@ -27,13 +28,18 @@ struct RunnerOptions {
 /// Runs one job in a worker process: input, worker, artifacts, final state.
 ///
 /// A job's artifacts become visible by one conditional change of its row, after their objects are
-/// durable. A job whose worker crashes is accepted once more; then it fails.
+/// durable. RunEnding decides what becomes of a job whose run does not get there.
 /// Threads: safe.
 class JobRunner {
  public:
-  /// Requires: the stores and the collector outlive this object.
-  JobRunner(JobStore& jobs, ObjectStore& objects, ObjectCollector& collector,
-            std::filesystem::path work_directory, RunnerOptions options);
+  /// What the runner works with. Requires: all of it outlives the runner.
+  struct Stores {
+    JobStore& jobs;
+    ObjectStore& objects;
+    ObjectCollector& collector;
+    StorageHealth& health;
+  };
+  JobRunner(const Stores& stores, std::filesystem::path work_directory, RunnerOptions options);
 
   /// Runs `job` and stores how it ended. A stop ends the worker: then the job is accepted again,
   /// unless it was dismissed.
@@ -43,16 +49,15 @@ class JobRunner {
   Status Prepare(const Job& job, const std::filesystem::path& directory);
   void StoreOutcome(const Job& job, const WorkerOutcome& outcome,
                     const std::filesystem::path& directory, const std::stop_token& stop);
-  void StoreCrash(const Job& job, const Error& error, const std::stop_token& stop);
   Status Publish(const Job& job, const WorkerOutcome& outcome,
                  const std::filesystem::path& directory);
-  void StoreFailure(const Job& job, const Error& error, const std::stop_token& stop);
   Progress ReportTo(const Job& job);
   AssumptionHandler StoreAssumptionsOf(const Job& job);
 
   JobStore& jobs_;
   ObjectStore& objects_;
   ObjectCollector& collector_;
+  RunEnding ending_;
   std::filesystem::path work_directory_;
   RunnerOptions options_;
 };

@@ -3,10 +3,12 @@
 #include <system_error>
 
 #include "service/clock.h"
-#include "service/jobs/local_object_store.h"
-#include "service/jobs/sqlite_job_store.h"
+#include "service/jobs/end_mark.h"
+#include "service/jobs/open_stores.h"
 #include "service/jobs/storage_file.h"
+#include "service/jobs/sync_failure.h"
 #include "service/log.h"
+#include "service/metrics.h"
 #include "service/worker/worker_protocol.h"
 
 namespace farhorizon {
@@ -14,6 +16,11 @@ namespace farhorizon {
 namespace {
 
 namespace fs = std::filesystem;
+
+Error Draining() {
+  return {ErrorCode::kResourceExhausted, "the service is being stopped; try again soon",
+          "draining"};
+}
 
 WorkerLimits ProbeLimits(const ProbeOptions& probe) {
   WorkerLimits limits;
@@ -29,17 +36,15 @@ WorkerLimits ProbeLimits(const ProbeOptions& probe) {
 Result<std::unique_ptr<JobService>> JobService::Open(JobServiceOptions options) {
   Result<DataDirectory> directory = OpenDataDirectory(options.data);
   if (!directory) return std::move(directory.error());
-  Result<std::unique_ptr<JobStore>> jobs = OpenSqliteJobStore(directory->Jobs());
-  if (!jobs) return std::move(jobs.error());
-  Result<std::unique_ptr<ObjectStore>> objects = OpenLocalObjectStore(directory->Objects());
-  if (!objects) return std::move(objects.error());
-  Result<std::int64_t> recovered = (*jobs)->RecoverRunning(NowMs());
-  if (!recovered) return std::move(recovered.error());
-  if (*recovered > 0) Log(LogLevel::kWarning, "jobs taken up again", {{"jobs", *recovered}});
-  Status cleared = ObjectCollector(**jobs, **objects).RemoveAllUnreferenced();
-  if (!cleared) return std::move(cleared.error());
-  return std::unique_ptr<JobService>(new JobService(std::move(options), *std::move(directory),
-                                                    *std::move(jobs), *std::move(objects)));
+  Result<Stores> stores = OpenStores(*directory);
+  if (!stores) return std::move(stores.error());
+  std::unique_ptr<JobService> service(new JobService(std::move(options), *std::move(directory),
+                                                     std::move(stores->jobs),
+                                                     std::move(stores->objects)));
+  Status sorted = service->SortOut();
+  if (!sorted) return std::move(sorted.error());
+  service->Begin();
+  return service;
 }
 
 JobService::JobService(JobServiceOptions options, DataDirectory directory,
@@ -49,42 +54,96 @@ JobService::JobService(JobServiceOptions options, DataDirectory directory,
       jobs_(std::move(jobs)),
       objects_(std::move(objects)),
       collector_(*jobs_, *objects_),
+      health_(directory_, *jobs_, options_.min_free_bytes),
+      reserve_(directory_.Reserve()),
       probes_(options_.workers),
-      runner_(*jobs_, *objects_, collector_, directory_.Work(), options_.runner),
-      engine_(std::make_unique<JobEngine>(*jobs_, runner_, options_.workers)) {}
+      runner_({*jobs_, *objects_, collector_, health_}, directory_.Work(), options_.runner) {}
 
-JobService::~JobService() = default;
+JobService::~JobService() { Stop(); }
 
-Status JobService::CheckDisk() {
-  Result<std::int64_t> room = FreeBytes(directory_.root);
-  if (!room) return std::move(room.error());
-  if (*room >= options_.min_free_bytes) return Ok{};
-  return Error{ErrorCode::kResourceExhausted,
-               "the disk has less than " + std::to_string(options_.min_free_bytes) +
-                   " bytes left; try later, or dismiss finished jobs",
-               "no-space"};
-}
-
-Status JobService::CheckRoom() {
-  if (draining_) {
-    return Error{ErrorCode::kResourceExhausted, "the service is being stopped; try again soon",
-                 "draining"};
+Status JobService::SortOut() {
+  const auto recover = [this] { return jobs_->RecoverRunning(directory_.previous_end, NowMs()); };
+  Result<std::int64_t> recovered = recover();
+  if (!recovered && recovered.error().kind == "no-space" && reserve_.Release()) {
+    recovered = recover();
   }
-  Status disk = CheckDisk();
-  if (!disk) return disk;
-  Result<std::int64_t> waiting = jobs_->CountWaiting();
-  if (!waiting) return std::move(waiting.error());
-  if (*waiting < options_.max_waiting) return Ok{};
-  return Error{ErrorCode::kResourceExhausted,
-               std::to_string(*waiting) + " jobs are waiting, as many as may; try again later",
-               "queue-full"};
+  if (!recovered) return std::move(recovered.error());
+  if (*recovered > 0) Log(LogLevel::kWarning, "jobs taken up again", {{"jobs", *recovered}});
+  Result<SortedObjects> sorted = collector_.SortOut();
+  if (!sorted) {
+    // Nothing is lost by it, and results can be read from a disk that is full.
+    if (!IsMachineFault(sorted.error())) return std::move(sorted.error());
+    Log(LogLevel::kWarning, "objects are left", {{"error", sorted.error().message}});
+    return Ok{};
+  }
+  if (sorted->strays > 0 || sorted->taken_back > 0) {
+    Log(LogLevel::kWarning, "objects that no job of this database knows were set aside",
+        {{"objects", sorted->strays},
+         {"taken_back", sorted->taken_back},
+         {"folder", (directory_.Objects() / "stray").string()}});
+  }
+  return Ok{};
 }
 
-Status JobService::CheckReady() {
-  if (draining_) return CheckRoom();
-  Status written = jobs_->Ping();
-  if (!written) return written;
-  return CheckDisk();
+void JobService::Begin() {
+  MarkRunning(directory_.lock.get());
+  engine_ = std::make_unique<JobEngine>(*jobs_, runner_, options_.workers);
+  housekeeper_ = std::make_unique<Housekeeper>(Household{directory_, *jobs_, collector_, reserve_,
+                                                         options_.retention,
+                                                         [this] { engine_->StopTaking(); }});
+}
+
+void JobService::Stop() {
+  if (engine_) engine_->Stop();
+  if (!housekeeper_) return;
+  housekeeper_->Stop();
+  MarkOrderly(directory_.lock.get());
+}
+
+void JobService::MarkEnd() {
+  MarkFatalSignals(directory_.lock.get());
+  BeforeSyncEnd([lock = directory_.lock.get()] { MarkOrderly(lock); });
+}
+
+QueueBounds JobService::Bounds() const {
+  const std::int64_t all = options_.max_waiting;
+  const std::int64_t own = options_.max_waiting_per_client;
+  return {all, own > 0 ? own : all - all / 8};
+}
+
+Status JobService::CheckRoom(const std::string& client) {
+  if (draining_) return Draining();
+  Status room = health_.CheckRoom();
+  if (!room) return room;
+  return jobs_->CheckQueue(client, Bounds());
+}
+
+std::vector<ReadinessCheck> JobService::CheckReady() {
+  return {{"accepting", draining_ ? Status(Draining()) : Status(Ok{})},
+          {"room", health_.CheckRoom()},
+          {"storage", health_.CheckWrites()}};
+}
+
+Result<std::int64_t> JobService::FreeBytes() const {
+  return farhorizon::FreeBytes(directory_.root);
+}
+
+void JobService::SetExpiry(Job& job) const {
+  const std::int64_t seconds = options_.retention.seconds;
+  if (job.finished_ms && seconds > 0) job.expires_ms = *job.finished_ms + seconds * 1000;
+}
+
+Result<Job> JobService::Find(const std::string& id) {
+  Result<Job> job = jobs_->Find(id);
+  if (job) SetExpiry(*job);
+  return job;
+}
+
+Result<JobPage> JobService::List(const JobQuery& query) {
+  Result<JobPage> page = jobs_->List(query);
+  if (!page) return page;
+  for (Job& job : page->jobs) SetExpiry(job);
+  return page;
 }
 
 Result<Assumptions> JobService::Probe(const SpoolFile& upload, const Submission& submission) {
@@ -123,11 +182,11 @@ Result<Job> JobService::Submit(const SpoolFile& upload, const Submission& submis
   auto pin = collector_.Pin();
   Result<StoredObject> stored = objects_->PutFile(upload.path());
   if (!stored) return std::move(stored.error());
-  const std::int64_t now = NowMs();
   Result<Job> inserted =
-      jobs_->Insert({NewJobId(now), submission.filename, submission.parameters, stored->sha256,
-                     stored->bytes, submission.idempotency_key, submission.assumptions},
-                    now);
+      jobs_->Insert({submission.filename, submission.parameters, stored->sha256, stored->bytes,
+                     submission.idempotency_key, submission.assumptions, submission.client},
+                    Bounds(), NowMs());
+  if (inserted) objects_->Keep({stored->sha256});
   pin.unlock();
   if (inserted) {
     engine_->Wake();
@@ -145,16 +204,24 @@ Result<OpenArtifact> JobService::Open(const std::string& id, const std::string& 
     if (artifact.name != name) continue;
     Result<OpenObject> object = objects_->Open(artifact.sha256);
     if (object && object->bytes == artifact.bytes) {
-      return OpenArtifact{std::move(artifact), *std::move(object)};
+      auto verified = verifier_.Open(*std::move(object), artifact.sha256);
+      if (verified) return OpenArtifact{std::move(artifact), *std::move(verified)};
     }
     // If the job is gone by now, it was dismissed between the two calls. If not, the object is
     // lost.
     Result<Job> job = jobs_->Find(id);
     if (!job) return std::move(job.error());
+    CountCorruptResult();
     return Error{ErrorCode::kIo, "this artifact is damaged or lost; submit the DEM again",
                  "result-corrupt"};
   }
   return Error{ErrorCode::kNotFound, "the job has no artifact of this name", "no-such-output"};
+}
+
+Result<Job> JobService::DismissWithReserve(const std::string& id) {
+  Result<Job> dismissed = jobs_->Dismiss(id, NowMs());
+  if (dismissed || dismissed.error().kind != "no-space" || !reserve_.Release()) return dismissed;
+  return jobs_->Dismiss(id, NowMs());
 }
 
 Result<Job> JobService::Dismiss(const std::string& id) {
@@ -162,13 +229,14 @@ Result<Job> JobService::Dismiss(const std::string& id) {
   if (!before) return before;
   Result<std::vector<Artifact>> artifacts = jobs_->Artifacts(id);
   if (!artifacts) return std::move(artifacts.error());
-  Result<Job> dismissed = jobs_->Dismiss(id, NowMs());
+  Result<Job> dismissed = DismissWithReserve(id);
   if (!dismissed) return dismissed;
   engine_->Cancel(id);
   std::vector<std::string> names = {before->input_sha256};
   for (const Artifact& artifact : *artifacts) names.push_back(artifact.sha256);
   Status removed = collector_.RemoveUnreferenced(names);
   if (!removed) Log(LogLevel::kWarning, "objects are left", {{"error", removed.error().message}});
+  SetExpiry(*dismissed);
   return dismissed;
 }
 

@@ -12,12 +12,15 @@
 
 #include "core/base/result.h"
 #include "service/jobs/data_directory.h"
+#include "service/jobs/housekeeper.h"
 #include "service/jobs/job_engine.h"
 #include "service/jobs/job_runner.h"
 #include "service/jobs/job_store.h"
 #include "service/jobs/object_collector.h"
 #include "service/jobs/object_store.h"
 #include "service/jobs/spool_file.h"
+#include "service/jobs/storage_health.h"
+#include "service/jobs/verified_object.h"
 
 namespace farhorizon {
 
@@ -35,7 +38,11 @@ struct JobServiceOptions {
   int workers = 1;  ///< jobs at once
   RunnerOptions runner;
   std::int64_t max_waiting = 1000;
+  /// Of one client's; 0: all but an eighth of max_waiting.
+  std::int64_t max_waiting_per_client = 0;
   std::int64_t min_free_bytes = std::int64_t{1} << 28U;
+  /// A month; as many jobs as the list of them pages through in a second.
+  Retention retention = {30 * 86400, 100'000, 0};
   ProbeOptions probe;
 };
 
@@ -45,12 +52,19 @@ struct Submission {
   Parameters parameters;
   std::optional<std::string> idempotency_key;
   Assumptions assumptions = {};  ///< those of the probe
+  std::string client = {};       ///< the peer's address
 };
 
-/// An artifact, open for reading.
+/// One thing that a service depends on.
+struct ReadinessCheck {
+  const char* name;
+  Status status;
+};
+
+/// An artifact, open for reading: no wrong byte of it can be read.
 struct OpenArtifact {
   Artifact artifact;
-  OpenObject object;
+  std::shared_ptr<VerifiedObject> object;
 };
 
 /// The interface of jobs for the handlers: stores, engine and the rules that connect them.
@@ -63,9 +77,9 @@ class JobService {
   static Result<std::unique_ptr<JobService>> Open(JobServiceOptions options);
   ~JobService();
 
-  /// Succeeds if a new job would be accepted now. Errors: kResourceExhausted "draining",
-  ///   "queue-full", "no-space".
-  Status CheckRoom();
+  /// Succeeds if a new job of `client` would be accepted now. Errors: kResourceExhausted
+  ///   "draining", "queue-full", "too-many-jobs", "no-space"; kIo "data-directory".
+  Status CheckRoom(const std::string& client);
   Result<SpoolFile> NewSpoolFile() { return SpoolFile::Create(directory_.Spool()); }
 
   /// Reads, places and plans the upload in a worker process, without building anything; returns
@@ -78,16 +92,20 @@ class JobService {
   /// idempotency key has made one. Errors: those of the stores.
   Result<Job> Submit(const SpoolFile& upload, const Submission& submission);
 
-  Result<Job> Find(const std::string& id) { return jobs_->Find(id); }
-  Result<JobPage> List(const JobQuery& query) { return jobs_->List(query); }
+  Result<Job> Find(const std::string& id);
+  Result<JobPage> List(const JobQuery& query);
   Result<std::vector<Artifact>> Artifacts(const std::string& id) { return jobs_->Artifacts(id); }
-  /// Errors: kNotFound; kIo "result-corrupt" where the object is missing or has another size.
+  /// Errors: kNotFound; kIo "result-corrupt" where the object is missing or damaged.
   Result<OpenArtifact> Open(const std::string& id, const std::string& name);
   /// Dismisses the job, stops its worker and removes its objects. Errors: kNotFound.
   Result<Job> Dismiss(const std::string& id);
 
-  /// Succeeds if new jobs can be accepted and run. Errors: as CheckRoom, and those of the stores.
-  Status CheckReady();
+  /// What accepting and running jobs depends on: the service is ready if all succeed. Writes to the
+  /// disk and to the store.
+  std::vector<ReadinessCheck> CheckReady();
+  Result<UnfinishedJobs> CountUnfinished() { return jobs_->CountUnfinished(); }
+  /// Room on the disk of the data folder.
+  [[nodiscard]] Result<std::int64_t> FreeBytes() const;
 
   /// What encloses each worker process.
   [[nodiscard]] SandboxLayers ActiveSandbox() const;
@@ -96,23 +114,36 @@ class JobService {
   void Drain();
   bool WaitIdle(std::chrono::milliseconds most) { return engine_->WaitIdle(most); }
   /// Stops every worker; their jobs are accepted again. The last call.
-  void Stop() { engine_->Stop(); }
+  void Stop();
+
+  /// Notes how this process ends, for the next one to know whether a job may be at fault. To be
+  /// called once, by a process that has no other service.
+  void MarkEnd();
 
  private:
   JobService(JobServiceOptions options, DataDirectory directory, std::unique_ptr<JobStore> jobs,
              std::unique_ptr<ObjectStore> objects);
-  Status CheckDisk();
+  [[nodiscard]] QueueBounds Bounds() const;
+  Status SortOut();
+  void Begin();
+  void SetExpiry(Job& job) const;
+  /// The job as DELETE leaves it. Needs no free byte of the disk while there is a reserve.
+  Result<Job> DismissWithReserve(const std::string& id);
 
   JobServiceOptions options_;
   DataDirectory directory_;
   std::unique_ptr<JobStore> jobs_;
   std::unique_ptr<ObjectStore> objects_;
   ObjectCollector collector_;
+  ObjectVerifier verifier_;
+  StorageHealth health_;
+  DiskReserve reserve_;
   std::atomic<bool> draining_{false};
   std::atomic<std::int64_t> next_probe_{0};
   std::counting_semaphore<> probes_;
   JobRunner runner_;
   std::unique_ptr<JobEngine> engine_;
+  std::unique_ptr<Housekeeper> housekeeper_;
 };
 
 }  // namespace farhorizon

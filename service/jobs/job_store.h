@@ -13,13 +13,25 @@ namespace farhorizon {
 
 /// A job as it is submitted; Insert makes an accepted job of it.
 struct NewJob {
-  std::string id;
   std::string filename;
   Parameters parameters;
   std::string input_sha256;
   std::int64_t input_bytes = 0;
   std::optional<std::string> idempotency_key;
   Assumptions assumptions = {};  ///< as far as they are known before it runs
+  std::string client = {};       ///< who sends it
+};
+
+/// How many jobs have not ended.
+struct UnfinishedJobs {
+  std::int64_t accepted = 0;
+  std::int64_t running = 0;
+};
+
+/// How many jobs may wait.
+struct QueueBounds {
+  std::int64_t all = 1000;
+  std::int64_t of_client = 1000;
 };
 
 /// The jobs that a page of the list is to have.
@@ -35,15 +47,37 @@ struct JobPage {
   std::optional<std::string> next;
 };
 
+/// How long finished jobs are kept; 0: without end.
+struct Retention {
+  std::int64_t seconds = 0;  ///< after the end of each
+  std::int64_t jobs = 0;     ///< of them all, the newest
+  std::int64_t bytes = 0;    ///< of uploads and artifacts, those of the newest
+};
+
 enum class RequeueReason { kWorkerCrashed, kServiceStopped };
+
+/// How the process before this one ended, as far as it could say so itself.
+enum class PreviousEnd {
+  kOrderly,  ///< it stopped, or ended for a fault of the machine that it has named
+  kKilled,   ///< from without, or with the machine: no fault of a job's
+  kCrashed,  ///< of a signal of its own, or for want of memory: a job may be at fault
+};
+
+/// What tells a store from others and from its own past.
+struct StoreIdentity {
+  std::string id;               ///< of the database and the objects that belong to it
+  std::int64_t generation = 0;  ///< number of starts of a service on it
+};
 
 /// The table of all jobs. A change is durable when its call returns.
 ///
 /// Properties, which the conformance suite holds every implementation to:
 /// (1) A job's state changes only as MayFollow allows.
-/// (2) A call with an `attempt` has an effect only while the job is running and `attempt` is its
-///     current attempt; otherwise the call returns false.
+/// (2) A call with a `run` has an effect only while the job is running and `run` is its current
+///     run; otherwise the call returns false.
 /// (3) One idempotency key makes at most one job.
+/// (4) No time of a job is before one that the store had already, even where the clock goes back;
+///     of two jobs, the one that was inserted later has the greater id.
 /// Errors, of every call: kIo where the store cannot be read or written, kResourceExhausted where
 /// the disk is full.
 /// Threads: safe.
@@ -57,44 +91,66 @@ class JobStore {
   /// Stores an accepted job and returns it. If the store knows the idempotency key, stores nothing
   /// and returns the key's job.
   /// Errors: kInvalidArgument "idempotency-key-reused" where the key's job has another input, name
-  ///   or other parameters.
-  virtual Result<Job> Insert(const NewJob& job, std::int64_t now_ms) = 0;
+  ///   or other parameters; as CheckQueue, in the same transaction.
+  virtual Result<Job> Insert(const NewJob& job, const QueueBounds& bounds, std::int64_t now_ms) = 0;
+
+  /// Succeeds if another job of `client` may wait. Errors: kResourceExhausted "too-many-jobs"
+  ///   where as many of the client's do as may, "queue-full" where as many of all do.
+  virtual Status CheckQueue(const std::string& client, const QueueBounds& bounds) = 0;
 
   /// Errors: kNotFound.
   virtual Result<Job> Find(const std::string& id) = 0;
   virtual Result<JobPage> List(const JobQuery& query) = 0;
-  virtual Result<std::int64_t> CountWaiting() = 0;
+  virtual Result<UnfinishedJobs> CountUnfinished() = 0;
 
-  /// Makes the oldest accepted job running, with the next attempt; nullopt if none is accepted.
+  /// Makes an accepted job running, with the next run; nullopt if none may be started now. Of the
+  /// clients with the fewest running jobs, the one that was served the longest ago gets its oldest.
+  /// A job that ran while an earlier process crashed runs alone.
   virtual Result<std::optional<Job>> ClaimNext(std::int64_t now_ms) = 0;
-  virtual Result<bool> ReportProgress(const std::string& id, std::int64_t attempt, int progress,
+  virtual Result<bool> ReportProgress(const std::string& id, std::int64_t run, int progress,
                                       const std::string& message, std::int64_t now_ms) = 0;
-  /// Replaces the job's assumptions, those of an earlier attempt too.
-  virtual Result<bool> ReportAssumptions(const std::string& id, std::int64_t attempt,
+  /// Replaces the job's assumptions, those of an earlier run too.
+  virtual Result<bool> ReportAssumptions(const std::string& id, std::int64_t run,
                                          const Assumptions& assumptions, std::int64_t now_ms) = 0;
-  virtual Result<bool> Publish(const std::string& id, std::int64_t attempt,
+  virtual Result<bool> Publish(const std::string& id, std::int64_t run,
                                const std::vector<Artifact>& artifacts,
                                const std::map<std::string, double>& timings,
                                std::int64_t now_ms) = 0;
-  virtual Result<bool> Fail(const std::string& id, std::int64_t attempt, const Error& failure,
+  virtual Result<bool> Fail(const std::string& id, std::int64_t run, const Error& failure,
                             std::int64_t now_ms) = 0;
-  virtual Result<bool> Requeue(const std::string& id, std::int64_t attempt, RequeueReason reason,
+  /// Makes the job accepted again. An end that the service has caused spends no attempt.
+  virtual Result<bool> Requeue(const std::string& id, std::int64_t run, RequeueReason reason,
                                std::int64_t now_ms) = 0;
+  /// Makes a job that a fault of the machine has ended accepted again, not to be started within
+  /// `delay_ms`. Spends no attempt.
+  virtual Result<bool> Postpone(const std::string& id, std::int64_t run, std::int64_t delay_ms,
+                                std::int64_t now_ms) = 0;
 
-  /// An accepted or running job becomes dismissed; a finished one is removed with its artifacts.
-  /// Returns the dismissed job. Errors: kNotFound.
+  /// An accepted or running job becomes dismissed; a finished one is removed with its artifacts,
+  /// and its objects become garbage. Returns the dismissed job. Errors: kNotFound.
   virtual Result<Job> Dismiss(const std::string& id, std::int64_t now_ms) = 0;
+  /// Removes finished jobs as Dismiss does, the oldest first, at most a hundred; returns how many.
+  virtual Result<std::int64_t> RemoveExpired(const Retention& retention, std::int64_t now_ms) = 0;
 
-  /// Makes every running job accepted again and returns their number. Requires: no job runs, as at
-  /// the start of the only process on this store.
-  virtual Result<std::int64_t> RecoverRunning(std::int64_t now_ms) = 0;
+  /// Makes every running job accepted again and returns their number. The third crash of a process
+  /// while a job ran fails the job, "poison-job". Requires: no job runs, as at the start of the
+  /// only process on this store.
+  virtual Result<std::int64_t> RecoverRunning(PreviousEnd end, std::int64_t now_ms) = 0;
 
   /// The job's artifacts in the order of their names. Empty unless the job is successful.
   virtual Result<std::vector<Artifact>> Artifacts(const std::string& id) = 0;
   /// True if the object is the input or an artifact of a job.
   virtual Result<bool> IsReferenced(const std::string& sha256) = 0;
+  /// Objects of jobs that were removed: each may be removed, too, unless it is referenced.
+  virtual Result<std::vector<std::string>> Garbage() = 0;
+  /// Takes these objects off the list of Garbage.
+  virtual Status ForgetGarbage(const std::vector<std::string>& names) = 0;
 
-  /// Succeeds if the store can be written now.
+  virtual Result<StoreIdentity> Identity() = 0;
+  /// Counts a start of the service, and leaves it in the database's own file.
+  virtual Result<StoreIdentity> BeginGeneration() = 0;
+
+  /// Writes to the store; succeeds if what it wrote is durable.
   virtual Status Ping() = 0;
 };
 

@@ -1,5 +1,6 @@
-// An object appears whole or not at all: write a temporary file, fsync it, rename it into place,
-// fsync the folder.
+// An object appears whole or not at all: write a temporary file, fsync it, name it as incoming,
+// rename it into place, fsync the folder. The name as incoming need not be durable: a power cut
+// that loses it makes a stray of an object that was never acknowledged.
 #include "service/jobs/local_object_store.h"
 
 #include <atomic>
@@ -21,6 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kPieceBytes = std::size_t{1} << 18U;
+constexpr std::size_t kFolderDigits = 2;
 
 // Copies all bytes of `from` to `to`; their SHA-256 and number.
 Result<StoredObject> CopyAndHash(int from, int to) {
@@ -40,107 +42,155 @@ Result<StoredObject> CopyAndHash(int from, int to) {
   return object;
 }
 
+// Adds the names of the objects that stand in `folder`.
+Status AddNames(const fs::path& folder, std::vector<std::string>& names) {
+  std::error_code failure;
+  for (fs::directory_iterator it(folder, failure), end; !failure && it != end;
+       it.increment(failure)) {
+    const std::string name = it->path().filename().string();
+    if (IsSha256(name)) names.push_back(name);
+  }
+  if (failure) return Error{ErrorCode::kIo, "list objects: " + failure.message(), "storage"};
+  return Ok{};
+}
+
 class LocalObjectStore : public ObjectStore {
  public:
   explicit LocalObjectStore(fs::path root) : root_(std::move(root)) {}
 
-  Result<StoredObject> PutFile(const fs::path& file) override {
-    Result<UniqueFd> source = OpenForReading(file);
-    if (!source) return std::move(source.error());
-    // The copy is private: whoever made `file` cannot change the stored bytes. The worker has ended
-    // by now, but a process that it started may still hold a descriptor of `file`.
-    const fs::path temp = root_ / "temp" / std::to_string(next_temp_++);
-    UniqueFd copy(::open(temp.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0400));
-    if (!copy) return StorageError("make an object");
-    Result<StoredObject> object = CopyAndHash(source->get(), copy.get());
-    Status placed = Ok{};
-    if (!object) {
-      placed = std::move(object.error());
-    } else if (::fsync(copy.get()) != 0) {
-      placed = StorageError("sync an object");
-    } else {
-      placed = Place(temp, object->sha256);
-    }
-    if (!placed) {
-      ::unlink(temp.c_str());
-      return std::move(placed.error());
-    }
-    ::unlink(file.c_str());
-    return object;
-  }
-
-  Result<OpenObject> Open(const std::string& sha256) override {
-    if (!IsSha256(sha256)) return Error{ErrorCode::kNotFound, "no such object"};
-    Result<UniqueFd> fd = OpenForReading(PathOf(sha256));
-    if (!fd) return std::move(fd.error());
-    struct stat info {};
-    if (::fstat(fd->get(), &info) != 0) return StorageError("look at an object");
-    return OpenObject{*std::move(fd), info.st_size};
-  }
-
-  Status CopyTo(const std::string& sha256, const fs::path& target) override {
-    Result<OpenObject> object = Open(sha256);
-    if (!object) return std::move(object.error());
-    const UniqueFd copy(::open(target.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0400));
-    if (!copy) return StorageError("make the worker's input");
-    Result<StoredObject> copied = CopyAndHash(object->fd.get(), copy.get());
-    if (!copied) return std::move(copied.error());
-    if (copied->sha256 != sha256) {
-      return Error{ErrorCode::kIo, "the stored upload is damaged; send it again", "input-corrupt"};
-    }
-    return Ok{};
-  }
-
-  Status Remove(const std::string& sha256) override {
-    Check(IsSha256(sha256), "an object's name is a SHA-256");
-    if (::unlink(PathOf(sha256).c_str()) != 0 && errno != ENOENT) {
-      return StorageError("remove an object");
-    }
-    return Ok{};
-  }
-
-  Result<std::vector<std::string>> List() override {
-    std::vector<std::string> names;
-    std::error_code failure;
-    for (fs::recursive_directory_iterator it(root_, failure), end; !failure && it != end;
-         it.increment(failure)) {
-      const std::string name = it->path().filename().string();
-      if (IsSha256(name)) names.push_back(name);
-    }
-    if (failure) return Error{ErrorCode::kIo, "list objects: " + failure.message(), "storage"};
-    return names;
-  }
+  Result<StoredObject> PutFile(const fs::path& file) override;
+  void Keep(const std::vector<std::string>& names) override;
+  Result<OpenObject> Open(const std::string& sha256) override;
+  Status CopyTo(const std::string& sha256, const fs::path& target) override;
+  Status Remove(const std::string& sha256) override;
+  Status SetAside(const std::string& sha256) override;
+  Status TakeBack(const std::string& sha256) override;
+  Result<std::vector<std::string>> List(ObjectList which) override;
 
  private:
   [[nodiscard]] fs::path PathOf(const std::string& sha256) const {
-    return root_ / sha256.substr(0, 2) / sha256;
+    return root_ / sha256.substr(0, kFolderDigits) / sha256;
   }
-
-  Status Place(const fs::path& temp, const std::string& sha256) {
-    const fs::path target = PathOf(sha256);
-    if (::mkdir(target.parent_path().c_str(), 0700) == 0) {
-      if (!SyncDirectory(root_)) return StorageError("sync a folder");
-    } else if (errno != EEXIST) {
-      return StorageError("make a folder of objects");
-    }
-    if (::rename(temp.c_str(), target.c_str()) != 0) return StorageError("place an object");
-    if (!SyncDirectory(target.parent_path())) return StorageError("sync a folder");
-    return Ok{};
+  [[nodiscard]] fs::path IncomingName(const std::string& sha256) const {
+    return root_ / "incoming" / sha256;
   }
+  Status Place(const fs::path& temp, const std::string& sha256);
+  Status Move(const fs::path& from, const fs::path& to);
 
   fs::path root_;
   std::atomic<std::int64_t> next_temp_{0};
 };
+
+Result<StoredObject> LocalObjectStore::PutFile(const fs::path& file) {
+  Result<UniqueFd> source = OpenForReading(file);
+  if (!source) return std::move(source.error());
+  // The copy is private: whoever made `file` cannot change the stored bytes. The worker has ended
+  // by now, but a process that it started may still hold a descriptor of `file`.
+  const fs::path temp = root_ / "temp" / std::to_string(next_temp_++);
+  UniqueFd copy(::open(temp.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0400));
+  if (!copy) return StorageError("make an object");
+  Result<StoredObject> object = CopyAndHash(source->get(), copy.get());
+  Status placed = object ? SyncFile(copy.get(), "sync an object") : Status(object.error());
+  if (placed) placed = Place(temp, object->sha256);
+  if (!placed) {
+    ::unlink(temp.c_str());
+    return std::move(placed.error());
+  }
+  ::unlink(file.c_str());
+  return object;
+}
+
+Status LocalObjectStore::Place(const fs::path& temp, const std::string& sha256) {
+  if (::link(temp.c_str(), IncomingName(sha256).c_str()) != 0 && errno != EEXIST) {
+    return StorageError("name an object");
+  }
+  return Move(temp, PathOf(sha256));
+}
+
+void LocalObjectStore::Keep(const std::vector<std::string>& names) {
+  // A name that stays is taken off at the next start.
+  for (const std::string& name : names) ::unlink(IncomingName(name).c_str());
+}
+
+Result<OpenObject> LocalObjectStore::Open(const std::string& sha256) {
+  if (!IsSha256(sha256)) return Error{ErrorCode::kNotFound, "no such object"};
+  Result<UniqueFd> fd = OpenForReading(PathOf(sha256));
+  if (!fd) return std::move(fd.error());
+  struct stat info {};
+  if (::fstat(fd->get(), &info) != 0) return StorageError("look at an object");
+  return OpenObject{*std::move(fd), info.st_size};
+}
+
+Status LocalObjectStore::CopyTo(const std::string& sha256, const fs::path& target) {
+  Result<OpenObject> object = Open(sha256);
+  if (!object) return std::move(object.error());
+  const UniqueFd copy(::open(target.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0400));
+  if (!copy) return StorageError("make the worker's input");
+  Result<StoredObject> copied = CopyAndHash(object->fd.get(), copy.get());
+  if (!copied) return std::move(copied.error());
+  if (copied->sha256 != sha256) {
+    return Error{ErrorCode::kIo, "the stored upload is damaged; send it again", "input-corrupt"};
+  }
+  return Ok{};
+}
+
+Status LocalObjectStore::Remove(const std::string& sha256) {
+  Check(IsSha256(sha256), "an object's name is a SHA-256");
+  // The other name last: what a kill leaves is then still known to be incoming.
+  for (const fs::path& name : {PathOf(sha256), IncomingName(sha256)}) {
+    if (::unlink(name.c_str()) != 0 && errno != ENOENT) return StorageError("remove an object");
+  }
+  return Ok{};
+}
+
+Status LocalObjectStore::SetAside(const std::string& sha256) {
+  return Move(PathOf(sha256), root_ / "stray" / sha256);
+}
+
+Status LocalObjectStore::TakeBack(const std::string& sha256) {
+  return Move(root_ / "stray" / sha256, PathOf(sha256));
+}
+
+Result<std::vector<std::string>> LocalObjectStore::List(ObjectList which) {
+  std::vector<std::string> names;
+  if (which != ObjectList::kAll) {
+    Status listed = AddNames(root_ / (which == ObjectList::kStray ? "stray" : "incoming"), names);
+    if (!listed) return std::move(listed.error());
+    return names;
+  }
+  std::error_code failure;
+  for (fs::directory_iterator it(root_, failure), end; !failure && it != end;
+       it.increment(failure)) {
+    if (it->path().filename().string().size() != kFolderDigits) continue;
+    Status listed = AddNames(it->path(), names);
+    if (!listed) return std::move(listed.error());
+  }
+  if (failure) return Error{ErrorCode::kIo, "list objects: " + failure.message(), "storage"};
+  return names;
+}
+
+Status LocalObjectStore::Move(const fs::path& from, const fs::path& to) {
+  if (::mkdir(to.parent_path().c_str(), 0700) == 0) {
+    Status synced = SyncFolder(root_);
+    if (!synced) return synced;
+  } else if (errno != EEXIST) {
+    return StorageError("make a folder of objects");
+  }
+  if (::rename(from.c_str(), to.c_str()) != 0) return StorageError("place an object");
+  return SyncFolder(to.parent_path());
+}
 
 }  // namespace
 
 Result<std::unique_ptr<ObjectStore>> OpenLocalObjectStore(const fs::path& root) {
   std::error_code failure;
   fs::remove_all(root / "temp", failure);  // files of a process that was killed
-  fs::create_directories(root / "temp", failure);
+  for (const char* folder : {"temp", "incoming", "stray"}) {
+    if (!failure) fs::create_directories(root / folder, failure);
+  }
   if (failure) {
     return Error{ErrorCode::kIo,
-                 "object store: cannot make " + (root / "temp").string() + ": " +
+                 "object store: cannot make the folders of " + root.string() + ": " +
                      failure.message() + "; give a data directory that can be written",
                  "storage"};
   }

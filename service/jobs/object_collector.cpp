@@ -14,10 +14,69 @@ Status ObjectCollector::RemoveUnreferenced(const std::vector<std::string>& names
   return Ok{};
 }
 
-Status ObjectCollector::RemoveAllUnreferenced() {
-  Result<std::vector<std::string>> all = objects_.List();
-  if (!all) return std::move(all.error());
-  return RemoveUnreferenced(*all);
+Status ObjectCollector::RemoveUnacknowledged() {
+  Result<std::vector<std::string>> any = objects_.List(ObjectList::kIncoming);
+  if (!any) return std::move(any.error());
+  if (any->empty()) return Ok{};
+  const std::unique_lock lock(mutex_);  // nobody is between an object and its row
+  Result<std::vector<std::string>> unnamed = Select(ObjectList::kIncoming, false);
+  if (!unnamed) return std::move(unnamed.error());
+  for (const std::string& name : *unnamed) {
+    Status removed = objects_.Remove(name);
+    if (!removed) return removed;
+  }
+  return Ok{};
+}
+
+Status ObjectCollector::RemoveGarbage() {
+  Result<std::vector<std::string>> garbage = jobs_.Garbage();
+  if (!garbage) return std::move(garbage.error());
+  std::vector<std::string> names;
+  for (std::string& name : *garbage) {
+    if (IsSha256(name)) names.push_back(std::move(name));
+  }
+  if (names.empty()) return Ok{};
+  Status removed = RemoveUnreferenced(names);
+  if (!removed) return removed;
+  return jobs_.ForgetGarbage(names);
+}
+
+Result<std::vector<std::string>> ObjectCollector::Select(ObjectList which, bool referenced) {
+  Result<std::vector<std::string>> names = objects_.List(which);
+  if (!names) return names;
+  std::vector<std::string> selected;
+  for (std::string& name : *names) {
+    Result<bool> has_row = jobs_.IsReferenced(name);
+    if (!has_row) return std::move(has_row.error());
+    if (*has_row == referenced) selected.push_back(std::move(name));
+  }
+  return selected;
+}
+
+Result<SortedObjects> ObjectCollector::SortOut() {
+  Status done = RemoveGarbage();
+  if (!done) return std::move(done.error());
+  Result<std::vector<std::string>> acknowledged = Select(ObjectList::kIncoming, true);
+  if (!acknowledged) return std::move(acknowledged.error());
+  objects_.Keep(*acknowledged);
+  done = RemoveUnacknowledged();
+  if (!done) return std::move(done.error());
+  Result<std::vector<std::string>> strays = Select(ObjectList::kAll, false);
+  if (!strays) return std::move(strays.error());
+  Result<std::vector<std::string>> known = Select(ObjectList::kStray, true);
+  if (!known) return std::move(known.error());
+  for (const std::string& name : *strays) {
+    done = objects_.SetAside(name);
+    if (!done) return std::move(done.error());
+  }
+  SortedObjects sorted{static_cast<std::int64_t>(strays->size()), 0};
+  for (const std::string& name : *known) {
+    if (objects_.Open(name)) continue;  // the store has another copy
+    done = objects_.TakeBack(name);
+    if (!done) return std::move(done.error());
+    ++sorted.taken_back;
+  }
+  return sorted;
 }
 
 }  // namespace farhorizon

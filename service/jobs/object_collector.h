@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <mutex>
 #include <shared_mutex>
 #include <string>
@@ -11,8 +12,15 @@
 
 namespace farhorizon {
 
+/// What SortOut has found.
+struct SortedObjects {
+  std::int64_t strays = 0;      ///< set aside: no row knows them, and none of this store had them
+  std::int64_t taken_back = 0;  ///< strays of earlier that a row knows again
+};
+
 /// Garbage collection of objects: an object is removed once no row of the job store references it,
-/// and never while a row that references it is about to be committed.
+/// and never while a row that references it is about to be committed. Only objects that this store
+/// itself had are ever removed: those of removed jobs, and incoming ones without a row.
 /// Threads: safe.
 class ObjectCollector {
  public:
@@ -22,13 +30,21 @@ class ObjectCollector {
   /// them under one lock.
   [[nodiscard]] std::shared_lock<std::shared_mutex> Pin() { return std::shared_lock(mutex_); }
 
-  /// Removes those of the objects `names` that no row references. Requires: the caller holds no
-  /// lock of Pin.
+  /// Removes those of the objects `names` that no row references. Requires: they are this store's;
+  /// the caller holds no lock of Pin.
   Status RemoveUnreferenced(const std::vector<std::string>& names);
-  /// The same for every stored object: at start, for those that a killed process left.
-  Status RemoveAllUnreferenced();
+  /// Removes incoming objects that no row has come to name: of submissions and runs that failed.
+  Status RemoveUnacknowledged();
+  /// Removes what is left of the objects of removed jobs.
+  Status RemoveGarbage();
+  /// Brings the objects into order with the rows, for the start of a service: removes garbage and
+  /// incoming objects without a row, sets strays aside and takes strays back that a row knows.
+  Result<SortedObjects> SortOut();
 
  private:
+  /// Those of the objects in a list that a row references, or that none does.
+  Result<std::vector<std::string>> Select(ObjectList which, bool referenced);
+
   JobStore& jobs_;
   ObjectStore& objects_;
   std::shared_mutex mutex_;

@@ -22,11 +22,20 @@ struct StoredObject {
   std::int64_t bytes = 0;
 };
 
+/// Lists of objects.
+enum class ObjectList {
+  kAll,       ///< but strays
+  kIncoming,  ///< of these, those of which it is not said yet that a row names them
+  kStray,     ///< set aside: no row knew them
+};
+
 /// Write-once files named by the SHA-256 of their content: uploads and artifacts.
 ///
 /// Properties, which the conformance suite holds every implementation to:
 /// (1) An object that PutFile has answered is durable and reads back byte for byte until Remove.
-/// (2) A reader never finds a part of an object. (3) Putting the same bytes twice stores them once.
+/// (2) A reader never finds a part of an object. (3) Putting the same bytes twice stores them once;
+/// the second time replaces what may have been damaged since. (4) An object that was put, but not
+/// kept, when the process was killed is incoming afterwards; after a power cut it may not be.
 /// Threads: safe; Requires: nobody removes an object while another thread puts it.
 class ObjectStore {
  public:
@@ -35,9 +44,11 @@ class ObjectStore {
   ObjectStore(const ObjectStore&) = delete;
   ObjectStore& operator=(const ObjectStore&) = delete;
 
-  /// Stores the file's bytes. Afterwards `file` is gone or unchanged. Requires: a regular file, no
-  /// link. Errors: kIo, kResourceExhausted "no-space".
+  /// Stores the file's bytes as an incoming object. Afterwards `file` is gone or unchanged.
+  /// Requires: a regular file, no link. Errors: kIo, kResourceExhausted "no-space".
   virtual Result<StoredObject> PutFile(const std::filesystem::path& file) = 0;
+  /// Takes the objects off the list of the incoming. To be called once a row names them.
+  virtual void Keep(const std::vector<std::string>& names) = 0;
 
   /// Errors: kNotFound.
   virtual Result<OpenObject> Open(const std::string& sha256) = 0;
@@ -48,8 +59,11 @@ class ObjectStore {
 
   /// Removes the object if the store has it.
   virtual Status Remove(const std::string& sha256) = 0;
-  /// The names of all objects.
-  virtual Result<std::vector<std::string>> List() = 0;
+  /// Makes the object a stray.
+  virtual Status SetAside(const std::string& sha256) = 0;
+  /// Makes a stray an object again.
+  virtual Status TakeBack(const std::string& sha256) = 0;
+  virtual Result<std::vector<std::string>> List(ObjectList which) = 0;
 };
 
 /// True for a SHA-256 in lower-case hexadecimal.

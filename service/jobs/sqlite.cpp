@@ -1,6 +1,10 @@
 #include "service/jobs/sqlite.h"
 
+#include <cerrno>
+
 #include <sqlite3.h>
+
+#include "service/jobs/sync_failure.h"
 
 namespace farhorizon {
 
@@ -8,8 +12,15 @@ namespace {
 
 [[noreturn]] void Throw(sqlite3* database, const char* doing) {
   const int code = sqlite3_errcode(database);
+  const int extended = sqlite3_extended_errcode(database);
+  const int cause = sqlite3_system_errno(database);
   const std::string message = std::string("job store: ") + doing + ": " + sqlite3_errmsg(database);
-  const bool full = code == SQLITE_FULL || code == SQLITE_NOMEM;
+  // A file that may not grow further (EFBIG, under RLIMIT_FSIZE) is a full disk, too.
+  const bool no_room = cause == ENOSPC || cause == EDQUOT || cause == EFBIG;
+  const bool unsynced = extended == SQLITE_IOERR_FSYNC || extended == SQLITE_IOERR_DIR_FSYNC;
+  if (unsynced && !no_room) EndAfterFailedSync(message);
+  const bool full = code == SQLITE_FULL || code == SQLITE_NOMEM ||
+                    (code == SQLITE_IOERR && no_room) || (code == SQLITE_CANTOPEN && no_room);
   if (full) throw SqliteFailure{{ErrorCode::kResourceExhausted, message, "no-space"}};
   throw SqliteFailure{{ErrorCode::kIo, message, "job-store"}};
 }

@@ -1,49 +1,57 @@
-// The embedded job store: the statements of each call of JobStore. sqlite.h has the wrapper of
-// SQLite, sqlite_schema.h the tables, sqlite_rows.h the rows.
+// The embedded job store: each call of JobStore under the one mutex. The statements of the queue
+// are in sqlite_queue.h, of running jobs in sqlite_runs.h, those that remove jobs in
+// sqlite_removal.h, the rows in sqlite_rows.h, the tables in sqlite_schema.h, and sqlite.h has the
+// wrapper of SQLite.
 #include "service/jobs/sqlite_job_store.h"
 
+#include <algorithm>
 #include <mutex>
 #include <string>
 #include <utility>
 
-#include <nlohmann/json.hpp>
-
 #include "service/jobs/sqlite.h"
+#include "service/jobs/sqlite_queue.h"
+#include "service/jobs/sqlite_removal.h"
 #include "service/jobs/sqlite_rows.h"
+#include "service/jobs/sqlite_runs.h"
 #include "service/jobs/sqlite_schema.h"
 
 namespace farhorizon {
 
 namespace {
 
-// How long a client may wait before it sends a submission again
-// (draft-ietf-httpapi-idempotency-key-header).
-constexpr std::int64_t kIdempotencyKeepMs = std::int64_t{7} * 24 * 3600 * 1000;
-
 class SqliteJobStore : public JobStore {
  public:
   Status Open(const std::filesystem::path& path);
 
-  Result<Job> Insert(const NewJob& job, std::int64_t now_ms) override;
+  Result<Job> Insert(const NewJob& job, const QueueBounds& bounds, std::int64_t now_ms) override;
+  Status CheckQueue(const std::string& client, const QueueBounds& bounds) override;
   Result<Job> Find(const std::string& id) override;
   Result<JobPage> List(const JobQuery& query) override;
-  Result<std::int64_t> CountWaiting() override;
+  Result<UnfinishedJobs> CountUnfinished() override;
   Result<std::optional<Job>> ClaimNext(std::int64_t now_ms) override;
-  Result<bool> ReportProgress(const std::string& id, std::int64_t attempt, int progress,
+  Result<bool> ReportProgress(const std::string& id, std::int64_t run, int progress,
                               const std::string& message, std::int64_t now_ms) override;
-  Result<bool> ReportAssumptions(const std::string& id, std::int64_t attempt,
+  Result<bool> ReportAssumptions(const std::string& id, std::int64_t run,
                                  const Assumptions& assumptions, std::int64_t now_ms) override;
-  Result<bool> Publish(const std::string& id, std::int64_t attempt,
+  Result<bool> Publish(const std::string& id, std::int64_t run,
                        const std::vector<Artifact>& artifacts,
                        const std::map<std::string, double>& timings, std::int64_t now_ms) override;
-  Result<bool> Fail(const std::string& id, std::int64_t attempt, const Error& failure,
+  Result<bool> Fail(const std::string& id, std::int64_t run, const Error& failure,
                     std::int64_t now_ms) override;
-  Result<bool> Requeue(const std::string& id, std::int64_t attempt, RequeueReason reason,
+  Result<bool> Requeue(const std::string& id, std::int64_t run, RequeueReason reason,
                        std::int64_t now_ms) override;
+  Result<bool> Postpone(const std::string& id, std::int64_t run, std::int64_t delay_ms,
+                        std::int64_t now_ms) override;
   Result<Job> Dismiss(const std::string& id, std::int64_t now_ms) override;
-  Result<std::int64_t> RecoverRunning(std::int64_t now_ms) override;
+  Result<std::int64_t> RemoveExpired(const Retention& retention, std::int64_t now_ms) override;
+  Result<std::int64_t> RecoverRunning(PreviousEnd end, std::int64_t now_ms) override;
   Result<std::vector<Artifact>> Artifacts(const std::string& id) override;
   Result<bool> IsReferenced(const std::string& sha256) override;
+  Result<std::vector<std::string>> Garbage() override;
+  Status ForgetGarbage(const std::vector<std::string>& names) override;
+  Result<StoreIdentity> Identity() override;
+  Result<StoreIdentity> BeginGeneration() override;
   Status Ping() override;
 
  private:
@@ -57,9 +65,19 @@ class SqliteJobStore : public JobStore {
       return std::move(failure.error);
     }
   }
+  // The same for work that has no Error of its own to return.
+  template <typename Work>
+  auto Call(Work work) -> Result<decltype(work())> {
+    return Guarded([&]() -> Result<decltype(work())> { return work(); });
+  }
+  // The time for a row that is written now: never before one that the store has. Requires: the
+  // mutex is held.
+  std::int64_t Later(std::int64_t now_ms) { return latest_ms_ = std::max(latest_ms_, now_ms); }
 
   std::mutex mutex_;
   Database database_;
+  ClientTurns turns_;
+  std::int64_t latest_ms_ = 0;
 };
 
 Error Unusable(const std::string& why, const std::string& remedy) {
@@ -71,49 +89,31 @@ Status SqliteJobStore::Open(const std::filesystem::path& path) {
     database_.Open(path);
     try {
       PrepareSchema(database_);
+      Statement latest(database_, "SELECT max(updated_ms) FROM jobs");
+      if (latest.Step()) latest_ms_ = latest.Integer(0);
     } catch (SqliteFailure& failure) {
+      if (failure.error.kind == "no-space") return std::move(failure.error);
       return Unusable(failure.error.message,
-                      "it may be damaged: restore it from a backup, or move the data directory "
-                      "away to start afresh");
+                      "it may be damaged: restore it from a backup, let `farhorizon fsck DIR "
+                      "--repair` take out of it what can be read, or move the data directory away "
+                      "to start afresh");
     }
     return Ok{};
   });
 }
 
-// The job `id`, which an earlier submission with the idempotency key of `job` has made.
-Result<Job> EarlierJob(const Database& database, const std::string& id, const NewJob& job) {
-  const std::optional<Job> earlier = SelectJob(database, id);
-  if (earlier && earlier->input_sha256 == job.input_sha256 && earlier->filename == job.filename &&
-      earlier->parameters == job.parameters) {
-    return *earlier;
-  }
-  return Error{ErrorCode::kInvalidArgument,
-               "this Idempotency-Key came with another DEM or other parameters before; "
-               "send a new key with a new job",
-               "idempotency-key-reused"};
-}
-
-Result<Job> SqliteJobStore::Insert(const NewJob& job, std::int64_t now_ms) {
+Result<Job> SqliteJobStore::Insert(const NewJob& job, const QueueBounds& bounds,
+                                   std::int64_t now_ms) {
   return Guarded([&]() -> Result<Job> {
     Transaction transaction(database_);
-    if (job.idempotency_key) {
-      Statement(database_, "DELETE FROM idempotency_keys WHERE created_ms < ?")
-          .Bind(now_ms - kIdempotencyKeepMs)
-          .Run();
-      Statement known(database_, "SELECT job_id FROM idempotency_keys WHERE key = ?");
-      if (known.Bind(*job.idempotency_key).Step()) return EarlierJob(database_, known.Text(0), job);
-    }
-    InsertJob(database_, job, now_ms);
-    if (job.idempotency_key) {
-      Statement key(database_,
-                    "INSERT INTO idempotency_keys (key, job_id, created_ms) VALUES (?, ?, ?)");
-      key.Bind(*job.idempotency_key).Bind(job.id).Bind(now_ms).Run();
-    }
-    std::optional<Job> stored = SelectJob(database_, job.id);
-    Check(stored.has_value(), "an inserted job is there");
-    transaction.Commit();
-    return *std::move(stored);
+    Result<Job> stored = InsertInQueue(database_, job, bounds, Later(now_ms));
+    if (stored) transaction.Commit();
+    return stored;
   });
+}
+
+Status SqliteJobStore::CheckQueue(const std::string& client, const QueueBounds& bounds) {
+  return Guarded([&]() -> Status { return farhorizon::CheckQueue(database_, client, bounds); });
 }
 
 Result<Job> SqliteJobStore::Find(const std::string& id) {
@@ -125,147 +125,107 @@ Result<Job> SqliteJobStore::Find(const std::string& id) {
 }
 
 Result<JobPage> SqliteJobStore::List(const JobQuery& query) {
-  return Guarded([&]() -> Result<JobPage> { return SelectPage(database_, query); });
+  return Call([&] { return SelectPage(database_, query); });
 }
 
-Result<std::int64_t> SqliteJobStore::CountWaiting() {
-  return Guarded([&]() -> Result<std::int64_t> {
-    Statement count(database_, "SELECT count(*) FROM jobs WHERE state = 'accepted'");
+Result<UnfinishedJobs> SqliteJobStore::CountUnfinished() {
+  return Call([&] {
+    Statement count(database_,
+                    "SELECT count(*) FILTER (WHERE state = 'accepted'), "
+                    "count(*) FILTER (WHERE state = 'running') "
+                    "FROM jobs WHERE state IN ('accepted', 'running')");
     count.Step();
-    return count.Integer(0);
+    return UnfinishedJobs{count.Integer(0), count.Integer(1)};
   });
 }
 
 Result<std::optional<Job>> SqliteJobStore::ClaimNext(std::int64_t now_ms) {
-  return Guarded([&]() -> Result<std::optional<Job>> {
-    Statement claim(database_,
-                    std::string("UPDATE jobs SET state = 'running', attempt = attempt + 1, "
-                                "started_ms = coalesce(started_ms, ?), updated_ms = ?, "
-                                "message = 'starting' WHERE id = (SELECT id FROM jobs WHERE "
-                                "state = 'accepted' ORDER BY id LIMIT 1) RETURNING ") +
-                        kJobColumns);
-    claim.Bind(now_ms).Bind(now_ms);
-    std::optional<Job> job;
-    while (claim.Step()) job = ReadJob(claim);
-    return job;
+  return Call([&] { return ClaimJob(database_, turns_, Later(now_ms)); });
+}
+
+Result<bool> SqliteJobStore::ReportProgress(const std::string& id, std::int64_t run, int progress,
+                                            const std::string& message, std::int64_t now_ms) {
+  return Call([&] {
+    return StoreProgress(database_, {id, run, Later(now_ms)}, progress, message);
   });
 }
 
-Result<bool> SqliteJobStore::ReportProgress(const std::string& id, std::int64_t attempt,
-                                            int progress, const std::string& message,
-                                            std::int64_t now_ms) {
-  return Guarded([&]() -> Result<bool> {
-    Statement update(database_,
-                     "UPDATE jobs SET progress = max(progress, ?), message = ?, updated_ms = ? "
-                     "WHERE id = ? AND attempt = ? AND state = 'running'");
-    update.Bind(std::int64_t{progress}).Bind(message).Bind(now_ms).Bind(id).Bind(attempt);
-    return update.Run() == 1;
-  });
-}
-
-Result<bool> SqliteJobStore::ReportAssumptions(const std::string& id, std::int64_t attempt,
+Result<bool> SqliteJobStore::ReportAssumptions(const std::string& id, std::int64_t run,
                                                const Assumptions& assumptions,
                                                std::int64_t now_ms) {
-  return Guarded([&]() -> Result<bool> {
-    Statement update(database_,
-                     "UPDATE jobs SET assumptions = ?, updated_ms = ? "
-                     "WHERE id = ? AND attempt = ? AND state = 'running'");
-    update.Bind(AssumptionsColumn(assumptions)).Bind(now_ms).Bind(id).Bind(attempt);
-    return update.Run() == 1;
-  });
+  return Call([&] { return StoreAssumptions(database_, {id, run, Later(now_ms)}, assumptions); });
 }
 
-Result<bool> SqliteJobStore::Publish(const std::string& id, std::int64_t attempt,
+Result<bool> SqliteJobStore::Publish(const std::string& id, std::int64_t run,
                                      const std::vector<Artifact>& artifacts,
                                      const std::map<std::string, double>& timings,
                                      std::int64_t now_ms) {
-  return Guarded([&]() -> Result<bool> {
-    Transaction transaction(database_);
-    Statement update(database_,
-                     "UPDATE jobs SET state = 'successful', progress = 100, message = 'done', "
-                     "finished_ms = ?, updated_ms = ?, timings = ? "
-                     "WHERE id = ? AND attempt = ? AND state = 'running'");
-    update.Bind(now_ms).Bind(now_ms).Bind(nlohmann::json(timings).dump()).Bind(id).Bind(attempt);
-    if (update.Run() != 1) return false;
-    for (const Artifact& artifact : artifacts) InsertArtifact(database_, id, artifact);
-    transaction.Commit();
-    return true;
-  });
+  return Call([&] { return PublishRun(database_, {id, run, Later(now_ms)}, artifacts, timings); });
 }
 
-Result<bool> SqliteJobStore::Fail(const std::string& id, std::int64_t attempt, const Error& failure,
+Result<bool> SqliteJobStore::Fail(const std::string& id, std::int64_t run, const Error& failure,
                                   std::int64_t now_ms) {
-  return Guarded([&]() -> Result<bool> {
-    Statement update(database_,
-                     "UPDATE jobs SET state = 'failed', message = ?, failure_code = ?, "
-                     "failure_kind = ?, failure_message = ?, finished_ms = ?, updated_ms = ? "
-                     "WHERE id = ? AND attempt = ? AND state = 'running'");
-    update.Bind(failure.message).Bind(std::string(ErrorCodeName(failure.code)));
-    update.Bind(std::string(failure.kind)).Bind(failure.message).Bind(now_ms).Bind(now_ms);
-    return update.Bind(id).Bind(attempt).Run() == 1;
-  });
+  return Call([&] { return FailRun(database_, {id, run, Later(now_ms)}, failure); });
 }
 
-Result<bool> SqliteJobStore::Requeue(const std::string& id, std::int64_t attempt,
-                                     RequeueReason reason, std::int64_t now_ms) {
-  return Guarded([&]() -> Result<bool> {
-    Statement update(database_,
-                     "UPDATE jobs SET state = 'accepted', message = 'waiting to run again', "
-                     "crash_count = crash_count + ?, updated_ms = ? "
-                     "WHERE id = ? AND attempt = ? AND state = 'running'");
-    update.Bind(std::int64_t{reason == RequeueReason::kWorkerCrashed ? 1 : 0}).Bind(now_ms);
-    return update.Bind(id).Bind(attempt).Run() == 1;
-  });
+Result<bool> SqliteJobStore::Requeue(const std::string& id, std::int64_t run, RequeueReason reason,
+                                     std::int64_t now_ms) {
+  return Call([&] { return RequeueRun(database_, {id, run, Later(now_ms)}, reason); });
+}
+
+Result<bool> SqliteJobStore::Postpone(const std::string& id, std::int64_t run,
+                                      std::int64_t delay_ms, std::int64_t now_ms) {
+  return Call([&] { return PostponeRun(database_, {id, run, Later(now_ms)}, delay_ms); });
 }
 
 Result<Job> SqliteJobStore::Dismiss(const std::string& id, std::int64_t now_ms) {
-  return Guarded([&]() -> Result<Job> {
-    Transaction transaction(database_);
-    std::optional<Job> job = SelectJob(database_, id);
-    if (!job) return NoSuchJob();
-    if (IsTerminal(job->state)) {
-      Statement(database_, "DELETE FROM jobs WHERE id = ?").Bind(id).Run();
-      job->state = JobState::kDismissed;
-      job->failure.reset();
-      job->message = "removed";
-    } else {
-      Statement update(database_,
-                       "UPDATE jobs SET state = 'dismissed', message = 'dismissed', "
-                       "finished_ms = ?, updated_ms = ? WHERE id = ?");
-      update.Bind(now_ms).Bind(now_ms).Bind(id).Run();
-      job = SelectJob(database_, id);
-    }
-    transaction.Commit();
-    return *std::move(job);
-  });
+  return Guarded([&]() -> Result<Job> { return DismissJob(database_, id, Later(now_ms)); });
 }
 
-Result<std::int64_t> SqliteJobStore::RecoverRunning(std::int64_t now_ms) {
-  return Guarded([&]() -> Result<std::int64_t> {
-    Statement update(database_,
-                     "UPDATE jobs SET state = 'accepted', message = 'waiting to run again', "
-                     "updated_ms = ? WHERE state = 'running'");
-    return std::int64_t{update.Bind(now_ms).Run()};
-  });
+Result<std::int64_t> SqliteJobStore::RemoveExpired(const Retention& retention,
+                                                   std::int64_t now_ms) {
+  return Call([&] { return RemoveExpiredJobs(database_, retention, now_ms); });
+}
+
+Result<std::int64_t> SqliteJobStore::RecoverRunning(PreviousEnd end, std::int64_t now_ms) {
+  return Call([&] { return RecoverJobs(database_, end, Later(now_ms)); });
 }
 
 Result<std::vector<Artifact>> SqliteJobStore::Artifacts(const std::string& id) {
-  return Guarded([&]() -> Result<std::vector<Artifact>> { return SelectArtifacts(database_, id); });
+  return Call([&] { return SelectArtifacts(database_, id); });
 }
 
 Result<bool> SqliteJobStore::IsReferenced(const std::string& sha256) {
-  return Guarded([&]() -> Result<bool> {
-    Statement row(database_,
-                  "SELECT 1 FROM jobs WHERE input_sha256 = ? UNION ALL "
-                  "SELECT 1 FROM artifacts WHERE sha256 = ? LIMIT 1");
-    return row.Bind(sha256).Bind(sha256).Step();
+  return Call([&] { return farhorizon::IsReferenced(database_, sha256); });
+}
+
+Result<std::vector<std::string>> SqliteJobStore::Garbage() {
+  return Call([&] { return SelectGarbage(database_); });
+}
+
+Status SqliteJobStore::ForgetGarbage(const std::vector<std::string>& names) {
+  return Call([&] {
+    farhorizon::ForgetGarbage(database_, names);
+    return Ok{};
+  });
+}
+
+Result<StoreIdentity> SqliteJobStore::Identity() {
+  return Call([&] { return SelectIdentity(database_); });
+}
+
+Result<StoreIdentity> SqliteJobStore::BeginGeneration() {
+  return Call([&] {
+    Statement(database_, "UPDATE store SET generation = generation + 1").Run();
+    // Else the count would be lost with the write-ahead log, and the store taken for an older one.
+    Statement(database_, "PRAGMA wal_checkpoint(TRUNCATE)").Run();
+    return SelectIdentity(database_);
   });
 }
 
 Status SqliteJobStore::Ping() {
-  return Guarded([&]() -> Status {
-    Transaction transaction(database_);
-    transaction.Commit();
+  return Call([&] {
+    Statement(database_, "UPDATE store SET pings = pings + 1").Run();
     return Ok{};
   });
 }

@@ -49,7 +49,8 @@ Job ReadJob(const Statement& row) {
   job.id = row.Text(0);
   job.state = JobStateOf(row.Text(1)).value_or(JobState::kFailed);
   job.filename = row.Text(2);
-  job.parameters = DecodeQuery(row.Text(3)).value_or(Parameters{});
+  const std::optional<Parameters> parameters = DecodeQuery(row.Text(3));
+  job.parameters = parameters.value_or(Parameters{});
   job.input_sha256 = row.Text(4);
   job.input_bytes = row.Integer(5);
   job.progress = static_cast<int>(row.Integer(6));
@@ -63,6 +64,14 @@ Job ReadJob(const Statement& row) {
   job.failure = ReadFailure(row);
   job.timings = ReadTimings(row.Text(17));
   job.assumptions = ReadAssumptions(row.Text(18));
+  job.client = row.Text(19);
+  job.run = row.Integer(20);
+  job.retries = row.Integer(21);
+  const bool unclear = !parameters && !IsTerminal(job.state);
+  if (unclear || (job.state == JobState::kFailed && !job.failure)) {
+    job.failure =
+        Error{ErrorCode::kIo, "the job's row is damaged; submit the DEM again", "job-store"};
+  }
   return job;
 }
 
@@ -95,14 +104,24 @@ JobPage SelectPage(const Database& database, const JobQuery& query) {
   return page;
 }
 
-void InsertJob(const Database& database, const NewJob& job, std::int64_t now_ms) {
+std::string InsertJob(const Database& database, const NewJob& job, std::int64_t now_ms) {
+  Statement newest(database, "SELECT max(id) FROM jobs");
+  const std::string last = newest.Step() ? newest.Text(0) : "";
+  const std::string id = IsJobId(last) ? NextJobId(now_ms, last) : NewJobId(now_ms);
   Statement insert(database,
                    "INSERT INTO jobs (id, state, filename, parameters, input_sha256, "
-                   "input_bytes, created_ms, updated_ms, assumptions, message) "
-                   "VALUES (?, 'accepted', ?, ?, ?, ?, ?, ?, ?, 'waiting')");
-  insert.Bind(job.id).Bind(job.filename).Bind(EncodeQuery(job.parameters));
+                   "input_bytes, created_ms, updated_ms, assumptions, client, message) "
+                   "VALUES (?, 'accepted', ?, ?, ?, ?, ?, ?, ?, ?, 'waiting')");
+  insert.Bind(id).Bind(job.filename).Bind(EncodeQuery(job.parameters));
   insert.Bind(job.input_sha256).Bind(job.input_bytes).Bind(now_ms).Bind(now_ms);
-  insert.Bind(AssumptionsColumn(job.assumptions)).Run();
+  insert.Bind(AssumptionsColumn(job.assumptions)).Bind(job.client).Run();
+  return id;
+}
+
+StoreIdentity SelectIdentity(const Database& database) {
+  Statement row(database, "SELECT id, generation FROM store");
+  if (!row.Step()) return {};
+  return {row.Text(0), row.Integer(1)};
 }
 
 std::vector<Artifact> SelectArtifacts(const Database& database, const std::string& id) {

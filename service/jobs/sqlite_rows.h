@@ -16,20 +16,24 @@ namespace farhorizon {
 inline constexpr const char* kJobColumns =
     "id, state, filename, parameters, input_sha256, input_bytes, progress, message, created_ms, "
     "started_ms, finished_ms, updated_ms, attempt, crash_count, failure_code, failure_kind, "
-    "failure_message, timings, assumptions";
+    "failure_message, timings, assumptions, client, run, retries";
 
 /// Assumptions as the column has them: a JSON array of objects with a code and a text.
 std::string AssumptionsColumn(const Assumptions& assumptions);
 
-/// The job of the current row of a statement that selects kJobColumns.
+/// The job of the current row of a statement that selects kJobColumns. Reads every row: one with a
+/// value that cannot be understood, and that the job's run or its end depends on, has a failure.
 Job ReadJob(const Statement& row);
 
 /// The job with this id; nullopt without one.
 std::optional<Job> SelectJob(const Database& database, const std::string& id);
 /// As JobStore::List has it.
 JobPage SelectPage(const Database& database, const JobQuery& query);
-/// Inserts an accepted job.
-void InsertJob(const Database& database, const NewJob& job, std::int64_t now_ms);
+/// Inserts an accepted job; its id is greater than all others.
+std::string InsertJob(const Database& database, const NewJob& job, std::int64_t now_ms);
+
+/// As JobStore::Identity has it.
+StoreIdentity SelectIdentity(const Database& database);
 
 /// The artifacts of a job, by name.
 std::vector<Artifact> SelectArtifacts(const Database& database, const std::string& id);

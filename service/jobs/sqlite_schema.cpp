@@ -53,8 +53,25 @@ CREATE INDEX idempotency_keys_by_job ON idempotency_keys (job_id);
 constexpr const char* kVersion2 = R"(
 ALTER TABLE jobs ADD COLUMN assumptions TEXT NOT NULL DEFAULT '[]';
 )";
-constexpr std::array kVersions = {kVersion1, kVersion2};
-constexpr auto kSchemaVersion = static_cast<std::int64_t>(kVersions.size());
+constexpr const char* kVersion3 = R"(
+ALTER TABLE jobs ADD COLUMN client TEXT NOT NULL DEFAULT '';
+ALTER TABLE jobs ADD COLUMN run INTEGER NOT NULL DEFAULT 0;
+ALTER TABLE jobs ADD COLUMN retries INTEGER NOT NULL DEFAULT 0;
+ALTER TABLE jobs ADD COLUMN crashes INTEGER NOT NULL DEFAULT 0;
+ALTER TABLE jobs ADD COLUMN not_before_ms INTEGER NOT NULL DEFAULT 0;
+UPDATE jobs SET run = attempt;
+CREATE INDEX jobs_by_client ON jobs (state, client, id);
+CREATE INDEX jobs_by_end ON jobs (finished_ms, id) WHERE finished_ms IS NOT NULL;
+CREATE TABLE garbage (sha256 TEXT PRIMARY KEY) STRICT, WITHOUT ROWID;
+CREATE TABLE store (
+  one INTEGER PRIMARY KEY CHECK (one = 1),
+  id TEXT NOT NULL,
+  generation INTEGER NOT NULL DEFAULT 0,
+  pings INTEGER NOT NULL DEFAULT 0
+) STRICT;
+INSERT INTO store (one, id) VALUES (1, lower(hex(randomblob(16))));
+)";
+constexpr std::array kVersions = {kVersion1, kVersion2, kVersion3};
 
 void Migrate(Database& database) {
   Transaction transaction(database);
@@ -70,6 +87,8 @@ void Migrate(Database& database) {
 }
 
 }  // namespace
+
+const std::int64_t kSchemaVersion = static_cast<std::int64_t>(kVersions.size());
 
 void PrepareSchema(Database& database) {
   const std::int64_t application = database.Pragma("application_id");
@@ -90,11 +109,14 @@ void PrepareSchema(Database& database) {
   if (database.Pragma("synchronous") != 2) {
     throw SqliteFailure{{ErrorCode::kIo, "cannot set synchronous=FULL"}};
   }
-  Migrate(database);
+  // Before the migration, which would only spread the damage.
   Statement check(database, "PRAGMA quick_check(1)");
   if (!check.Step() || check.Text(0) != "ok") {
     throw SqliteFailure{{ErrorCode::kIo, "quick_check says: " + check.Text(0)}};
   }
+  while (check.Step()) {
+  }
+  Migrate(database);
 }
 
 }  // namespace farhorizon

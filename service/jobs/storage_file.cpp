@@ -6,8 +6,10 @@
 #include <limits>
 #include <sys/stat.h>
 #include <sys/statvfs.h>
+#include <unistd.h>
 
 #include "core/io/posix_file.h"
+#include "service/jobs/sync_failure.h"
 
 namespace farhorizon {
 
@@ -29,11 +31,38 @@ Result<UniqueFd> OpenForReading(const std::filesystem::path& path) {
   return fd;
 }
 
+Status SyncFile(int fd, const char* doing) {
+  if (::fsync(fd) == 0) return Ok{};
+  Error error = StorageError(doing);
+  if (errno == EIO) EndAfterFailedSync(error.message);
+  return error;
+}
+
+Status SyncFolder(const std::filesystem::path& folder) {
+  const UniqueFd fd(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (!fd) return StorageError("open a folder");
+  return SyncFile(fd.get(), "sync a folder");
+}
+
+bool IsMachineFault(const Error& error) {
+  // A worker's error of a full disk has no kind.
+  const bool full = error.code == ErrorCode::kResourceExhausted && error.kind.empty();
+  return full || error.kind == "no-space" || error.kind == "storage" || error.kind == "job-store" ||
+         error.kind == "worker-not-started" || error.kind == "data-directory";
+}
+
 Result<std::int64_t> FreeBytes(const std::filesystem::path& path) {
   struct statvfs info {};
   if (::statvfs(path.c_str(), &info) != 0) return StorageError("look at the disk");
   const auto most = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
   return static_cast<std::int64_t>(std::min<std::uint64_t>(info.f_bavail * info.f_frsize, most));
+}
+
+Result<std::int64_t> FreeFiles(const std::filesystem::path& path) {
+  struct statvfs info {};
+  if (::statvfs(path.c_str(), &info) != 0) return StorageError("look at the disk");
+  if (info.f_files == 0) return std::numeric_limits<std::int64_t>::max();
+  return static_cast<std::int64_t>(info.f_favail);
 }
 
 }  // namespace farhorizon

@@ -16,7 +16,19 @@ Error StorageError(const char* doing);
 /// Opens a regular file for reading; follows no link. Errors: kNotFound, kIo.
 Result<UniqueFd> OpenForReading(const std::filesystem::path& path);
 
+/// Makes the bytes of an open file durable. Ends the process where the disk fails
+/// (EndAfterFailedSync). Errors: as StorageError, of a file system that is full or cannot sync.
+Status SyncFile(int fd, const char* doing);
+/// The same for the names in a folder.
+Status SyncFolder(const std::filesystem::path& folder);
+
+/// True for an error that the machine is the cause of, and no job: a disk that is full or fails, no
+/// memory, no descriptor, no process. The work may succeed later as it is.
+bool IsMachineFault(const Error& error);
+
 /// Bytes that an ordinary user may still write on the file system of `path`.
 Result<std::int64_t> FreeBytes(const std::filesystem::path& path);
+/// Files that may still be made there; a great number where the file system has no such bound.
+Result<std::int64_t> FreeFiles(const std::filesystem::path& path);
 
 }  // namespace farhorizon

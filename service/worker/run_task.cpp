@@ -4,9 +4,12 @@
 #include <cstdio>
 #include <exception>
 #include <memory>
+#include <mutex>
 #include <new>
 #include <optional>
 #include <string>
+#include <system_error>
+#include <thread>
 #include <vector>
 
 #include "core/io/file.h"
@@ -14,6 +17,7 @@
 #include "core/pipeline/build.h"
 #include "core/pipeline/level_plan.h"
 #include "core/pipeline/terrain_input.h"
+#include "service/clock.h"
 #include "service/stage_timer.h"
 #include "service/worker/worker_protocol.h"
 
@@ -26,8 +30,30 @@ constexpr std::chrono::milliseconds kReportInterval{100};
 // A failure is ignored: if nothing reads the messages, the supervisor is about to kill this
 // process.
 void Send(const WorkerMessage& message) {
+  static std::mutex one_at_a_time;  // a long line is not one write of a pipe
+  const std::lock_guard lock(one_at_a_time);
   [[maybe_unused]] const bool sent = WriteAll(kWorkerMessageFd, WriteMessage(message));
 }
+
+// Sends beats while it lives: a process that is stopped or starved is told from one that works.
+class Heart {
+ public:
+  Heart() = default;
+  ~Heart() {
+    thread_.request_stop();
+    thread_.join();
+  }
+  Heart(const Heart&) = delete;
+  Heart& operator=(const Heart&) = delete;
+
+ private:
+  std::jthread thread_{[](const std::stop_token& stop) {
+    while (!stop.stop_requested()) {
+      Send(WorkerBeat{});
+      Pause(kBeatInterval, stop);
+    }
+  }};
+};
 
 // Sends a new stage and the end of a stage at once, and the share of a stage that is done at most
 // ten times a second.
@@ -79,12 +105,18 @@ Status Run(bool probe_only, StageTimer& timer) {
   return BuildArtifacts(task->input, task->output, *options, control);
 }
 
+// After its end no beat follows: the message that ends the work is the last.
+Status RunBeating(bool probe_only, StageTimer& timer) {
+  const Heart heart;
+  return Run(probe_only, timer);
+}
+
 }  // namespace
 
 int RunTask(bool probe_only) {
   try {
     StageTimer timer;
-    Status status = Run(probe_only, timer);
+    Status status = RunBeating(probe_only, timer);
     if (!status) {
       Send(status.error());
       return 1;
@@ -96,6 +128,16 @@ int RunTask(bool probe_only) {
                "the DEM needs more memory than a job may have; send a smaller one",
                "memory-limit"});
     return 1;
+  } catch (const std::system_error& failure) {
+    // Of a thread that could not be started: the machine has no process left.
+    const bool scarce = failure.code() == std::errc::resource_unavailable_try_again;
+    if (scarce) {
+      Send(Error{ErrorCode::kResourceExhausted, "the machine has no thread left for the job",
+                 "worker-not-started"});
+      return 1;
+    }
+    std::fprintf(stderr, "internal error: %s\n", failure.what());
+    return 70;
   } catch (const std::exception& bug) {
     std::fprintf(stderr, "internal error: %s\n", bug.what());
     return 70;

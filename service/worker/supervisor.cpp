@@ -24,6 +24,9 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kLongestLine = 16384;
 constexpr off_t kStderrTailBytes = 2000;
+// Eight beats. The thread that sends them needs a moment of a processor a second, which a machine
+// that swaps, or a start of the program on a slow disk, may refuse it for some.
+constexpr std::chrono::seconds kLongestSilence{8 * kBeatInterval};
 
 // Splits a worker's bytes into messages, passes progress and assumptions on and keeps the message
 // that ends the work.
@@ -52,7 +55,7 @@ class MessageReader {
     } else if (const auto* assumption = std::get_if<Assumption>(&*message)) {
       if (++assumptions_ > kMostAssumptions) return false;
       control_.Assume(*assumption);
-    } else {
+    } else if (!std::holds_alternative<WorkerBeat>(*message)) {
       final_message_ = std::move(message);
     }
     return true;
@@ -64,7 +67,7 @@ class MessageReader {
   std::optional<WorkerMessage> final_message_;
 };
 
-enum class WaitResult { kEnded, kStopped, kTimedOut, kProtocolError };
+enum class WaitResult { kEnded, kStopped, kTimedOut, kSilent, kProtocolError };
 
 // Reads once; false where the bytes violate the protocol. open: cleared at the end of the stream.
 bool ReadMessages(const ChildProcess& child, MessageReader& reader, bool& open) {
@@ -75,23 +78,29 @@ bool ReadMessages(const ChildProcess& child, MessageReader& reader, bool& open) 
   return reader.Add({bytes.data(), static_cast<std::size_t>(size)});
 }
 
-// Reads messages until the worker ends, `stop_event` is readable or the deadline has passed.
+// Reads messages until the worker ends or is silent for too long, `stop_event` is readable or the
+// deadline has passed.
 WaitResult WaitForChild(const ChildProcess& child, MessageReader& reader, int stop_event,
                         Clock::time_point deadline) {
   bool open = true;
+  Clock::time_point heard = Clock::now();
   for (;;) {
-    const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now());
-    if (left.count() <= 0) return WaitResult::kTimedOut;
+    const Clock::time_point now = Clock::now();
+    if (now >= deadline) return WaitResult::kTimedOut;
+    if (now >= heard + kLongestSilence) return WaitResult::kSilent;
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(
+        std::min(deadline, heard + kLongestSilence) - now);
     std::array<struct pollfd, 3> waits = {{{open ? child.message_fd() : -1, POLLIN, 0},
                                            {child.pidfd(), POLLIN, 0},
                                            {stop_event, POLLIN, 0}}};
-    const auto timeout = std::min<std::int64_t>(left.count(), 60'000);
-    if (::poll(waits.data(), waits.size(), static_cast<int>(timeout)) < 0 && errno != EINTR) {
-      return WaitResult::kProtocolError;
-    }
+    const int ready = ::poll(waits.data(), waits.size(), static_cast<int>(left.count()));
+    if (ready < 0 && errno != EINTR) return WaitResult::kProtocolError;
+    // Later than was asked for: this process stood still itself, with its worker perhaps.
+    if (ready == 0 && Clock::now() > now + left + kBeatInterval) heard = Clock::now();
     if (waits[2].revents != 0) return WaitResult::kStopped;
     if (waits[0].revents != 0) {
       if (!ReadMessages(child, reader, open)) return WaitResult::kProtocolError;
+      heard = Clock::now();
     } else if (waits[1].revents != 0) {
       return WaitResult::kEnded;  // poll reported no unread message
     }
@@ -180,6 +189,11 @@ WorkerOutcome RunWorker(const WorkerCall& call, const RunControl& control) {
       break;
     case WaitResult::kTimedOut:
       outcome = TimedOut("time");
+      break;
+    case WaitResult::kSilent:
+      outcome = Crashed(ErrorCode::kIo, "worker-stuck",
+                        "the worker stood still for " + std::to_string(kLongestSilence.count()) +
+                            " seconds; the fault is ours, the DEM that shows it is worth a report");
       break;
     case WaitResult::kProtocolError:
       outcome = Crashed(ErrorCode::kIo, "worker-crashed",

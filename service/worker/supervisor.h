@@ -22,7 +22,7 @@ enum class WorkerEnd {
 struct WorkerOutcome {
   WorkerEnd end = WorkerEnd::kCrashed;
   /// Set unless `end` is kDone. Of a crash, the kind is "worker-crashed", "worker-not-started",
-  /// "memory-limit", "file-limit" or "timeout".
+  /// "worker-stuck", "memory-limit", "file-limit" or "timeout".
   Error error = {ErrorCode::kIo, "", ""};
   std::map<std::string, double> timings;
   std::string stderr_tail;  ///< the end of the worker's standard error, for the log

@@ -117,6 +117,7 @@ Result<WorkerTask> ReadTaskFile() {
 }
 
 std::string WriteMessage(const WorkerMessage& message) {
+  if (std::holds_alternative<WorkerBeat>(message)) return Line({{"beat", true}});
   if (const auto* progress = std::get_if<WorkerProgress>(&message)) {
     return Line({{"stage", StageName(progress->stage)}, {"done", progress->done}});
   }
@@ -143,6 +144,7 @@ std::optional<WorkerMessage> ReadMessage(std::string_view line) {
   if (const auto what = object.find("assumption"); what != object.end()) {
     return ReadAssumption(*what);
   }
+  if (object.contains("beat")) return WorkerBeat{};
   const auto done = object.find("done");
   if (done == object.end() || !done->is_number()) return std::nullopt;
   const double share = done->get<double>();

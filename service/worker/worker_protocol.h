@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -40,8 +41,13 @@ Result<WorkerTask> ReadTaskFile();
 /// enough to be stored with its job and shown in every status.
 constexpr std::size_t kMostAssumptions = 32;
 
-/// A worker's messages, one JSON object a line: progress any number of times, an assumption up to
-/// kMostAssumptions times, then at most once that the work is done or the error that stopped it.
+/// A worker sends something at least so often; beats, where it has nothing else to say.
+constexpr std::chrono::seconds kBeatInterval{1};
+
+/// A worker's messages, one JSON object a line: beats and progress any number of times, an
+/// assumption up to kMostAssumptions times, then at most once that the work is done or the error
+/// that stopped it.
+struct WorkerBeat {};
 struct WorkerProgress {
   Stage stage = Stage::kRead;
   double done = 0;
@@ -49,7 +55,7 @@ struct WorkerProgress {
 struct WorkerDone {
   std::map<std::string, double> timings;  ///< seconds by stage
 };
-using WorkerMessage = std::variant<WorkerProgress, Assumption, WorkerDone, Error>;
+using WorkerMessage = std::variant<WorkerBeat, WorkerProgress, Assumption, WorkerDone, Error>;
 
 /// One line, with its newline. A text is cut after 2000 bytes.
 std::string WriteMessage(const WorkerMessage& message);

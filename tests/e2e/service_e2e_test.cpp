@@ -1,7 +1,5 @@
 // The real program, on loopback: as its clients, its enemies and its operators meet it.
 #include <algorithm>
-#include <memory>
-#include <set>
 #include <signal.h>
 #include <sys/socket.h>
 #include <thread>
@@ -12,96 +10,12 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/support/json_schema.h"
-#include "tests/support/service_process.h"
-#include "tests/support/temp_dir.h"
+#include "tests/support/service_fixture.h"
 
 namespace farhorizon {
 namespace {
 
 using nlohmann::json;
-
-/// Hills of 20 x 20 posts, without a reference system.
-std::string SmallGrid() {
-  std::string text =
-      "ncols 20\nnrows 20\nxllcorner 7\nyllcorner 46\ncellsize 0.001\nNODATA_value -9999\n";
-  for (int i = 0; i < 400; ++i) {
-    text += std::to_string(500 + (i * 37 + i / 20 * 53) % 101) + (i % 20 == 19 ? "\n" : " ");
-  }
-  return text;
-}
-
-class ServiceE2e : public testing::Test {
- protected:
-  void Start(std::vector<std::string> settings = {}) {
-    std::filesystem::remove(folder_ / "log");
-    settings.push_back("SECRET=1");
-    service_ = std::make_unique<Process>(
-        std::vector<std::string>{FARHORIZON_PROGRAM, "serve", "--listen", "127.0.0.1:0", "--data",
-                                 (folder_ / "data").string()},
-        settings, folder_ / "log");
-    port_ = PortOf(folder_ / "log");
-    ASSERT_NE(port_, 0) << SlurpFile(folder_ / "log");
-  }
-  void StartStandIn(std::vector<std::string> settings = {}) {
-    settings.push_back(std::string("FARHORIZON_WORKER_PROGRAM=") + STAND_IN_WORKER);
-    Start(std::move(settings));
-  }
-  /// The path of a new job.
-  std::string Submit(const std::string& name, const std::string& headers = "") {
-    const RawAnswer answer =
-        Ask(port_, "POST", "/jobs?crs=EPSG:4326&filename=" + name,
-            "Content-Type: application/octet-stream\r\n" + headers, SmallGrid());
-    EXPECT_EQ(answer.status, 201) << answer.head << answer.body;
-    return answer.status == 201 ? "/jobs/" + json::parse(answer.body).value("jobID", "") : "";
-  }
-  json StatusOf(const std::string& path) {
-    const RawAnswer answer = Ask(port_, "GET", path);
-    return answer.status == 200 ? json::parse(answer.body) : json();
-  }
-  std::string WaitFor(const std::string& path, const std::set<std::string>& states,
-                      std::chrono::seconds most = std::chrono::seconds(120)) {
-    const auto deadline = std::chrono::steady_clock::now() + most;
-    const json shape = json::parse(
-        SlurpFile(std::string(FARHORIZON_SOURCE_DIR) + "/proto/schemas/status-info.schema.json"));
-    std::string state;
-    while (std::chrono::steady_clock::now() < deadline) {
-      const json info = StatusOf(path);
-      state = info.is_object() ? info.value("status", "") : "none";
-      if (info.is_object()) {
-        EXPECT_THAT(SchemaOffences(info, shape), testing::IsEmpty()) << info;
-      }
-      if (states.count(state) != 0) break;
-      std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    }
-    return state;
-  }
-  std::string WaitForEnd(const std::string& path) {
-    return WaitFor(path, {"successful", "failed", "dismissed"});
-  }
-  std::string FailureOf(const std::string& path) {
-    return json::parse(Ask(port_, "GET", path + "/results").body).value("code", "");
-  }
-  int Run(std::vector<std::string> words) {
-    words.insert(words.begin(), FARHORIZON_PROGRAM);
-    return Process(words, {}, folder_ / "stderr").Wait(std::chrono::seconds(300));
-  }
-  /// Entries of a folder of the service's data that stay. A job's end is seen before its working
-  /// folder is gone, so there is a moment's grace.
-  [[nodiscard]] std::size_t LeftOver(const char* sub) const {
-    std::size_t count = 0;
-    for (int tries = 0; tries < 100; ++tries) {
-      const std::filesystem::directory_iterator entries(folder_ / "data" / sub);
-      count = static_cast<std::size_t>(std::distance(begin(entries), end(entries)));
-      if (count == 0) break;
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    }
-    return count;
-  }
-
-  TempDir folder_;
-  std::unique_ptr<Process> service_;
-  std::uint16_t port_ = 0;
-};
 
 TEST_F(ServiceE2e, AJobLeavesTheBytesThatBuildLeaves) {
   SpillFile(folder_ / "small.asc", SmallGrid());
@@ -455,11 +369,12 @@ TEST_F(ServiceE2e, BoundsConnections) {
   StartStandIn({"FARHORIZON_HTTP_MAX_CONNECTIONS=4"});
   std::vector<int> idle;
   for (int i = 0; i < 4; ++i) idle.push_back(Connect(port_));
-  EXPECT_EQ(Ask(port_, "GET", "/healthz").status, 503);
+  EXPECT_EQ(Ask(port_, "GET", "/jobs").status, 503);
+  EXPECT_EQ(Ask(port_, "GET", "/healthz").status, 200);  // operators still get an answer
   for (const int fd : idle) ::close(fd);
   int status = 503;
   for (int tries = 0; tries < 200 && status != 200; ++tries) {
-    status = Ask(port_, "GET", "/healthz").status;
+    status = Ask(port_, "GET", "/jobs").status;
   }
   EXPECT_EQ(status, 200);
 }

@@ -7,8 +7,8 @@
 #include <iostream>
 #include <string>
 
-#include "service/handlers/json.h"
 #include "service/handlers/json_parameters.h"
+#include "service/strict_json.h"
 
 namespace {
 
@@ -31,14 +31,14 @@ void Require(bool holds, const char* what) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string text(data, data + size);
-  const auto document = farhorizon::ParseClientJson(text);
+  const auto document = farhorizon::ParseStrictJson(text);
   const auto parameters = farhorizon::ParametersOfJson(text);
   if (!document) {
     Require(!parameters, "no parameters come of broken JSON");
     return 0;
   }
   Require(DepthOf(*document) <= kMaxDepth, "the depth is bounded");
-  const auto again = farhorizon::ParseClientJson(document->dump());
+  const auto again = farhorizon::ParseStrictJson(document->dump());
   Require(again && *again == *document, "a document that is written again is the same");
   Require(!parameters || document->is_object(), "parameters come of objects");
   return 0;

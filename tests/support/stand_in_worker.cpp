@@ -55,6 +55,7 @@ int Misbehave(const WorkerTask& task) {
   if (Named(task, "endless")) {
     for (;;) Send(std::string(4096, 'x'));
   }
+  if (Named(task, "stopped")) std::raise(SIGSTOP);
   if (Named(task, "spin")) {
     for (volatile bool forever = true; forever;) {
     }

@@ -69,11 +69,13 @@ declare -A may=(
   [service/worker/sandbox]="core/base core/io"
   [service/worker/spawner]="core/base core/geo core/io service/worker service/worker/sandbox"
   [service/jobs]="core/base core/io core/pipeline service service/worker service/worker/sandbox service/worker/spawner"
+  # Looks at the data directory of a stopped service.
+  [service/jobs/fsck]="core/base core/io service service/jobs"
   [service/handlers]="core/base core/io core/io/file_kind core/pipeline service service/jobs"
   [service/http]="core/base service service/handlers"
   # The configuration consists of the options of the parts, so it stands above them.
   [service/config]="core/base service service/worker service/jobs service/http"
-  [service/cli]="core/base core/geo core/io core/pipeline core/pipeline/build service service/worker service/worker/sandbox service/worker/spawner service/jobs service/handlers service/http core/pipeline/verify core/pipeline/compare core/horizon core/horizon/search service/config"
+  [service/cli]="core/base core/geo core/io core/pipeline core/pipeline/build service service/worker service/worker/sandbox service/worker/spawner service/jobs service/jobs/fsck service/handlers service/http core/pipeline/verify core/pipeline/compare core/horizon core/horizon/search service/config"
   [service/main.cpp]="core/base service service/cli"
 )
 
@@ -91,6 +93,7 @@ foreign=(
   'nlohmann/ @ ^core/(io|pipeline)/(compare/)?[^/]+\.cpp$ ^core/io/mesh_files/(gltf_json\.h|[^/]+\.cpp)$ ^service/[a-z_0-9]+\.(h|cpp)$ ^service/(handlers|jobs|worker|config|cli)/'
   'openssl/ @ ^core/io/[^/]+\.cpp$'
   'CLI/ @ ^service/cli/(command_line|run)\.cpp$'
+  'prometheus/ @ ^service/metrics\.cpp$'
   # The system's own: files in core/io, processes and sockets in service.
   '((sys|netinet|arpa|linux)/)?[a-z_0-9]+\.h$ @ ^core/io/[^/]+\.cpp$ ^service/'
 )

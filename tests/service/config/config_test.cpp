@@ -78,7 +78,17 @@ TEST(Config, RefusesWhatItDoesNotKnow) {
   EXPECT_TRUE(refuses(R"({"log": {"level": "loud"}})"));
   EXPECT_TRUE(refuses("[]"));
   EXPECT_TRUE(refuses("{"));
-  EXPECT_FALSE(LoadConfig({}, {{"FARHORIZON_WORKER", "1"}}, {}));
+  EXPECT_TRUE(refuses(R"({"workers": 1, "workers": 2})"));
+  EXPECT_TRUE(refuses(R"({"data": "a\u0000b"})"));
+  EXPECT_TRUE(refuses(std::string(100'000, '[')));
+}
+
+TEST(Config, LeavesVariablesThatNameNoKey) {
+  const auto loaded =
+      LoadConfig({}, {{"FARHORIZON_PORT", "tcp://10.0.0.1:8080"}, {"FARHORIZON_WORKERS", "3"}}, {});
+  ASSERT_TRUE(loaded);
+  EXPECT_EQ(loaded->ignored, std::vector<std::string>{"FARHORIZON_PORT"});
+  EXPECT_EQ(loaded->config.workers, 3);
 }
 
 }  // namespace

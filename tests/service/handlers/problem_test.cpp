@@ -109,6 +109,7 @@ TEST(ProblemOf, TellsNothingOfFailuresOfTheMachine) {
   EXPECT_THAT(ProblemOf({ErrorCode::kIo, "/data: disk gone", "storage"}).detail,
               testing::Not(testing::HasSubstr("/data")));
   EXPECT_EQ(ProblemOf({ErrorCode::kIo, "it died", "worker-crashed"}).detail, "it died");
+  EXPECT_EQ(ProblemOf({ErrorCode::kIo, "send it again", "input-corrupt"}).detail, "send it again");
 }
 
 TEST(ProblemType, IsOgcsWhereOgcHasOne) {

@@ -54,7 +54,7 @@ TEST_F(CollectArtifactsTest, TakesWhatASoundWorkerLeaves) {
   Result<std::vector<Artifact>> artifacts = CollectArtifacts(Out(), *store_);
   ASSERT_TRUE(artifacts) << artifacts.error().message;
   EXPECT_EQ(artifacts->size(), 2U);
-  EXPECT_EQ(store_->List()->size(), 2U);
+  EXPECT_EQ(store_->List(ObjectList::kAll)->size(), 2U);
 }
 
 TEST_F(CollectArtifactsTest, RefusesAllElseWithoutWaiting) {

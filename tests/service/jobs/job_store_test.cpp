@@ -26,12 +26,18 @@ class JobStoreConformance : public testing::TestWithParam<OpenJobs> {
     store_ = *std::move(opened);
   }
   Job Insert(const std::string& content = "a", std::optional<std::string> key = {}) {
-    NewJob job{NewJobId(++time_),           "dem.tif", {{"levels", "2"}},
-               std::string(64, content[0]), 5,         std::move(key)};
-    auto inserted = store_->Insert(job, time_);
+    NewJob job{"dem.tif", {{"levels", "2"}}, std::string(64, content[0]), 5, std::move(key)};
+    auto inserted = store_->Insert(job, {}, ++time_);
     EXPECT_TRUE(inserted);
     return *inserted;
   }
+  Job InsertOf(const std::string& client) {
+    auto inserted =
+        store_->Insert({"dem.tif", {}, std::string(64, 'a'), 5, {}, {}, client}, {}, ++time_);
+    EXPECT_TRUE(inserted);
+    return *inserted;
+  }
+  void Succeed(const Job& job) { EXPECT_TRUE(*store_->Publish(job.id, job.run, {}, {}, ++time_)); }
   Job Claim() {
     auto claimed = store_->ClaimNext(++time_);
     EXPECT_TRUE(claimed && *claimed);
@@ -89,7 +95,7 @@ TEST_P(JobStoreConformance, PublishesArtifactsWithTheState) {
   EXPECT_TRUE(store_->Artifacts(job.id)->empty());
   const std::vector<Artifact> artifacts = {{"b", "x/y", 1, std::string(64, 'b')},
                                            {"a", "x/z", 2, std::string(64, 'c')}};
-  ASSERT_TRUE(*store_->Publish(job.id, job.attempt, artifacts, {{"sweep", 1.5}}, ++time_));
+  ASSERT_TRUE(*store_->Publish(job.id, job.run, artifacts, {{"sweep", 1.5}}, ++time_));
   const auto found = store_->Find(job.id);
   EXPECT_EQ(found->state, JobState::kSuccessful);
   EXPECT_EQ(found->progress, 100);
@@ -104,9 +110,8 @@ TEST_P(JobStoreConformance, PublishesArtifactsWithTheState) {
 TEST_P(JobStoreConformance, KeepsTheFailure) {
   Insert();
   const Job job = Claim();
-  ASSERT_TRUE(*store_->Fail(job.id, job.attempt,
-                            {ErrorCode::kUnsupportedData, "no reference system", "no-crs"},
-                            ++time_));
+  ASSERT_TRUE(*store_->Fail(
+      job.id, job.run, {ErrorCode::kUnsupportedData, "no reference system", "no-crs"}, ++time_));
   const auto found = store_->Find(job.id);
   ASSERT_TRUE(found->failure);
   EXPECT_EQ(found->failure->code, ErrorCode::kUnsupportedData);
@@ -122,47 +127,45 @@ std::vector<std::string> CodesOf(const Job& job) {
 
 TEST_P(JobStoreConformance, KeepsTheAssumptionsOfTheLastRunThatHasSome) {
   using Codes = std::vector<std::string>;
-  const NewJob probed{NewJobId(++time_), "dem.tif", {}, std::string(64, 'a'), 5, {},
-                      {{"a", "\"é\""}}};
-  ASSERT_TRUE(store_->Insert(probed, time_));
+  const NewJob probed{"dem.tif", {}, std::string(64, 'a'), 5, {}, {{"a", "\"é\""}}};
+  ASSERT_TRUE(store_->Insert(probed, {}, ++time_));
   const Job first = Claim();
   EXPECT_EQ(CodesOf(first), Codes{"a"});
   EXPECT_EQ(first.assumptions.at(0).text, "\"é\"");
   const Assumptions two = {{"a", "x"}, {"b", "y"}};
-  ASSERT_TRUE(*store_->ReportAssumptions(first.id, first.attempt, two, ++time_));
-  ASSERT_TRUE(*store_->Requeue(first.id, first.attempt, RequeueReason::kWorkerCrashed, ++time_));
+  ASSERT_TRUE(*store_->ReportAssumptions(first.id, first.run, two, ++time_));
+  ASSERT_TRUE(*store_->Requeue(first.id, first.run, RequeueReason::kWorkerCrashed, ++time_));
   EXPECT_EQ(CodesOf(*store_->Find(first.id)), (Codes{"a", "b"}));
   const Job second = Claim();
-  ASSERT_TRUE(*store_->ReportAssumptions(second.id, second.attempt, {{"c", "z"}}, ++time_));
-  ASSERT_TRUE(*store_->Publish(second.id, second.attempt, {}, {}, ++time_));
+  ASSERT_TRUE(*store_->ReportAssumptions(second.id, second.run, {{"c", "z"}}, ++time_));
+  ASSERT_TRUE(*store_->Publish(second.id, second.run, {}, {}, ++time_));
   Reopen();
   EXPECT_EQ(CodesOf(*store_->Find(second.id)), Codes{"c"});
 }
 
-TEST_P(JobStoreConformance, IgnoresAnEarlierAttempt) {
+TEST_P(JobStoreConformance, IgnoresAnEarlierRun) {
   Insert();
   const Job earlier = Claim();
-  ASSERT_TRUE(
-      *store_->Requeue(earlier.id, earlier.attempt, RequeueReason::kWorkerCrashed, ++time_));
+  ASSERT_TRUE(*store_->Requeue(earlier.id, earlier.run, RequeueReason::kWorkerCrashed, ++time_));
   const Job later = Claim();
   EXPECT_EQ(later.id, earlier.id);
+  EXPECT_EQ(later.run, earlier.run + 1);
   EXPECT_EQ(later.attempt, earlier.attempt + 1);
   EXPECT_EQ(later.crash_count, 1);
-  EXPECT_FALSE(*store_->ReportProgress(earlier.id, earlier.attempt, 50, "late", ++time_));
-  EXPECT_FALSE(*store_->ReportAssumptions(earlier.id, earlier.attempt, {{"a", "b"}}, ++time_));
-  EXPECT_FALSE(*store_->Publish(earlier.id, earlier.attempt, {}, {}, ++time_));
-  EXPECT_FALSE(*store_->Fail(earlier.id, earlier.attempt, {ErrorCode::kIo, "x"}, ++time_));
-  EXPECT_FALSE(
-      *store_->Requeue(earlier.id, earlier.attempt, RequeueReason::kServiceStopped, ++time_));
-  EXPECT_TRUE(*store_->Publish(later.id, later.attempt, {}, {}, ++time_));
+  EXPECT_FALSE(*store_->ReportProgress(earlier.id, earlier.run, 50, "late", ++time_));
+  EXPECT_FALSE(*store_->ReportAssumptions(earlier.id, earlier.run, {{"a", "b"}}, ++time_));
+  EXPECT_FALSE(*store_->Publish(earlier.id, earlier.run, {}, {}, ++time_));
+  EXPECT_FALSE(*store_->Fail(earlier.id, earlier.run, {ErrorCode::kIo, "x"}, ++time_));
+  EXPECT_FALSE(*store_->Requeue(earlier.id, earlier.run, RequeueReason::kServiceStopped, ++time_));
+  EXPECT_TRUE(*store_->Publish(later.id, later.run, {}, {}, ++time_));
 }
 
 TEST_P(JobStoreConformance, ADismissedJobNeverBecomesSuccessful) {
   Insert();
   const Job job = Claim();
   EXPECT_EQ(store_->Dismiss(job.id, ++time_)->state, JobState::kDismissed);
-  EXPECT_FALSE(*store_->Publish(job.id, job.attempt, {}, {}, ++time_));
-  EXPECT_FALSE(*store_->Requeue(job.id, job.attempt, RequeueReason::kServiceStopped, ++time_));
+  EXPECT_FALSE(*store_->Publish(job.id, job.run, {}, {}, ++time_));
+  EXPECT_FALSE(*store_->Requeue(job.id, job.run, RequeueReason::kServiceStopped, ++time_));
   EXPECT_EQ(StateOf(job), JobState::kDismissed);
 }
 
@@ -171,8 +174,7 @@ TEST_P(JobStoreConformance, DismissalAndPublicationHaveOneWinner) {
     Insert();
     const Job job = Claim();
     bool published = false;
-    std::thread publisher(
-        [&] { published = *store_->Publish(job.id, job.attempt, {}, {}, time_); });
+    std::thread publisher([&] { published = *store_->Publish(job.id, job.run, {}, {}, time_); });
     ASSERT_TRUE(store_->Dismiss(job.id, time_));
     publisher.join();
     const auto found = store_->Find(job.id);
@@ -188,7 +190,7 @@ TEST_P(JobStoreConformance, RemovesAFinishedJob) {
   Insert();
   const Job job = Claim();
   const std::string object(64, 'b');
-  ASSERT_TRUE(*store_->Publish(job.id, job.attempt, {{"a", "x/y", 1, object}}, {}, ++time_));
+  ASSERT_TRUE(*store_->Publish(job.id, job.run, {{"a", "x/y", 1, object}}, {}, ++time_));
   EXPECT_TRUE(*store_->IsReferenced(object));
   EXPECT_EQ(store_->Dismiss(job.id, ++time_)->state, JobState::kDismissed);
   EXPECT_EQ(store_->Find(job.id).error().code, ErrorCode::kNotFound);
@@ -200,8 +202,8 @@ TEST_P(JobStoreConformance, RemovesAFinishedJob) {
 TEST_P(JobStoreConformance, ProgressNeverFalls) {
   Insert();
   const Job job = Claim();
-  ASSERT_TRUE(*store_->ReportProgress(job.id, job.attempt, 60, "sweep", ++time_));
-  ASSERT_TRUE(*store_->ReportProgress(job.id, job.attempt, 40, "encode", ++time_));
+  ASSERT_TRUE(*store_->ReportProgress(job.id, job.run, 60, "sweep", ++time_));
+  ASSERT_TRUE(*store_->ReportProgress(job.id, job.run, 40, "encode", ++time_));
   EXPECT_EQ(store_->Find(job.id)->progress, 60);
   EXPECT_EQ(store_->Find(job.id)->message, "encode");
 }
@@ -210,22 +212,22 @@ TEST_P(JobStoreConformance, MakesRunningJobsAcceptedAgain) {
   const Job waiting = Insert();
   const Job running = Claim();
   Reopen();
-  EXPECT_EQ(*store_->RecoverRunning(++time_), 1);
+  EXPECT_EQ(*store_->RecoverRunning(PreviousEnd::kKilled, ++time_), 1);
   EXPECT_EQ(StateOf(running), JobState::kAccepted);
   EXPECT_EQ(Claim().id, waiting.id);
 }
 
 TEST_P(JobStoreConformance, OneKeyMakesOneJob) {
   const Job first = Insert("a", "key");
-  NewJob again{NewJobId(++time_), "dem.tif", {{"levels", "2"}}, first.input_sha256, 5, "key"};
-  const auto replayed = store_->Insert(again, time_);
+  NewJob again{"dem.tif", {{"levels", "2"}}, first.input_sha256, 5, "key"};
+  const auto replayed = store_->Insert(again, {}, ++time_);
   ASSERT_TRUE(replayed);
   EXPECT_EQ(replayed->id, first.id);
   again.input_sha256 = std::string(64, 'f');
-  EXPECT_EQ(store_->Insert(again, time_).error().kind, "idempotency-key-reused");
+  EXPECT_EQ(store_->Insert(again, {}, time_).error().kind, "idempotency-key-reused");
   again.input_sha256 = first.input_sha256;
   again.parameters = {{"levels", "3"}};
-  EXPECT_EQ(store_->Insert(again, time_).error().kind, "idempotency-key-reused");
+  EXPECT_EQ(store_->Insert(again, {}, time_).error().kind, "idempotency-key-reused");
   EXPECT_EQ(store_->List({{}, {}, 10})->jobs.size(), 1U);
 }
 
@@ -252,65 +254,234 @@ TEST_P(JobStoreConformance, FiltersByState) {
   EXPECT_EQ(store_->List({{JobState::kRunning}, {}, 10})->jobs.size(), 1U);
   EXPECT_EQ(store_->List({{JobState::kRunning, JobState::kAccepted}, {}, 10})->jobs.size(), 2U);
   EXPECT_EQ(store_->List({{JobState::kFailed}, {}, 10})->jobs.size(), 0U);
-  EXPECT_EQ(*store_->CountWaiting(), 1);
+  EXPECT_EQ(store_->CountUnfinished()->accepted, 1);
+}
+
+TEST_P(JobStoreConformance, KeepsTheBoundOfTheQueueWhoeverComesAtOnce) {
+  std::atomic<int> taken{0};
+  std::atomic<int> full{0};
+  std::vector<std::thread> threads;
+  for (int i = 0; i < 8; ++i) {
+    threads.emplace_back([&] {
+      for (int n = 0; n < 5; ++n) {
+        const auto inserted = store_->Insert({"a", {}, std::string(64, 'a'), 5, {}}, {3, 3}, time_);
+        ++(inserted ? taken : full);
+        if (!inserted) {
+          EXPECT_EQ(inserted.error().kind, "queue-full");
+        }
+      }
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(taken, 3);
+  EXPECT_EQ(full, 37);
+  EXPECT_EQ(store_->CheckQueue("", {3, 3}).error().kind, "queue-full");
+}
+
+TEST_P(JobStoreConformance, TellsTheOneThatSendsTooMuchFromAQueueThatIsFull) {
+  const QueueBounds bounds{3, 2};
+  const auto insert = [&](const std::string& client) {
+    const auto inserted =
+        store_->Insert({"a", {}, std::string(64, 'a'), 5, {}, {}, client}, bounds, time_);
+    return inserted ? std::string("taken") : std::string(inserted.error().kind);
+  };
+  EXPECT_EQ(insert("greedy"), "taken");
+  EXPECT_EQ(insert("greedy"), "taken");
+  EXPECT_EQ(insert("greedy"), "too-many-jobs");
+  EXPECT_EQ(store_->CheckQueue("greedy", bounds).error().kind, "too-many-jobs");
+  EXPECT_TRUE(store_->CheckQueue("other", bounds));
+  EXPECT_EQ(insert("other"), "taken");
+  EXPECT_EQ(insert("other"), "queue-full");
+  EXPECT_EQ(insert("greedy"), "too-many-jobs");
+}
+
+TEST_P(JobStoreConformance, AKeysJobIsFoundInAFullQueue) {
+  const NewJob job{"a", {}, std::string(64, 'a'), 5, "key"};
+  const auto first = store_->Insert(job, {1, 1}, time_);
+  ASSERT_TRUE(first);
+  EXPECT_EQ(store_->Insert(job, {1, 1}, time_)->id, first->id);
+}
+
+TEST_P(JobStoreConformance, ServesClientsInTurn) {
+  std::vector<std::string> greedy;
+  for (int i = 0; i < 4; ++i) greedy.push_back(InsertOf("greedy").id);
+  const std::string first = InsertOf("first").id;
+  const std::string second = InsertOf("second").id;
+  EXPECT_EQ(Claim().id, greedy[0]) << "the oldest, while no client has had a turn";
+  EXPECT_EQ(Claim().id, first) << "a client that runs less";
+  const Job third = Claim();
+  EXPECT_EQ(third.id, second);
+  Succeed(third);
+  InsertOf("second");
+  EXPECT_EQ(Claim().client, "second") << "none of it runs, one of each other does";
+  EXPECT_EQ(Claim().id, greedy[1]);
+  EXPECT_EQ(Claim().id, greedy[2]);
+}
+
+TEST_P(JobStoreConformance, OneAtATimeClientsTakeTurnsToo) {
+  for (int i = 0; i < 3; ++i) InsertOf("a");
+  for (int i = 0; i < 3; ++i) InsertOf("b");
+  std::string turns;
+  for (int i = 0; i < 6; ++i) {
+    const Job job = Claim();
+    turns += job.client;
+    Succeed(job);
+  }
+  EXPECT_EQ(turns, "ababab");
+}
+
+TEST_P(JobStoreConformance, NoTimeGoesBackWithTheClock) {
+  const Job before = Insert();
+  const std::int64_t late = time_;
+  time_ -= 7'200'000;
+  Reopen();
+  const Job after = Insert();
+  EXPECT_GE(after.created_ms, late);
+  EXPECT_GT(after.id, before.id);
+  EXPECT_EQ(store_->List({{}, {}, 1})->jobs.at(0).id, after.id) << "newest first";
+  const Job job = Claim();
+  EXPECT_EQ(job.id, before.id);
+  EXPECT_GE(*job.started_ms, late);
+  ASSERT_TRUE(*store_->ReportProgress(job.id, job.run, 10, "sweep", time_));
+  EXPECT_GE(store_->Find(job.id)->updated_ms, late);
+  Succeed(job);
+  EXPECT_GE(*store_->Find(job.id)->finished_ms, *job.started_ms);
+}
+
+TEST_P(JobStoreConformance, AStopOfTheServiceSpendsNoAttempt) {
+  Insert();
+  const Job job = Claim();
+  ASSERT_TRUE(*store_->Requeue(job.id, job.run, RequeueReason::kServiceStopped, ++time_));
+  EXPECT_EQ(store_->Find(job.id)->attempt, 0);
+  const Job again = Claim();
+  EXPECT_EQ(again.attempt, 1);
+  EXPECT_GT(again.run, job.run);
+  Reopen();
+  ASSERT_EQ(*store_->RecoverRunning(PreviousEnd::kOrderly, ++time_), 1);
+  EXPECT_EQ(store_->Find(job.id)->attempt, 0);
+}
+
+TEST_P(JobStoreConformance, AFaultOfTheMachinePutsAJobOffAndSpendsNothing) {
+  Insert();
+  const Job job = Claim();
+  ASSERT_TRUE(*store_->Postpone(job.id, job.run, 5000, ++time_));
+  EXPECT_EQ(StateOf(job), JobState::kAccepted);
+  const auto none = store_->ClaimNext(time_ + 4999);
+  ASSERT_TRUE(none);
+  EXPECT_FALSE(*none) << "not yet";
+  time_ += 5000;
+  const Job again = Claim();
+  EXPECT_EQ(again.attempt, 1);
+  EXPECT_EQ(again.crash_count, 0);
+  EXPECT_EQ(again.retries, 1);
+  ASSERT_TRUE(*store_->Postpone(again.id, again.run, 5000, ++time_));
+  EXPECT_FALSE(*store_->Postpone(again.id, again.run, 5000, ++time_)) << "no longer its run";
+}
+
+TEST_P(JobStoreConformance, TheThirdCrashOfTheServiceWhileAJobRanFailsIt) {
+  const Job poison = Insert();
+  for (int crash = 1; crash <= 3; ++crash) {
+    ASSERT_EQ(Claim().id, poison.id);
+    Reopen();
+    EXPECT_EQ(*store_->RecoverRunning(PreviousEnd::kCrashed, ++time_), crash < 3 ? 1 : 0);
+  }
+  const auto ended = store_->Find(poison.id);
+  EXPECT_EQ(ended->state, JobState::kFailed);
+  EXPECT_EQ(ended->failure->kind, "poison-job");
+}
+
+TEST_P(JobStoreConformance, AKillFromWithoutIsNoFaultOfAJobs) {
+  const Job job = Insert();
+  for (int kill = 0; kill < 20; ++kill) {
+    ASSERT_EQ(Claim().id, job.id);
+    Reopen();
+    ASSERT_EQ(*store_->RecoverRunning(PreviousEnd::kKilled, ++time_), 1);
+  }
+  EXPECT_EQ(StateOf(job), JobState::kAccepted);
+}
+
+TEST_P(JobStoreConformance, WhatRanInACrashRunsAloneUntilItIsKnownWhichDidIt) {
+  const Job innocent = Insert();
+  const Job poison = Insert();
+  const Job later = Insert();
+  for (int i = 0; i < 2; ++i) Claim();
+  Reopen();
+  ASSERT_EQ(*store_->RecoverRunning(PreviousEnd::kCrashed, ++time_), 2);
+  const Job alone = Claim();
+  EXPECT_EQ(alone.id, innocent.id);
+  const auto beside = store_->ClaimNext(++time_);
+  ASSERT_TRUE(beside);
+  EXPECT_FALSE(*beside);
+  Succeed(alone);
+  for (int crash = 0; crash < 2; ++crash) {
+    ASSERT_EQ(Claim().id, poison.id);
+    Reopen();
+    ASSERT_TRUE(store_->RecoverRunning(PreviousEnd::kCrashed, ++time_));
+  }
+  EXPECT_EQ(StateOf(poison), JobState::kFailed);
+  EXPECT_EQ(StateOf(innocent), JobState::kSuccessful);
+  EXPECT_EQ(Claim().id, later.id);
+}
+
+class Expiry : public JobStoreConformance {
+ protected:
+  std::string Done(std::int64_t bytes) {
+    Insert();
+    const Job job = Claim();
+    EXPECT_TRUE(*store_->Publish(job.id, job.run, {{"a", "x/y", bytes, std::string(64, 'b')}}, {},
+                                 ++time_));
+    return job.id;
+  }
+  std::vector<std::string> Left() {
+    std::vector<std::string> ids;
+    const auto page = store_->List({{}, {}, 100});
+    for (const Job& job : page->jobs) ids.insert(ids.begin(), job.id);
+    return ids;
+  }
+  std::int64_t Remove(const Retention& retention) {
+    const auto removed = store_->RemoveExpired(retention, time_);
+    EXPECT_TRUE(removed);
+    return *removed;
+  }
+};
+
+TEST_P(Expiry, IsByAge) {
+  const std::string old = Done(1);
+  time_ += 10'000;
+  const std::string young = Done(1);
+  const Job waiting = Insert();
+  time_ += 9'000;
+  EXPECT_EQ(Remove({0, 0, 0}), 0);
+  EXPECT_EQ(Remove({20, 0, 0}), 0);
+  EXPECT_EQ(Remove({10, 0, 0}), 1);
+  EXPECT_EQ(Left(), (std::vector<std::string>{young, waiting.id}));
+  EXPECT_EQ(store_->Garbage()->size(), 2U);
+}
+
+TEST_P(Expiry, IsByNumberOldestFirst) {
+  std::vector<std::string> jobs;
+  for (int i = 0; i < 5; ++i) jobs.push_back(Done(1));
+  EXPECT_EQ(Remove({0, 2, 0}), 3);
+  EXPECT_EQ(Left(), (std::vector<std::string>{jobs[3], jobs[4]}));
+  EXPECT_EQ(Remove({0, 2, 0}), 0);
+}
+
+TEST_P(Expiry, IsByBytesOldestFirst) {
+  std::vector<std::string> jobs;
+  for (int i = 0; i < 4; ++i) jobs.push_back(Done(95));  // and an upload of 5
+  EXPECT_EQ(Remove({0, 0, 400}), 0);
+  EXPECT_EQ(Remove({0, 0, 250}), 2);
+  EXPECT_EQ(Left(), (std::vector<std::string>{jobs[2], jobs[3]}));
+  EXPECT_EQ(Remove({0, 0, 250}), 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Sqlite, JobStoreConformance,
                          testing::Values([](const std::filesystem::path& folder) {
                            return OpenSqliteJobStore(folder / "jobs.sqlite");
                          }));
-
-// The tables as version 1 of the schema had them, without what no row of this test needs.
-constexpr const char* kVersion1 = R"(
-CREATE TABLE jobs (
-  id TEXT PRIMARY KEY,
-  state TEXT NOT NULL CHECK (state IN ('accepted','running','successful','failed','dismissed')),
-  filename TEXT NOT NULL, parameters TEXT NOT NULL, input_sha256 TEXT NOT NULL,
-  input_bytes INTEGER NOT NULL,
-  progress INTEGER NOT NULL DEFAULT 0 CHECK (progress BETWEEN 0 AND 100),
-  message TEXT NOT NULL DEFAULT '', created_ms INTEGER NOT NULL, started_ms INTEGER,
-  finished_ms INTEGER, updated_ms INTEGER NOT NULL, attempt INTEGER NOT NULL DEFAULT 0,
-  crash_count INTEGER NOT NULL DEFAULT 0, failure_code TEXT, failure_kind TEXT,
-  failure_message TEXT, timings TEXT NOT NULL DEFAULT '{}',
-  CHECK ((finished_ms IS NOT NULL) = (state IN ('successful','failed','dismissed'))),
-  CHECK ((failure_code IS NOT NULL) = (state = 'failed'))
-) STRICT, WITHOUT ROWID;
-CREATE TABLE artifacts (
-  job_id TEXT NOT NULL REFERENCES jobs (id) ON DELETE CASCADE,
-  name TEXT NOT NULL, media_type TEXT NOT NULL, bytes INTEGER NOT NULL, sha256 TEXT NOT NULL,
-  PRIMARY KEY (job_id, name)
-) STRICT, WITHOUT ROWID;
-CREATE TABLE idempotency_keys (
-  key TEXT PRIMARY KEY, job_id TEXT NOT NULL REFERENCES jobs (id) ON DELETE CASCADE,
-  created_ms INTEGER NOT NULL
-) STRICT, WITHOUT ROWID;
-INSERT INTO jobs (id, state, filename, parameters, input_sha256, input_bytes, created_ms,
-  updated_ms) VALUES ('old', 'accepted', 'a.tif', 'levels=2', 'x', 5, 1, 1);
-PRAGMA application_id = 1179142739;
-PRAGMA user_version = 1;
-)";
-
-TEST(SqliteJobStore, BringsAnOlderFileForward) {
-  const TempDir folder;
-  const auto path = folder / "jobs.sqlite";
-  {
-    Database database;
-    database.Open(path);
-    database.Execute(kVersion1);
-  }
-  for (int opened = 0; opened < 2; ++opened) {  // the second time there is nothing left to do
-    auto store = OpenSqliteJobStore(path);
-    ASSERT_TRUE(store) << store.error().message;
-    const auto job = (*store)->Find("old");
-    ASSERT_TRUE(job);
-    EXPECT_EQ(job->parameters, (Parameters{{"levels", "2"}}));
-    EXPECT_TRUE(job->assumptions.empty());
-  }
-  auto store = OpenSqliteJobStore(path);
-  ASSERT_TRUE((*store)->ClaimNext(2));
-  EXPECT_TRUE(*(*store)->ReportAssumptions("old", 1, {{"a", "b"}}, 3));
-  EXPECT_EQ(CodesOf(*(*store)->Find("old")), std::vector<std::string>{"a"});
-}
+INSTANTIATE_TEST_SUITE_P(Sqlite, Expiry, testing::Values([](const std::filesystem::path& folder) {
+                           return OpenSqliteJobStore(folder / "jobs.sqlite");
+                         }));
 
 TEST(SqliteJobStore, RefusesAFileOfANewerVersion) {
   const TempDir folder;
@@ -336,13 +507,38 @@ TEST(SqliteJobStore, NeverStartsAfreshOverAFileThatItCannotRead) {
   EXPECT_EQ(SlurpFile(path), std::string(8192, 'x'));
 }
 
+TEST(SqliteJobStore, ADamagedRowHidesNoOtherAndDoesNotRun) {
+  const TempDir folder;
+  const auto path = folder / "jobs.sqlite";
+  auto store = OpenSqliteJobStore(path);
+  ASSERT_TRUE(store);
+  for (const char* name : {"a", "b"}) {
+    ASSERT_TRUE((*store)->Insert({name, {}, std::string(64, 'a'), 1, {}}, {}, 1));
+  }
+  store = OpenSqliteJobStore(folder / "other.sqlite");  // closes the file
+  {
+    Database database;
+    database.Open(path);
+    database.Execute(
+        "UPDATE jobs SET parameters = '%', timings = '[', assumptions = '{\"a\":[[' || char(0) "
+        "WHERE filename = 'a'");
+  }
+  store = OpenSqliteJobStore(path);
+  ASSERT_TRUE(store);
+  EXPECT_EQ((*store)->List({{}, {}, 10})->jobs.size(), 2U);
+  const auto claimed = (*store)->ClaimNext(2);
+  ASSERT_TRUE(claimed && *claimed);
+  ASSERT_TRUE((*claimed)->failure) << "its parameters are lost: it must not run with others";
+  EXPECT_EQ((*claimed)->failure->kind, "job-store");
+}
+
 TEST(SqliteJobStore, SeesAByteTurnedInItsPages) {
   const TempDir folder;
   const auto path = folder / "jobs.sqlite";
   {
     auto store = OpenSqliteJobStore(path);
     ASSERT_TRUE(store);
-    ASSERT_TRUE((*store)->Insert({NewJobId(1), "a", {}, std::string(64, 'a'), 1, {}}, 1));
+    ASSERT_TRUE((*store)->Insert({"a", {}, std::string(64, 'a'), 1, {}}, {}, 1));
   }
   std::string bytes = SlurpFile(path);
   for (std::size_t i = 4096; i < 4096 + 64 && i < bytes.size(); ++i) bytes[i] = '\x5A';

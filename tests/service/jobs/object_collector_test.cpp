@@ -1,5 +1,6 @@
 #include "service/jobs/object_collector.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "service/jobs/local_object_store.h"
@@ -30,19 +31,51 @@ class ObjectCollectorTest : public testing::Test {
   std::unique_ptr<ObjectStore> objects_;
 };
 
-TEST_F(ObjectCollectorTest, KeepsReferencedObjectsOnly) {
+TEST_F(ObjectCollectorTest, KeepsWhatIsReferencedAndRemovesWhatWasNeverAcknowledged) {
   const std::string referenced = Put("referenced");
-  Put("unreferenced");
-  ASSERT_TRUE(jobs_->Insert({NewJobId(1), "a", {}, referenced, 5, {}}, 1));
-  ASSERT_TRUE(ObjectCollector(*jobs_, *objects_).RemoveAllUnreferenced());
-  EXPECT_EQ(*objects_->List(), std::vector<std::string>{referenced});
+  Put("never acknowledged");
+  ASSERT_TRUE(jobs_->Insert({"a", {}, referenced, 5, {}}, {}, 1));
+  const auto sorted = ObjectCollector(*jobs_, *objects_).SortOut();
+  ASSERT_TRUE(sorted);
+  EXPECT_EQ(sorted->strays, 0);
+  EXPECT_EQ(*objects_->List(ObjectList::kAll), std::vector<std::string>{referenced});
+  EXPECT_THAT(*objects_->List(ObjectList::kIncoming), testing::IsEmpty());
+}
+
+TEST_F(ObjectCollectorTest, SetsAsideWhatNoRowKnowsAndTakesItBackWhenOneDoes) {
+  const std::string stray = Put("stray");
+  objects_->Keep({stray});
+  ObjectCollector collector(*jobs_, *objects_);
+  EXPECT_EQ(collector.SortOut()->strays, 1);
+  EXPECT_EQ(*objects_->List(ObjectList::kStray), std::vector<std::string>{stray});
+  EXPECT_FALSE(objects_->Open(stray));
+  EXPECT_EQ(SlurpFile(folder_ / "objects" / "stray" / stray), "stray");
+  ASSERT_TRUE(jobs_->Insert({"a", {}, stray, 5, {}}, {}, 1));
+  EXPECT_EQ(collector.SortOut()->taken_back, 1);
+  EXPECT_TRUE(objects_->Open(stray));
+}
+
+TEST_F(ObjectCollectorTest, RemovesWhatRemovedJobsHaveLeft) {
+  const std::string input = Put("input");
+  const std::string shared = Put("shared");
+  objects_->Keep({input, shared});
+  ASSERT_TRUE(jobs_->Insert({"a", {}, input, 5, {}}, {}, 1));
+  const auto job = jobs_->ClaimNext(2);
+  ASSERT_TRUE(*jobs_->Publish((*job)->id, 1, {{"x", "a/b", 6, shared}}, {}, 3));
+  ASSERT_TRUE(jobs_->Insert({"a", {}, shared, 6, {}}, {}, 4));
+  // As of a process that ended between the row and the files.
+  ASSERT_TRUE(jobs_->Dismiss((*job)->id, 5));
+  EXPECT_THAT(*jobs_->Garbage(), testing::UnorderedElementsAre(input, shared));
+  EXPECT_EQ(ObjectCollector(*jobs_, *objects_).SortOut()->strays, 0);
+  EXPECT_EQ(*objects_->List(ObjectList::kAll), std::vector<std::string>{shared});
+  EXPECT_THAT(*jobs_->Garbage(), testing::IsEmpty());
 }
 
 TEST_F(ObjectCollectorTest, RemovesOnlyTheObjectsThatAreNamed) {
   const std::string named = Put("named");
   const std::string other = Put("other");
   ASSERT_TRUE(ObjectCollector(*jobs_, *objects_).RemoveUnreferenced({named}));
-  EXPECT_EQ(*objects_->List(), std::vector<std::string>{other});
+  EXPECT_EQ(*objects_->List(ObjectList::kAll), std::vector<std::string>{other});
 }
 
 }  // namespace

@@ -40,7 +40,28 @@ TEST_F(ObjectStoreTest, GivesBackWhatItWasGiven) {
 
 TEST_F(ObjectStoreTest, StoresTheSameBytesOnce) {
   EXPECT_EQ(Put("a"), Put("a"));
-  EXPECT_EQ(store_->List()->size(), 1U);
+  EXPECT_EQ(store_->List(ObjectList::kAll)->size(), 1U);
+}
+
+TEST_F(ObjectStoreTest, AnObjectIsIncomingUntilARowNamesIt) {
+  const std::string name = Put("a");
+  EXPECT_EQ(*store_->List(ObjectList::kIncoming), std::vector<std::string>{name});
+  store_->Keep({name});
+  EXPECT_TRUE(store_->List(ObjectList::kIncoming)->empty());
+  EXPECT_EQ(*store_->List(ObjectList::kAll), std::vector<std::string>{name});
+  Put("a");
+  ASSERT_TRUE(store_->Remove(name));
+  EXPECT_TRUE(store_->List(ObjectList::kIncoming)->empty());
+  EXPECT_TRUE(std::filesystem::is_empty(folder_ / "objects" / "temp"));
+}
+
+TEST_F(ObjectStoreTest, HealsADamagedObjectWhenItsBytesComeAgain) {
+  const std::string name = Put("hello");
+  const auto path = folder_ / "objects" / name.substr(0, 2) / name;
+  std::filesystem::permissions(path, std::filesystem::perms::owner_all);
+  SpillFile(path, "hellp");
+  ASSERT_EQ(Put("hello"), name);
+  EXPECT_EQ(SlurpFile(path), "hello");
 }
 
 TEST_F(ObjectStoreTest, ForgetsWhatIsRemoved) {

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+#include "service/jobs/job_store.h"
+#include "service/jobs/sqlite.h"
+
+namespace farhorizon {
+
+/// As JobStore::Dismiss has it.
+Result<Job> DismissJob(Database& database, const std::string& id, std::int64_t now_ms);
+/// As JobStore::RemoveExpired has it.
+std::int64_t RemoveExpiredJobs(Database& database, const Retention& retention, std::int64_t now_ms);
+/// As the calls of these names of JobStore have it.
+bool IsReferenced(const Database& database, const std::string& sha256);
+std::vector<std::string> SelectGarbage(const Database& database);
+void ForgetGarbage(Database& database, const std::vector<std::string>& names);
+
+}  // namespace farhorizon

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "service/jobs/job_store.h"
+#include "service/jobs/sqlite.h"
+
+namespace farhorizon {
+
+/// A run of a job, at a time.
+struct RunAt {
+  const std::string& id;
+  std::int64_t run = 0;
+  std::int64_t now_ms = 0;
+};
+
+/// The calls of JobStore on a running job. Each returns false, and changes nothing, where the run
+/// is not the job's current one.
+bool StoreProgress(const Database& database, const RunAt& at, int progress,
+                   const std::string& message);
+bool StoreAssumptions(const Database& database, const RunAt& at, const Assumptions& assumptions);
+bool PublishRun(Database& database, const RunAt& at, const std::vector<Artifact>& artifacts,
+                const std::map<std::string, double>& timings);
+bool FailRun(const Database& database, const RunAt& at, const Error& failure);
+bool RequeueRun(const Database& database, const RunAt& at, RequeueReason reason);
+bool PostponeRun(const Database& database, const RunAt& at, std::int64_t delay_ms);
+
+}  // namespace farhorizon

@@ -1,0 +1,99 @@
+#include "service/jobs/store_identity.h"
+
+#include <optional>
+#include <sstream>
+#include <string>
+#include <system_error>
+
+#include "core/io/file.h"
+
+namespace farhorizon {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uintmax_t kLargestIdentity = 4096;
+
+fs::path IdentityFile(const DataDirectory& directory) { return directory.Objects() / "identity"; }
+
+Error Unusable(const std::string& why, const std::string& remedy) {
+  return {ErrorCode::kIo, "job store: " + why + "; " + remedy + ". Nothing was changed",
+          "job-store-unusable"};
+}
+
+// A file that cannot be read as one tells nothing: the database then decides.
+std::optional<StoreIdentity> ReadIdentity(const DataDirectory& directory) {
+  Result<std::string> text = ReadFile(IdentityFile(directory), kLargestIdentity);
+  if (!text) return std::nullopt;
+  std::istringstream words(*text);
+  StoreIdentity identity;
+  if (words >> identity.id >> identity.generation) return identity;
+  return std::nullopt;
+}
+
+std::uintmax_t SizeOf(const fs::path& file) {
+  std::error_code failure;
+  const std::uintmax_t size = fs::file_size(file, failure);
+  return failure ? 0 : size;
+}
+
+bool AnyObject(const fs::path& objects) {
+  std::error_code failure;
+  for (fs::recursive_directory_iterator it(objects, failure), end; !failure && it != end;
+       it.increment(failure)) {
+    if (IsSha256(it->path().filename().string())) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+Status CheckDatabaseIsThere(const DataDirectory& directory) {
+  if (SizeOf(directory.Jobs()) > 0) return Ok{};
+  const bool log = SizeOf(directory.Jobs().string() + "-wal") > 0;
+  if (!log && !fs::exists(IdentityFile(directory)) && !AnyObject(directory.Objects())) return Ok{};
+  return Unusable("the database " + directory.Jobs().string() + " is missing or empty, but " +
+                      (log ? "its log is" : "uploads and results of a store are") +
+                      " beside it: without it, nobody knows whose they are",
+                  "put the database back from a backup, or move the data directory away to start "
+                  "afresh");
+}
+
+Status CheckSameStore(const DataDirectory& directory, JobStore& jobs, ObjectStore& objects) {
+  const std::optional<StoreIdentity> beside = ReadIdentity(directory);
+  Result<StoreIdentity> own = jobs.Identity();
+  if (!own) return std::move(own.error());
+  const std::string remedy = "put the right one back, or accept this one by `farhorizon fsck " +
+                             directory.root.string() +
+                             " --repair`, which sets aside what it does not know";
+  if (beside && beside->id != own->id) {
+    return Unusable("the uploads and results beside the database belong to another database",
+                    remedy);
+  }
+  if (beside && beside->generation > own->generation) {
+    return Unusable("the database is older than the uploads and results beside it (start " +
+                        std::to_string(own->generation) + ", theirs " +
+                        std::to_string(beside->generation) + ")",
+                    remedy);
+  }
+  if (beside || own->generation == 0 || AnyObject(directory.Objects())) return Ok{};
+  // Nothing at all is beside the database. That may be, unless its jobs have artifacts.
+  Result<JobPage> newest = jobs.List({{JobState::kSuccessful, JobState::kAccepted}, {}, 1});
+  if (!newest) return std::move(newest.error());
+  if (newest->jobs.empty() || objects.Open(newest->jobs[0].input_sha256)) return Ok{};
+  return Unusable(
+      "the uploads and results of its jobs are gone from " + directory.Objects().string(),
+      "mount or restore that folder; or let `farhorizon fsck " + directory.root.string() +
+          " --repair` fail the jobs that have lost theirs");
+}
+
+Status WriteIdentity(const DataDirectory& directory, const StoreIdentity& identity) {
+  const fs::path file = IdentityFile(directory);
+  Status written = WriteFile(file, identity.id + " " + std::to_string(identity.generation) + "\n");
+  std::error_code ignored;  // the folder is for its owner alone, too
+  fs::permissions(file, fs::perms::owner_read | fs::perms::owner_write, ignored);
+  return written;
+}
+
+}  // namespace farhorizon
