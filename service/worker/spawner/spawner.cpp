@@ -123,17 +123,18 @@ Result<std::unique_ptr<Spawner>> Spawner::Start(std::string program) {
   return spawner;
 }
 
-Spawner::~Spawner() {
-  socket_.Reset();  // upon which the process ends
-  if (pid_ > 0) ::waitpid(pid_, nullptr, 0);
+Spawner::~Spawner() { EndProcess(); }
+
+// Not by its socket alone: somebody may have stopped it.
+void Spawner::EndProcess() {
+  socket_.Reset();
+  if (pid_ <= 0) return;
+  ::kill(pid_, SIGKILL);
+  ::waitpid(std::exchange(pid_, -1), nullptr, 0);
 }
 
 Status Spawner::StartProcess() {
-  socket_.Reset();
-  if (pid_ > 0) {
-    ::kill(pid_, SIGKILL);
-    ::waitpid(std::exchange(pid_, -1), nullptr, 0);
-  }
+  EndProcess();
   const ScratchFolder folder;
   if (folder.path().empty()) {
     return NotStarted("neither TMPDIR nor /dev/shm can be written to; make one writable");

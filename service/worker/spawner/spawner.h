@@ -33,6 +33,7 @@ class Spawner {
  private:
   explicit Spawner(std::string program) : program_(std::move(program)) {}
   Status StartProcess();
+  void EndProcess();
   Result<ChildProcess> Ask(const LaunchOrder& order);
 
   std::string program_;

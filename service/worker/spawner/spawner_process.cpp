@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <cstdio>
 #include <cstring>
 #include <deque>
@@ -16,6 +17,7 @@
 #include <sys/prctl.h>
 #include <sys/signalfd.h>
 #include <sys/wait.h>
+#include <thread>
 #include <unistd.h>
 #include <utility>
 
@@ -50,10 +52,15 @@ bool WarmUp() {
   return WriteFile(task.input, kWarmGrid) && WriteTaskFile(".", task) && RunTask(true) == 0;
 }
 
-// A thread would not be copied, and what it held would be locked for good in each copy.
+// A thread would not be copied, and what it held would be locked for good in each copy. One that
+// was joined may still be seen for a moment.
 bool HasOneThread() {
-  const fs::directory_iterator threads("/proc/self/task");
-  return std::distance(begin(threads), end(threads)) == 1;
+  for (int tries = 0; tries < 200; ++tries) {
+    const fs::directory_iterator threads("/proc/self/task");
+    if (std::distance(begin(threads), end(threads)) == 1) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  return false;
 }
 
 // One for a job and one for a look at an upload, which come in turns.
