@@ -132,6 +132,9 @@ class RaisedSearch {
       const BoxVerdict verdict = lines_.Conclude();
       if (verdict.proven) return true;
       if (verdict.exhausted || lines_.looks() > most_looks_) return false;
+      // Over a line that meets the surface a piece has no more than this: the line passes between
+      // parts of a surface that holes have torn, and no height proves it.
+      if (verdict.excess_m > Highest(piece) - surface_.lowest_m) return false;
       Tolerated(piece.outline) = verdict.excess_m;
     }
   }

@@ -64,7 +64,11 @@ Result<QuantizationLattice> RoundToLattice(const Dem& dem, const TangentFrame& f
     const bool reaches = lattice.step_m == steps.inside_m;
     if (!reaches && finer) {
       return Error{ErrorCode::kUnsupportedData,
-                   "a triangle is flipped or flat, however finely its vertices are rounded",
+                   "a triangle is flipped or flat, however finely its vertices are rounded: the "
+                   "DEM's rows or columns bend too much on the ground, as around a pole; warp it "
+                   "to a system in which they are straight, a polar one there, with gdalwarp "
+                   "-r bilinear -ot Float32 -dstnodata -9999 -t_srs CRS IN OUT.tif, or cut it into "
+                   "parts with gdal_translate -srcwin",
                    "flipped-triangle"};
     }
     if (!reaches) {

@@ -85,11 +85,23 @@ double Rank(const FrameFit& fit) {
   return std::round((laid ? kClearly * fit.Misfit() + kClearMargin : fit.Misfit()) / kRounding);
 }
 
+// Whether coordinates of this frame say a place, on the map or on the globe.
+bool SaysPlace(MeshFrame frame) {
+  return frame == MeshFrame::kCrs || frame == MeshFrame::kLonLat || frame == MeshFrame::kEcef;
+}
+
 // The fit whose heights follow the DEM's best, first; then those that follow about as well on
 // another plan. None where the mesh lies on the DEM in no frame.
 std::vector<FrameFit> Best(const std::vector<FrameFit>& fits, const Dem& dem) {
   std::vector<FrameFit> best;
   std::ranges::copy_if(fits, std::back_inserter(best), &FrameFit::Lies);
+  // A mesh that says its place and follows there has the error of that place, such as half a cell:
+  // its box is not moved onto the DEM's.
+  const bool at_home = std::ranges::any_of(best, [](const FrameFit& fit) {
+    return fit.extent == Extent::kStated && SaysPlace(fit.placing.frame) &&
+           fit.Misfit() <= kFollows;
+  });
+  if (at_home) std::erase_if(best, [](const FrameFit& f) { return f.extent == Extent::kWhole; });
   if (best.empty()) return best;
   const double least = std::ranges::min(best, {}, &FrameFit::Misfit).Misfit();
   std::erase_if(best, [&](const FrameFit& fit) {
@@ -212,6 +224,10 @@ Result<ChosenPlacing> ChoosePlacing(const FileMesh& mesh, const StatedPlacing& s
   if (p.column_m != 1 && (p.column_m != column_m || p.row_m != row_m)) {
     chosen.text += ", reaching from side to side: a cell is " + Rounded(p.column_m, 3) + " x " +
                    Rounded(p.row_m, 3) + " of its metres";
+  }
+  if (p.origin[0] != 0 || p.origin[1] != 0) {
+    chosen.text += ", counted from x " + Rounded(p.origin[0], 3) + " and y " +
+                   Rounded(p.origin[1], 3) + ", where its box begins";
   }
   if (chosen.assumed) chosen.text += ", in which it fits the DEM; --mesh-frame states it otherwise";
   return chosen;

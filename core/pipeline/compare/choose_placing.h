@@ -25,7 +25,9 @@ struct ChosenPlacing {
 
 /// How the coordinates of `mesh` are to be read: as stated; as its file says; otherwise the one of
 /// all frames, with either axis up, in which the mesh lies on the DEM's box and its heights follow
-/// the DEM's best. glTF's y is taken for up as long as that fits no worse.
+/// the DEM's best. glTF's y is taken for up as long as that fits no worse. Metres from any other
+/// corner are counted from where the mesh's box begins, and the text says it; what lies on the DEM
+/// by coordinates of the map or the globe is not moved.
 ///
 /// Errors: kUnsupportedData, kind "mesh-elsewhere", where it lies on the DEM in none, with where it
 ///   is; kInvalidArgument, kind "mesh-frame", where several fit about as well and differ.

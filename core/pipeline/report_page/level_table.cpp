@@ -90,7 +90,7 @@ Html SkylineTable(const std::vector<SkylineSet>& sets) {
   }
   return Scrolling("differences",
                    "How far the levels' skylines are off on the lines that are drawn, in metres: "
-                   "root mean square / greatest"_html,
+                   "root mean square / greatest, lines with a skyline on the outline included"_html,
                    table + "</tbody>"_html);
 }
 

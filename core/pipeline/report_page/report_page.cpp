@@ -72,7 +72,8 @@ Html Summary(const Report& report, std::int64_t terrain_triangles) {
       " of detail. The finest has " +
       PercentOf(static_cast<double>(finest.triangles), static_cast<double>(terrain_triangles)) +
       " of all triangles and a skyline that is off by " + ThreeDigits(finest.silhouette.rms_m) +
-      " m (root mean square), by no more than " + ThreeDigitsUp(finest.silhouette.max_m) + " m.");
+      " m (root mean square), by no more than " + ThreeDigitsUp(finest.silhouette.max_m) +
+      " m where it is not on the terrain's outline.");
 }
 
 std::string HashOf(std::string_view text) {

@@ -117,7 +117,7 @@ class Chart {
   }
 
   [[nodiscard]] std::string Opening(int azimuth_deg) const {
-    return "<svg class=\"chart\" viewBox=\"0 0 440 268\" role=\"img\" aria-label=\"Skylines, "
+    return "<svg class=\"chart\" viewBox=\"0 -6 440 274\" role=\"img\" aria-label=\"Skylines, "
            "looking " +
            PointOfCompass(azimuth_deg) + "; the table below has the differences\">" + Axes();
   }
@@ -189,7 +189,7 @@ class Chart {
     }
     text += Text(kLeft + kColumns, kHeight - 4, "end",
                  std::string(in_km ? "km" : "m") + " to the left and right");
-    text += Text(2, kTop - 2, "start", "m") + "<path class=\"zero\" d=\"M46 " + SvgNumber(kZero) +
+    text += Text(2, kTop - 8, "start", "m") + "<path class=\"zero\" d=\"M46 " + SvgNumber(kZero) +
             "h388\"/>" + Factors();
     return text;
   }

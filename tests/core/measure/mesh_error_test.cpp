@@ -162,6 +162,21 @@ TEST(MeshError, IsNowhereBelowTheErrorOnALineBesideHoles) {
   }
 }
 
+TEST(MeshError, IsNoMoreThanTheReliefWhereAHoleTearsTheGround) {
+  // Lines meet a corner of one half, miss the mesh there, and pass between both halves.
+  Dem dem = DemOf(12, 12, [](int c, int r) { return 10 + (3 * c + 5 * r) % 7; });
+  for (std::size_t c = 0; c < 12; ++c) dem.heights[6 * 12 + c] = kNoHeight;
+  const Terrain terrain = *Terrain::Build(dem);
+  const GridMesh ground = MeshOf(terrain);
+  GridMesh mesh = ground;
+  for (GridPoint& p : mesh.points) p.column = 5.5 + (p.column - 5.5) * 0.995;
+  const MeshError error = MeasuredOn(terrain, mesh);
+  EXPECT_GT(error.rim_m, 0);
+  EXPECT_LE(error.rim_m, 7);
+  std::mt19937 random(5);
+  ExpectBoundsOnLines(ground, mesh, error, random, 500);
+}
+
 TEST(MeshError, IsTightOnRoughGround) {
   const Dem dem = FractalDem(6, 5);
   const Terrain terrain = *Terrain::Build(dem);

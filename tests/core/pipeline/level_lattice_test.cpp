@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/horizon/find_horizon.h"
@@ -236,6 +237,7 @@ TEST(RoundToLattice, AMeshThatIsFlippedIsRefused) {
   const Result<QuantizationLattice> lattice = RoundToLattice(dem, SomeFrame(), steps, mesh);
   ASSERT_FALSE(lattice);
   EXPECT_EQ(lattice.error().kind, "flipped-triangle");
+  EXPECT_THAT(lattice.error().message, testing::HasSubstr("gdalwarp"));
 }
 
 }  // namespace

@@ -115,6 +115,27 @@ TEST_F(ChoosePlacingTest, AddsTheStatedOffsetAlongTheVertical) {
   }
 }
 
+TEST_F(ChoosePlacingTest, LeavesAMeshOfTheMapWhereItSaysItIs) {
+  // Half a cell off, as by pixels taken for points.
+  const auto off = dem_.In([](double c, double r, double h) -> FilePoint {
+    return {PlacedDem::kWest + (c + 0.5) * PlacedDem::kStep,
+            PlacedDem::kNorth - (r + 0.5) * PlacedDem::kStep, h};
+  });
+  const auto chosen = ChoosePlacing(AsFile(off), {}, dem_.input());
+  ASSERT_TRUE(chosen) << chosen.error().message;
+  EXPECT_EQ(chosen->placing.frame, MeshFrame::kCrs);
+}
+
+TEST_F(ChoosePlacingTest, SaysFromWhereAMeshIsCountedThatItMoves) {
+  const auto far = dem_.In([](double c, double r, double h) -> FilePoint {
+    return {5e5 + c * 77.3, 4e6 + (kLastRow - r) * 111.2, h};
+  });
+  const auto chosen = ChoosePlacing(AsFile(far), {}, dem_.input());
+  ASSERT_TRUE(chosen) << chosen.error().message;
+  EXPECT_EQ(chosen->placing.frame, MeshFrame::kCorner);
+  EXPECT_THAT(chosen->text, HasSubstr("counted from x 500000 and y 4000000"));
+}
+
 TEST_F(ChoosePlacingTest, SaysWhereAMeshIsThatLiesElsewhere) {
   PlainMesh east = dem_.InEcef();
   for (auto& p : east.points) p[1] += 10'000;

@@ -70,6 +70,12 @@ TEST_F(Page, ShowsTheDemAndEveryLevel) {
   EXPECT_THAT(SlurpFile(folder_ / "out" / "manifest.json"), HasSubstr("report.html"));
 }
 
+TEST_F(Page, SaysWhichSkylinesOnTheOutlineItCounts) {
+  const std::string page = Sound(Hills(20, 20));
+  EXPECT_EQ(Count(page, "where it is not on the terrain"), 1U) << "the bound of the summary";
+  EXPECT_EQ(Count(page, "with a skyline on the outline included"), 2U) << "both tables";
+}
+
 TEST_F(Page, IsTheSameEachTimeAndHasTimesOnlyWhereAsked) {
   BuildOptions options;
   options.levels = 2;
