@@ -60,6 +60,18 @@ double IsolatedRoot::ToDouble() const {
   return std::clamp(estimate, from, to);
 }
 
+WideDyadic Refined(const IsolatedRoot& root, int bits) {
+  WideDyadic low{Int1280(std::ldexp(root.lo, kBracketBits)), kBracketBits};
+  if (root.lo == root.hi) return low;
+  while (low.k < bits) {
+    const WideDyadic middle{(low.n << 1) + 1, low.k + 1};
+    const int side = Compare(root.root, middle);
+    if (side == 0) return middle;
+    low = side > 0 ? middle : WideDyadic{low.n << 1, low.k + 1};
+  }
+  return low;
+}
+
 int Compare(const IsolatedRoot& r, const IsolatedRoot& s) {
   if (r.hi < s.lo) return -1;
   if (r.lo > s.hi) return 1;

@@ -28,6 +28,10 @@ inline constexpr int kBracketBits = 30;
 /// The sign of r - s, exactly.
 int Compare(const IsolatedRoot& r, const IsolatedRoot& s);
 
+/// A number within 2^-bits of the root, of `bits` bits at most. Requires: kBracketBits <= bits <=
+/// kMaxWideDyadicBits. Cost: a wide comparison for each bit beyond the bracket's.
+WideDyadic Refined(const IsolatedRoot& root, int bits);
+
 /// Up to two roots, ascending.
 class RootPair {
  public:

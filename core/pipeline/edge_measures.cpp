@@ -34,20 +34,20 @@ class EdgeCompass {
   [[nodiscard]] bool KeepsSense() const { return step_.SignedCellArea() < 0; }
   [[nodiscard]] double azimuth() const { return step_.ToAzimuth(along_[0], along_[1]); }
 
-  // The angle from the edge's direction to that of `motion` at t, degrees, 0 to 180.
-  [[nodiscard]] double Angle(const PlanMotion& motion, double t) const {
-    const auto [dot, cross] = DotAndCross(motion, t);
+  // The angle from the edge's direction to `direction`, degrees, 0 to 180.
+  [[nodiscard]] double Angle(const PlanVector& direction) const {
+    const auto [dot, cross] = DotAndCross(direction);
     return HalfTurnAngle(dot, cross) * kDegrees;
   }
 
-  [[nodiscard]] double Cosine(const PlanMotion& motion, double t) const {
-    const auto [dot, cross] = DotAndCross(motion, t);
+  [[nodiscard]] double Cosine(const PlanVector& direction) const {
+    const auto [dot, cross] = DotAndCross(direction);
     return dot / std::hypot(dot, cross);
   }
 
  private:
-  [[nodiscard]] std::array<double, 2> DotAndCross(const PlanMotion& motion, double t) const {
-    const auto [x, y] = motion.At(t);
+  [[nodiscard]] std::array<double, 2> DotAndCross(const PlanVector& direction) const {
+    const auto [x, y] = direction;
     const std::array<double, 2> ground = step_.ToGround(x, y);
     return {ground[0] * ground_[0] + ground[1] * ground_[1],
             std::abs(step_.SignedCellArea()) * (along_[0] * y - along_[1] * x)};
@@ -59,7 +59,8 @@ class EdgeCompass {
 };
 
 // To whole steps, outwards. Ends within a thousandth of a step of a whole one count as whole: the
-// error of an angle, some 1e-14 degrees, is far less, and the step itself need not be spent on it.
+// error of an angle is less, 2^-36 or 8.4e-10 degrees (lines_of_sight.h), and the step itself need
+// not be spent on it.
 Interval Outwards(const Interval& interval, double step) {
   constexpr double kSlack = 1e-3;
   const double from = std::floor(interval[0] / step + kSlack);
@@ -115,7 +116,7 @@ double MeasureOf(const LineOfSightCell& cell, const EdgeCompass& compass) {
     const double middle = cell.from + (2 * piece + 1) * half;
     for (std::size_t i = 0; i < kNodes.size(); ++i) {
       for (const double t : {middle - half * kNodes[i], middle + half * kNodes[i]}) {
-        sum += kWeights[i] * (compass.Cosine(cell.first, t) - compass.Cosine(cell.last, t));
+        sum += kWeights[i] * (compass.Cosine(cell.first.At(t)) - compass.Cosine(cell.last.At(t)));
       }
     }
   }
@@ -130,9 +131,10 @@ EdgeMeasures MeasuresOf(const LinesOfSight& sights, std::array<double, 2> along,
   EdgeMeasures measures;
   std::vector<Interval> angles;
   for (const LineOfSightCell& cell : sights) {
-    angles.push_back(
-        {std::min(compass.Angle(cell.first, cell.from), compass.Angle(cell.first, cell.to)),
-         std::max(compass.Angle(cell.last, cell.from), compass.Angle(cell.last, cell.to))});
+    const auto [first_from, first_to] = cell.first_ends;
+    const auto [last_from, last_to] = cell.last_ends;
+    angles.push_back({std::min(compass.Angle(first_from), compass.Angle(first_to)),
+                      std::max(compass.Angle(last_from), compass.Angle(last_to))});
     measures.spans.push_back(Outwards({cell.from, cell.to}, kSpanStep));
     measures.line_measure_m += MeasureOf(cell, compass) * compass.length_m();
   }

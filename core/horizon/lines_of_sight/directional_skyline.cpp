@@ -16,45 +16,21 @@ namespace farhorizon {
 
 namespace {
 
-// The angle of a moving vector at t from `along`, 0 to pi, and a bound on its error.
-struct Angle {
-  double value = 0;
-  double slack = 0;
-};
-
-Angle AngleAt(const PlanMotion& motion, double t, const std::array<double, 2>& along) {
-  // Products, quotient and arcus tangent are off by a few units in the last place of an angle below
-  // 2 pi, and so are the sums that turn it into an azimuth of the half turn: by less than 1e-14
-  // together. Any value from there on is sound; this one lets nearly no edge pass that need not.
-  constexpr double kRounding = 1e-12;
-  // t is within 2^-47 of a cell's end (lines_of_sight.h), and the vector's numbers are exact. So
-  // the vector is off by 1.1 * 2^-47 of `size`, its angle by that over its length, and 1.2 times as
-  // much where it is known to a tenth (kMostSlack). kEnd is three times that.
-  constexpr double kEnd = 0x1p-45;
-  const auto [x, y] = motion.At(t);
-  const double cross = along[0] * y - along[1] * x;
-  const double dot = along[0] * x + along[1] * y;
-  const double size = std::hypot(motion.ax, motion.ay) + std::hypot(motion.bx, motion.by);
-  return {HalfTurnAngle(dot, cross), kEnd * size / std::hypot(x, y) + kRounding};
-}
-
-// The directions of a cell as angles from `along`, rounded outwards. Its curves turn one way, so
-// that they have their least and greatest angles at the cell's ends.
+// The directions of a cell as angles from `along`, 0 to pi, rounded outwards. Its curves turn one
+// way, so that they have their least and greatest angles at the cell's ends.
 Interval AnglesOf(const LineOfSightCell& cell, const std::array<double, 2>& along) {
-  // Beyond this the bound on the error does not hold, and any direction is possible.
-  constexpr double kMostSlack = 0.1;
-  double from = std::numbers::pi;
-  double to = 0;
-  double slack = 0;
-  for (const double t : {cell.from, cell.to}) {
-    const Angle first = AngleAt(cell.first, t, along);
-    const Angle last = AngleAt(cell.last, t, along);
-    from = std::min(from, first.value);
-    to = std::max(to, last.value);
-    slack = std::max({slack, first.slack, last.slack});
-  }
-  if (!(slack < kMostSlack)) return {0, std::numbers::pi};
-  return {from - slack, to + slack};
+  // A direction is off by 2^-36 (lines_of_sight.h). Products, quotient and arcus tangent are off by
+  // a few units in the last place of an angle below 2 pi, and so are the sums that turn it into an
+  // azimuth of the half turn: by less than 1e-14 together.
+  constexpr double kSlack = 0x1p-35;
+  const auto angle = [&along](const PlanVector& direction) {
+    const double cross = along[0] * direction.y - along[1] * direction.x;
+    const double dot = along[0] * direction.x + along[1] * direction.y;
+    return HalfTurnAngle(dot, cross);
+  };
+  const double from = std::min(angle(cell.first_ends[0]), angle(cell.first_ends[1]));
+  const double to = std::max(angle(cell.last_ends[0]), angle(cell.last_ends[1]));
+  return {from - kSlack, to + kSlack};
 }
 
 // Appends [from, to], angles of directions without a sense, as intervals of [0, pi].

@@ -16,16 +16,26 @@ namespace farhorizon {
 
 namespace {
 
-PlanMotion MotionOf(const BoundaryCurve& curve, const TargetSegment& edge, bool from_high) {
+MovingVector VectorOf(const BoundaryCurve& curve, const TargetSegment& edge) {
+  if (curve.kind == BoundaryCurve::Kind::kMoving) return curve.v;
   const std::int64_t dx = std::int64_t{edge.high.x} - edge.low.x;
   const std::int64_t dy = std::int64_t{edge.high.y} - edge.low.y;
-  MovingVector v = curve.v;
-  if (curve.kind == BoundaryCurve::Kind::kAlong) v = {dx, dy, 0, 0};
-  if (curve.kind == BoundaryCurve::Kind::kAgainst) v = {-dx, -dy, 0, 0};
+  if (curve.kind == BoundaryCurve::Kind::kAlong) return {dx, dy, 0, 0};
+  return {-dx, -dy, 0, 0};
+}
+
+PlanMotion MotionOf(MovingVector v, bool from_high) {
   // From the other end: 1 - t for t, and a half turn that begins at the opposite direction.
   if (from_high) v = {-v.ax - v.bx, -v.ay - v.by, v.bx, v.by};
   return {static_cast<double>(v.ax), static_cast<double>(v.ay), static_cast<double>(v.bx),
           static_cast<double>(v.by)};
+}
+
+LineOfSightCell::Ends EndsOf(const MovingVector& v, const StripCell& cell, bool from_high) {
+  const PlanVector from = DirectionAt(v, cell.from);
+  const PlanVector to = DirectionAt(v, cell.to);
+  if (from_high) return {-to, -from};
+  return {from, to};
 }
 
 // The cells of a region in doubles. from_high: t is to run from the edge's higher end.
@@ -40,8 +50,12 @@ LinesOfSight InDoubles(const VisibleRegion& region, const TargetSegment& edge, b
       cell.to = 1 - cell.to;
       std::swap(cell.from, cell.to);
     }
-    cell.first = MotionOf(exact.first, edge, from_high);
-    cell.last = MotionOf(exact.last, edge, from_high);
+    const MovingVector first = VectorOf(exact.first, edge);
+    const MovingVector last = VectorOf(exact.last, edge);
+    cell.first = MotionOf(first, from_high);
+    cell.last = MotionOf(last, from_high);
+    cell.first_ends = EndsOf(first, exact, from_high);
+    cell.last_ends = EndsOf(last, exact, from_high);
     lines.push_back(cell);
   }
   return lines;

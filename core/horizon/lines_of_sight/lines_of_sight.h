@@ -1,10 +1,12 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "core/base/result.h"
 #include "core/base/run_control.h"
 #include "core/geometry/plan_motion.h"
+#include "core/geometry/vector.h"
 #include "core/horizon/horizon.h"
 #include "core/horizon/work_budget.h"
 
@@ -16,12 +18,19 @@ namespace farhorizon {
 ///
 /// Both are in the half turn from the edge's own direction, a to b, to its opposite, ends included.
 /// Each turns one way only as t rises, by less than half a turn. Their numbers are integers, exact;
-/// `from` and `to` are within 2^-47 of the exact ends.
+/// `from` and `to` are within 2^-47 of the exact ends. Near a point in which the edge meets another
+/// one, a direction may turn far in so short a way: the directions at the exact ends, with any
+/// length above 0, are beside them.
 struct LineOfSightCell {
+  /// The directions of a curve at the exact `from` and `to`, each within 2^-36.
+  using Ends = std::array<PlanVector, 2>;
+
   double from = 0;
   double to = 1;
   PlanMotion first;
   PlanMotion last;
+  Ends first_ends;
+  Ends last_ends;
 };
 
 /// All lines of sight of one edge, except a set of measure zero, as cells that do not overlap.

@@ -43,6 +43,20 @@ int Order(const BoundaryCurve& a, const BoundaryCurve& b, const SamplePoint& poi
   return point.Sign(Cross(a.v, b.v));
 }
 
+PlanVector DirectionAt(const MovingVector& v, const IsolatedRoot& t) {
+  // A double is within 2^-47 of t, so the vector is off by 2^-46.8 of its size, with the roundings
+  // of products and sums. That is 2^-36.8 of its length where that is 2^-10 of its size.
+  constexpr double kLeastLength = 0x1p-10;
+  const EndVectors at = EndVectorsOf(v, t.ToDouble(), 0);
+  const double length = std::hypot(at.start.x, at.start.y);
+  if (t.lo == t.hi || length >= kLeastLength * at.size) return at.start;
+  // The vector's tip moves on a line whose distance from 0 is |cross(a, b)| / |b| > 2^-51, for the
+  // cross product is an integer. So 2^-144 for t is 2^(51 - 144 + 51) of the length at most.
+  constexpr int kBits = 144;
+  const BasicVector<Int1280> exact = v.At(Refined(t, kBits));
+  return {static_cast<double>(exact.x), static_cast<double>(exact.y)};
+}
+
 EndVectors EndVectorsOf(const MovingVector& v, double from, double to) {
   const auto ax = static_cast<double>(v.ax);
   const auto ay = static_cast<double>(v.ay);

@@ -54,6 +54,10 @@ struct StripCell {
   BoundaryCurve last;
 };
 
+/// The vector at t, up to a positive factor, its angle within 2^-36 of the exact one. Requires: it
+/// is one vector for all t, or its direction turns: cross(a, b) is not 0.
+PlanVector DirectionAt(const MovingVector& v, const IsolatedRoot& t);
+
 /// The directions from one curve counter-clockwise to another.
 using CurvePair = std::pair<BoundaryCurve, BoundaryCurve>;
 

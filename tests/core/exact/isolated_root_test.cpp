@@ -92,6 +92,19 @@ TEST(IsolatedRoot, IsExactWhereTwoNearlyCoincide) {
   EXPECT_EQ(PointBetween(roots[0], roots[1]).Sign({b * b - 1, -2 * a * b, a * a}), -1);
 }
 
+TEST(IsolatedRoot, IsRefinedToAnyNumberOfBits) {
+  const IsolatedRoot third = SignChanges({-1, 3, 0})[0];
+  for (const int bits : {kBracketBits, 70, 144, kMaxWideDyadicBits}) {
+    const WideDyadic low = Refined(third, bits);
+    EXPECT_LE(low.k, bits);
+    EXPECT_GE(Compare(third.root, low), 0);
+    EXPECT_LE(Compare(third.root, WideDyadic{(low.n << (bits - low.k)) + 1, bits}), 0);
+  }
+  EXPECT_EQ(Refined(IsolatedRoot::One(), 144).ToDouble(), 1);
+  const IsolatedRoot dyadic = SignChanges({-5, 1 << 30, 0})[0];
+  EXPECT_EQ(Compare(dyadic.root, Refined(dyadic, 144)), 0);
+}
+
 TEST(CompareIsolatedRoots, FindsOneNumberFromTwoPolynomialsEqual) {
   const IsolatedRoot third = SignChanges({-1, 3, 0})[0];
   EXPECT_EQ(Compare(third, SignChanges({2, -6, 0})[0]), 0);

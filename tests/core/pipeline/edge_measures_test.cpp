@@ -61,6 +61,28 @@ Dem Unlevel(std::int32_t columns, std::int32_t rows, std::uint32_t seed) {
   });
 }
 
+// Cliffs of 2^29 quanta, whose tops differ by 3: the edge down the cliff is seen between two others
+// that cross in its view 10^-9 of its length below its top, from less than a millionth of a degree.
+// A double for that place tells the direction to some 10^-5 degrees only.
+TEST(EdgeMeasures, AzimuthsAreTrueWhereDirectionsTurnFarInAShortWay) {
+  constexpr std::int32_t kTop = 1 << 29;
+  const std::vector<std::vector<std::int32_t>> heights = {
+      {kTop, kTop + 3, kTop, 0, 0, kTop}, {0, 0, -(1 << 20), kTop + 3, 0, kTop + 3}};
+  const Dem dem = MakeDem(6, 2, [&](std::int32_t c, std::int32_t r) {
+    return heights[static_cast<std::size_t>(r)][static_cast<std::size_t>(c)];
+  });
+  const std::vector<MeasuredEdge> edges = MeasuresOn(dem, kMetres);
+  const auto cliff = std::find_if(edges.begin(), edges.end(), [](const MeasuredEdge& v) {
+    return v.edge.a == 1 && v.edge.b == 7;
+  });
+  ASSERT_NE(cliff, edges.end());
+  // Exactly: 89.9999996798 to 90.0000003202.
+  ASSERT_EQ(cliff->measures.azimuths.size(), 1U);
+  EXPECT_NEAR(cliff->measures.azimuths[0][0], 89.999999, 1e-9);
+  EXPECT_NEAR(cliff->measures.azimuths[0][1], 90.000001, 1e-9);
+  EXPECT_NEAR(cliff->measures.angular_share * 180, 6.404e-7, 2e-9);
+}
+
 // O1: each slanted edge is seen in the quarter turn in which the one beside it does not rise above
 // it.
 TEST(EdgeMeasures, EachEdgeOfAPyramidIsSeenInAQuarterTurn) {
