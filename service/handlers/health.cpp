@@ -36,7 +36,10 @@ nlohmann::ordered_json Listed(const std::vector<ReadinessCheck>& checks) {
 
 HttpResponse Ready(const HandlerContext& context, const HttpRequest& request) {
   const std::vector<ReadinessCheck> checks = context.jobs.CheckReady();
-  if (AllSucceed(checks)) return JsonResponse({{"status", "ready"}, {"checks", Listed(checks)}});
+  const std::vector<std::string> sandbox = NamesOf(context.jobs.ActiveSandbox());
+  if (AllSucceed(checks)) {
+    return JsonResponse({{"status", "ready"}, {"checks", Listed(checks)}, {"sandbox", sandbox}});
+  }
   const auto failed = std::find_if(checks.begin(), checks.end(),
                                    [](const ReadinessCheck& check) { return !check.status; });
   Problem problem = ProblemOf(failed->status.error());
@@ -49,6 +52,7 @@ HttpResponse Ready(const HandlerContext& context, const HttpRequest& request) {
   HttpResponse response = ProblemResponse(request, problem);
   auto document = nlohmann::ordered_json::parse(response.body);
   document["checks"] = Listed(checks);
+  document["sandbox"] = sandbox;
   response.body = DumpJson(document);
   return response;
 }
