@@ -1,5 +1,6 @@
 #include "service/http/body_reader.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "core/base/result.h"
@@ -21,10 +22,29 @@ std::string FramingHead(const HttpRequest& request) {
          "\r\n\r\n";
 }
 
+// Whether a field of the trailers is folded over two lines, which Beast takes. consumed: what it took
+// last of a chunked body, at the end of it: it takes the last chunk's line and the trailers at once,
+// and no line of trailers could be that of the last chunk, for it has a colon or begins with a blank.
+bool HasFoldedTrailer(std::string_view consumed) {
+  while (consumed.size() >= 2) {
+    consumed.remove_suffix(2);  // CR LF
+    const std::size_t before = consumed.rfind("\r\n");
+    const std::string_view line =
+        consumed.substr(before == std::string_view::npos ? 0 : before + 2);
+    if (!line.empty() && (line[0] == ' ' || line[0] == '\t')) return true;
+    if (!line.empty() && line.find_first_not_of('0') == std::min(line.find(';'), line.npos)) {
+      return false;
+    }
+    if (before == std::string_view::npos) return false;
+    consumed = consumed.substr(0, before + 2);
+  }
+  return false;
+}
+
 }  // namespace
 
 BodyReader::BodyReader(const HttpRequest& request, std::size_t most_head_bytes)
-    : piece_(kBodyPieceBytes, '\0') {
+    : chunked_(request.chunked), piece_(kBodyPieceBytes, '\0') {
   parser_.body_limit(std::numeric_limits<std::uint64_t>::max());  // none is 0 in Beast 1.74
   parser_.header_limit(static_cast<std::uint32_t>(most_head_bytes));
   // Beast keeps a reference to the function alone.
@@ -43,8 +63,26 @@ asio::awaitable<std::string_view> BodyReader::ReadSome(beast::tcp_stream& stream
                                                        beast::flat_buffer& buffer,
                                                        error_code& failure) {
   parser_.get().body() = {piece_.data(), piece_.size(), true};
-  co_await http::async_read_some(stream, buffer, parser_,
-                                 asio::redirect_error(asio::use_awaitable, failure));
+  for (;;) {
+    const auto have = buffer.cdata();
+    const std::string_view text(static_cast<const char*>(have.data()), have.size());
+    failure = http::error::need_more;
+    if (!text.empty()) {
+      failure = {};
+      const std::size_t used = parser_.put(have, failure);
+      const bool ends = chunked_ && !failure && parser_.is_done();
+      if (ends && HasFoldedTrailer(text.substr(0, used))) failure = http::error::bad_value;
+      buffer.consume(used);
+    }
+    if (failure != http::error::need_more) break;
+    const std::size_t room = std::min(buffer.max_size() - buffer.size(), kBodyPieceBytes);
+    failure = {};
+    if (room == 0) failure = http::error::buffer_overflow;
+    if (failure) break;
+    buffer.commit(co_await stream.async_read_some(
+        buffer.prepare(room), asio::redirect_error(asio::use_awaitable, failure)));
+    if (failure) break;
+  }
   if (failure == http::error::need_buffer) failure = {};
   const std::size_t size = piece_.size() - parser_.get().body().size;
   received_ += static_cast<std::int64_t>(size);

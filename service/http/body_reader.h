@@ -18,7 +18,7 @@ constexpr std::size_t kBodyPieceBytes = 65536;
 /// Takes the body of a request out of its connection, piece by piece, as the head framed it.
 ///
 /// Bounded like the head are all chunk extensions of a body together, and its trailers; both are
-/// skipped.
+/// skipped. A trailer that is folded over two lines is refused, as it is in a head.
 class BodyReader {
  public:
   /// most_head_bytes: as of ServerOptions.
@@ -37,6 +37,7 @@ class BodyReader {
                                              boost::system::error_code& failure);
 
  private:
+  bool chunked_;
   http::request_parser<http::buffer_body> parser_;
   std::string piece_;
   std::size_t extension_bytes_ = 0;

@@ -107,6 +107,16 @@ TEST_F(GateE2e, BoundsChunkExtensionsAndTrailers) {
   std::string fields = head + "1\r\nn\r\n0\r\n";
   for (int i = 0; i < 10'000; ++i) fields += "A" + std::to_string(i) + ": x\r\n";
   EXPECT_EQ(Exchange(port_, fields + "\r\n").status, 431);
+  for (const char* folded :
+       {"A: x\r\n y\r\n", "A: x\r\n\ty\r\nB: z\r\n", "A: x\r\n 0\r\nB: z\r\n"}) {
+    EXPECT_EQ(Exchange(port_, head + "1\r\nn\r\n0\r\n" + folded + "\r\n").status, 400) << folded;
+  }
+  // A body may have such lines, and a chunk's may be all that is taken at once.
+  const std::string last = "GET /healthz HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n";
+  for (const char* sound :
+       {"5\r\n\r\n x\n\r\n0\r\nA: x\r\nB: 0\r\n\r\n", "3\r\n\r\n \r\n000;a=b\r\n\r\n"}) {
+    EXPECT_THAT(Exchange(port_, head + sound + last).body, HasSubstr("HTTP/1.1 200 OK")) << sound;
+  }
   EXPECT_EQ(Ask(port_, "GET", "/healthz").status, 200);
 }
 
