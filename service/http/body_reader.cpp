@@ -22,9 +22,11 @@ std::string FramingHead(const HttpRequest& request) {
          "\r\n\r\n";
 }
 
-// Whether a field of the trailers is folded over two lines, which Beast takes. consumed: what it took
-// last of a chunked body, at the end of it: it takes the last chunk's line and the trailers at once,
-// and no line of trailers could be that of the last chunk, for it has a colon or begins with a blank.
+// Whether a field of the trailers is folded over two lines, which Beast takes.
+//
+// consumed: what it took last of a chunked body, at its end. It takes the last chunk's line and the
+// trailers at once, and no line of the trailers could be that of the last chunk: each has a colon,
+// or begins with a blank.
 bool HasFoldedTrailer(std::string_view consumed) {
   while (consumed.size() >= 2) {
     consumed.remove_suffix(2);  // CR LF
