@@ -10,7 +10,6 @@
 #include <sys/stat.h>
 
 #include "core/io/manifest.h"
-#include "core/io/posix_file.h"
 #include "service/jobs/storage_file.h"
 
 namespace farhorizon {
@@ -67,15 +66,13 @@ Result<std::vector<ManifestEntry>> ReadOwnManifest(const std::filesystem::path& 
   if (*size > kLargestManifest) return InvalidArtifacts("a manifest.json of more than 1 MiB");
   Result<UniqueFd> file = OpenForReading(path);
   if (!file) return InvalidArtifacts("a manifest.json that cannot be read");
-  std::string text(static_cast<std::size_t>(*size), '\0');
-  std::size_t filled = 0;
-  while (filled < text.size()) {
-    const std::int64_t got = ReadSome(file->get(), std::span(text).subspan(filled));
-    if (got < 0) return StorageError("read a worker's manifest.json");
-    if (got == 0) break;
-    filled += static_cast<std::size_t>(got);
-  }
-  text.resize(filled);
+  std::string text;
+  Status read = ForEachPiece(file->get(), "read a worker's manifest.json",
+                             [&text](std::string_view piece) -> Status {
+                               text += piece;
+                               return Ok{};
+                             });
+  if (!read) return std::move(read.error());
   Result<std::vector<ManifestEntry>> entries = ReadManifest(text);
   if (!entries) return InvalidArtifacts(entries.error().message);
   if (entries->size() > kMostArtifacts) return InvalidArtifacts("too many");

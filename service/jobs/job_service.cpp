@@ -212,8 +212,7 @@ Result<OpenArtifact> JobService::Open(const std::string& id, const std::string& 
     Result<Job> job = jobs_->Find(id);
     if (!job) return std::move(job.error());
     CountCorruptResult();
-    return Error{ErrorCode::kIo, "this artifact is damaged or lost; submit the DEM again",
-                 "result-corrupt"};
+    return ResultCorrupt();
   }
   return Error{ErrorCode::kNotFound, "the job has no artifact of this name", "no-such-output"};
 }

@@ -21,23 +21,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kPieceBytes = std::size_t{1} << 18U;
 constexpr std::size_t kFolderDigits = 2;
 
 // Copies all bytes of `from` to `to`; their SHA-256 and number.
 Result<StoredObject> CopyAndHash(int from, int to) {
   Sha256 hash;
   StoredObject object;
-  std::string piece(kPieceBytes, '\0');
-  for (;;) {
-    const std::int64_t size = ReadSome(from, piece);
-    if (size < 0) return StorageError("read");
-    if (size == 0) break;
-    const std::string_view bytes(piece.data(), static_cast<std::size_t>(size));
-    hash.Add(bytes);
-    object.bytes += size;
-    if (!WriteAll(to, bytes)) return StorageError("write");
-  }
+  Status copied = ForEachPiece(from, "read", [&](std::string_view piece) -> Status {
+    hash.Add(piece);
+    object.bytes += static_cast<std::int64_t>(piece.size());
+    if (!WriteAll(to, piece)) return StorageError("write");
+    return Ok{};
+  });
+  if (!copied) return std::move(copied.error());
   object.sha256 = hash.Finish().Hex();
   return object;
 }

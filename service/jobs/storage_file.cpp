@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <fcntl.h>
 #include <limits>
+#include <string>
 #include <sys/stat.h>
 #include <sys/statvfs.h>
 #include <unistd.h>
@@ -12,6 +13,12 @@
 #include "service/jobs/sync_failure.h"
 
 namespace farhorizon {
+
+namespace {
+
+constexpr std::size_t kPieceBytes = std::size_t{1} << 18U;
+
+}  // namespace
 
 Error StorageError(const char* doing) {
   Error error = ErrorFromErrno(doing, errno);
@@ -29,6 +36,18 @@ Result<UniqueFd> OpenForReading(const std::filesystem::path& path) {
   if (::fstat(fd.get(), &info) != 0) return StorageError("look at a file");
   if (!S_ISREG(info.st_mode)) return Error{ErrorCode::kIo, "not a regular file", "storage"};
   return fd;
+}
+
+Status ForEachPiece(int fd, const char* doing,
+                    const std::function<Status(std::string_view piece)>& take) {
+  std::string piece(kPieceBytes, '\0');
+  for (;;) {
+    const std::int64_t size = ReadSome(fd, piece);
+    if (size < 0) return StorageError(doing);
+    if (size == 0) return Ok{};
+    Status taken = take(std::string_view(piece).substr(0, static_cast<std::size_t>(size)));
+    if (!taken) return taken;
+  }
 }
 
 Status SyncFile(int fd, const char* doing) {

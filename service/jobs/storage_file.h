@@ -2,6 +2,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <string_view>
 
 #include "core/base/result.h"
 #include "core/io/unique_fd.h"
@@ -15,6 +17,11 @@ Error StorageError(const char* doing);
 
 /// Opens a regular file for reading; follows no link. Errors: kNotFound, kIo.
 Result<UniqueFd> OpenForReading(const std::filesystem::path& path);
+
+/// Calls `take` with the bytes of an open file, piece by piece, until one call fails.
+/// Errors: as StorageError(doing) where they cannot be read; those of `take`.
+Status ForEachPiece(int fd, const char* doing,
+                    const std::function<Status(std::string_view piece)>& take);
 
 /// Makes the bytes of an open file durable. Ends the process where the disk fails
 /// (EndAfterFailedSync). Errors: as StorageError, of a file system that is full or cannot sync.

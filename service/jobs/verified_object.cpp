@@ -20,11 +20,6 @@ constexpr std::int64_t kPieceBytes = 65536;
 constexpr std::int64_t kMostSums =
     (std::int64_t{16} << 20U) / static_cast<std::int64_t>(Digest::kBytes);
 
-Error Corrupt() {
-  return {ErrorCode::kIo, "this artifact is damaged or lost; submit the DEM again",
-          "result-corrupt"};
-}
-
 Digest SumOf(std::string_view bytes) {
   Sha256 sum;
   sum.Add(bytes);
@@ -74,6 +69,11 @@ bool SumPieces(const OpenObject& object, const std::string& sha256, PieceSums& i
 
 }  // namespace
 
+Error ResultCorrupt() {
+  return {ErrorCode::kIo, "this artifact is damaged or lost; submit the DEM again",
+          "result-corrupt"};
+}
+
 Result<std::string_view> VerifiedObject::Read(std::int64_t offset, std::int64_t most) {
   const std::int64_t piece = offset / kPieceBytes;
   if (piece != piece_) {
@@ -82,7 +82,7 @@ Result<std::string_view> VerifiedObject::Read(std::int64_t offset, std::int64_t 
     if (!ReadAt(object_.fd.get(), piece * kPieceBytes, buffer_) ||
         SumOf(buffer_) != sums_->sums.at(static_cast<std::size_t>(piece))) {
       *sums_->broken = true;
-      return Corrupt();
+      return ResultCorrupt();
     }
     piece_ = piece;
   }
@@ -97,7 +97,7 @@ Result<std::shared_ptr<VerifiedObject>> ObjectVerifier::Open(OpenObject object,
   const std::lock_guard lock(reading_.at(std::hash<std::string>()(sha256) % reading_.size()));
   std::shared_ptr<const PieceSums> sums = Known(sha256, *file);
   if (!sums) {
-    if (!SumPieces(object, sha256, *file)) return Corrupt();
+    if (!SumPieces(object, sha256, *file)) return ResultCorrupt();
     sums = std::make_shared<const PieceSums>(*std::move(file));
     Remember(sha256, sums);
   }

@@ -26,6 +26,9 @@ struct PieceSums {
   std::shared_ptr<std::atomic<bool>> broken = std::make_shared<std::atomic<bool>>(false);
 };
 
+/// kIo "result-corrupt": an artifact is not what was stored, or is gone.
+Error ResultCorrupt();
+
 /// An object of which no wrong byte can be read.
 /// Threads: for one reader at a time.
 class VerifiedObject {

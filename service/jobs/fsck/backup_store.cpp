@@ -38,15 +38,11 @@ std::vector<std::string> NamedObjects(const fs::path& database_file) {
 }
 
 Status CopyBytes(int from, int to) {
-  std::string piece(std::size_t{1} << 18U, '\0');
-  for (;;) {
-    const std::int64_t size = ReadSome(from, piece);
-    if (size < 0) return StorageError("read an object");
-    if (size == 0) return SyncFile(to, "sync an object");
-    if (!WriteAll(to, {piece.data(), static_cast<std::size_t>(size)})) {
-      return StorageError("write an object");
-    }
-  }
+  Status copied = ForEachPiece(from, "read an object", [to](std::string_view piece) -> Status {
+    if (!WriteAll(to, piece)) return StorageError("write an object");
+    return Ok{};
+  });
+  return copied ? SyncFile(to, "sync an object") : copied;
 }
 
 // Copies an object if it is there: the check of the copy tells which are not.

@@ -1,10 +1,13 @@
 #include "service/jobs/fsck/check_jobs.h"
 
 #include <optional>
+#include <set>
 #include <string>
+#include <vector>
 
 #include "service/clock.h"
 #include "service/jobs/fsck/check_objects.h"
+#include "service/jobs/sqlite_removal.h"
 #include "service/jobs/sqlite_rows.h"
 #include "service/jobs/store_identity.h"
 
@@ -68,11 +71,10 @@ void CheckJob(FsckRun& run, Database& database, const Job& job) {
 
 // What is left of the objects: each belongs to a row, or to a removed job, or is a stray.
 void CheckReferences(FsckRun& run, Database& database) {
+  const std::vector<std::string> listed = SelectGarbage(database);
+  const std::set<std::string> garbage(listed.begin(), listed.end());
   for (const auto& [name, bytes] : run.good) {
-    Statement row(database,
-                  "SELECT 1 FROM jobs WHERE input_sha256 = ? UNION ALL SELECT 1 FROM artifacts "
-                  "WHERE sha256 = ? UNION ALL SELECT 1 FROM garbage WHERE sha256 = ? LIMIT 1");
-    if (row.Bind(name).Bind(name).Bind(name).Step()) continue;
+    if (garbage.contains(name) || IsReferenced(database, name)) continue;
     const fs::path kept = run.directory.Objects() / name.substr(0, 2) / name;
     if (fs::exists(run.directory.Objects() / "incoming" / name)) {
       run.options.say("object " + name + " was never acknowledged: a start removes it");

@@ -4,7 +4,6 @@
 #include <sys/stat.h>
 #include <system_error>
 
-#include "core/io/posix_file.h"
 #include "core/io/sha256.h"
 #include "service/jobs/object_store.h"
 #include "service/jobs/storage_file.h"
@@ -15,16 +14,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The SHA-256 of what can be read of a file.
+// The SHA-256 of a file; empty where it cannot be read.
 std::string SumOf(int fd) {
   Sha256 sum;
-  std::string piece(std::size_t{1} << 18U, '\0');
-  for (;;) {
-    const std::int64_t size = ReadSome(fd, piece);
-    if (size < 0) return "";
-    if (size == 0) return sum.Finish().Hex();
-    sum.Add(std::string_view(piece).substr(0, static_cast<std::size_t>(size)));
-  }
+  const Status read = ForEachPiece(fd, "read an object", [&sum](std::string_view piece) -> Status {
+    sum.Add(piece);
+    return Ok{};
+  });
+  return read ? sum.Finish().Hex() : "";
 }
 
 void CheckOne(const fs::path& file, CheckedObjects& into) {
