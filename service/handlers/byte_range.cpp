@@ -60,12 +60,17 @@ std::optional<Selection> ReadRange(std::string_view field, std::int64_t size) {
 
 }  // namespace
 
+int StatusByConditions(const HttpRequest& request, const std::string& etag) {
+  const std::string* if_match = request.Header("if-match");
+  if (if_match != nullptr && !HasTag(*if_match, etag, false)) return 412;
+  const std::string* if_none_match = request.Header("if-none-match");
+  return if_none_match != nullptr && HasTag(*if_none_match, etag, true) ? 304 : 200;
+}
+
 Selection SelectBytes(const HttpRequest& request, const std::string& etag, std::int64_t size) {
   const Selection all{200, 0, size};
-  const std::string* if_match = request.Header("if-match");
-  if (if_match != nullptr && !HasTag(*if_match, etag, false)) return {412, 0, 0};
-  const std::string* if_none_match = request.Header("if-none-match");
-  if (if_none_match != nullptr && HasTag(*if_none_match, etag, true)) return {304, 0, 0};
+  const int status = StatusByConditions(request, etag);
+  if (status != 200) return {status, 0, 0};
   const std::string* range = request.Header("range");
   if (range == nullptr || request.method != "GET") return all;
   const std::string* if_range = request.Header("if-range");

@@ -14,6 +14,10 @@ struct Selection {
   std::int64_t bytes = 0;
 };
 
+/// What the conditions If-Match and If-None-Match make of a request for what has the entity tag
+/// `etag`, with its quotes: 200, 304 or 412.
+int StatusByConditions(const HttpRequest& request, const std::string& etag);
+
 /// Evaluates If-Match, If-None-Match, If-Range and Range, in this order, for a file of `size`
 /// bytes. etag: the file's strong entity tag, with its quotes. Several ranges, or one that is not
 /// well formed, select the whole file, as section 14.2 allows.

@@ -20,20 +20,18 @@ HttpResponse JsonResponse(const nlohmann::ordered_json& document) {
 
 HttpResponse TaggedJsonResponse(const HttpRequest& request,
                                 const nlohmann::ordered_json& document) {
-  HttpResponse response = JsonResponse(document);
+  HttpResponse response;
+  response.body = DumpJson(document);
   const std::string etag = "\"" + Sha256Hex(response.body) + "\"";
-  HttpRequest whole = request;  // a range of a status helps nobody
-  std::erase_if(whole.headers, [](const auto& field) { return field.first == "range"; });
-  const int status =
-      SelectBytes(whole, etag, static_cast<std::int64_t>(response.body.size())).status;
-  if (status == 412) {
+  response.status = StatusByConditions(request, etag);
+  if (response.status == 412) {
     return ProblemResponse(request,
                            {"precondition-failed", "it is not the one that If-Match names"});
   }
-  response.headers = {
-      {"Content-Type", "application/json"}, {"Cache-Control", "no-cache"}, {"ETag", etag}};
-  response.status = status;
-  if (status == 304) response.body.clear();
+  response.Set("Content-Type", "application/json");
+  response.Set("Cache-Control", "no-cache");
+  response.Set("ETag", etag);
+  if (response.status == 304) response.body.clear();
   return response;
 }
 

@@ -93,22 +93,17 @@ Route BodylessRoute(std::string method, std::string pattern,
   return {std::move(method), std::move(pattern), begin, waits_for};
 }
 
-const Route* Router::Find(const HttpRequest& request, std::vector<std::string>& values) const {
+const Route* Router::Find(HttpRequest& request) const {
   const std::string& method = request.method == "HEAD" ? std::string("GET") : request.method;
   for (const Route& route : routes_) {
     if (route.method != method) continue;
-    if (auto matched = Match(route.pattern, request.path)) {
-      values = *std::move(matched);
+    if (auto values = Match(route.pattern, request.path)) {
+      request.route = route.pattern;
+      request.parameters = *std::move(values);
       return &route;
     }
   }
   return nullptr;
-}
-
-WaitsFor Router::WaitOf(const HttpRequest& request) const {
-  std::vector<std::string> values;
-  const Route* route = Find(request, values);
-  return route == nullptr ? WaitsFor::kNothing : route->waits_for;
 }
 
 std::vector<std::string> Router::MethodsAt(const std::string& path) const {
@@ -122,11 +117,8 @@ std::vector<std::string> Router::MethodsAt(const std::string& path) const {
   return methods;
 }
 
-Admission Router::Begin(HttpRequest& request) const {
-  if (const Route* route = Find(request, request.parameters)) {
-    request.route = route->pattern;
-    return route->begin(request);
-  }
+Admission Router::Begin(const Route* route, const HttpRequest& request) const {
+  if (route != nullptr) return route->begin(request);
   const std::vector<std::string> methods = MethodsAt(request.path);
   if (methods.empty() && request.target != "*") {
     return ProblemResponse(request,

@@ -38,19 +38,17 @@ class Router {
  public:
   explicit Router(std::vector<Route> routes) : routes_(std::move(routes)) {}
 
-  /// Admits or answers a request of which only the head has been read, and sets
-  /// request.route and request.parameters. Requires: `request` outlives the exchange.
-  Admission Begin(HttpRequest& request) const;
+  /// The route of a request of which only the head has been read, nullptr if it has none; sets
+  /// request.route and request.parameters.
+  const Route* Find(HttpRequest& request) const;
 
-  /// What Begin and the exchange may wait for. Nothing where there is no route.
-  [[nodiscard]] WaitsFor WaitOf(const HttpRequest& request) const;
+  /// Admits or answers the request. route: as Find gives it. Requires: `request` outlives the
+  /// exchange.
+  Admission Begin(const Route* route, const HttpRequest& request) const;
 
   [[nodiscard]] const std::vector<Route>& routes() const { return routes_; }
 
  private:
-  /// The route of the request, and in `values` what stands for the pattern's variables.
-  [[nodiscard]] const Route* Find(const HttpRequest& request,
-                                  std::vector<std::string>& values) const;
   [[nodiscard]] std::vector<std::string> MethodsAt(const std::string& path) const;
 
   std::vector<Route> routes_;

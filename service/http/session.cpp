@@ -167,14 +167,16 @@ asio::awaitable<HttpResponse> Session::MakeResponse(HttpRequest& request, bool& 
   if (const auto problem = CheckAccess(request, *context_.access)) {
     co_return ProblemResponse(request, *problem);
   }
-  const WaitsFor waits_for = context_.router.WaitOf(request);
+  const Route* route = context_.router.Find(request);
+  const WaitsFor waits_for = route == nullptr ? WaitsFor::kNothing : route->waits_for;
   if (context_.surplus && waits_for != WaitsFor::kNothing) {
     co_return ProblemResponse(
         request, {"too-many-connections", "there are too many connections; try again soon"});
   }
   // What decides on a request looks into the store and makes a file, but waits for no process.
   const WaitsFor begin_waits = std::min(waits_for, WaitsFor::kStore);
-  Admission admission = co_await RunOn(begin_waits, [&] { return context_.router.Begin(request); });
+  Admission admission =
+      co_await RunOn(begin_waits, [&] { return context_.router.Begin(route, request); });
   if (HttpResponse* early = std::get_if<HttpResponse>(&admission)) co_return std::move(*early);
   // The exchange, and with it the spooled body, is gone before the client has the response.
   Exchange& exchange = *std::get<std::unique_ptr<Exchange>>(admission);

@@ -42,7 +42,7 @@ class HandlersTest : public testing::Test {
     if (request.path.size() < target.size()) request.query = target.substr(request.path.size() + 1);
     request.headers = std::move(headers);
     if (!body.empty()) request.content_length = static_cast<std::int64_t>(body.size());
-    Admission admission = router_->Begin(request);
+    Admission admission = router_->Begin(router_->Find(request), request);
     if (const auto* answer = std::get_if<HttpResponse>(&admission)) return *answer;
     Exchange& exchange = *std::get<std::unique_ptr<Exchange>>(admission);
     if (!body.empty()) {
