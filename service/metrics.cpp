@@ -32,82 +32,57 @@ const Buckets& WorkBuckets() {
   return buckets;
 }
 
+// Families and metrics without labels, by name and help.
+template <typename Builder>
+auto& FamilyIn(prometheus::Registry& all, Builder builder, const char* name, const char* help) {
+  return builder.Name(name).Help(help).Register(all);
+}
+prometheus::Counter& CounterIn(prometheus::Registry& all, const char* name, const char* help) {
+  return FamilyIn(all, BuildCounter(), name, help).Add({});
+}
+prometheus::Gauge& GaugeIn(prometheus::Registry& all, const char* name, const char* help) {
+  return FamilyIn(all, BuildGauge(), name, help).Add({});
+}
+
 struct Registry {
   prometheus::Registry all;
-  prometheus::Family<prometheus::Counter>& requests = BuildCounter()
-                                                          .Name("farhorizon_http_requests_total")
-                                                          .Help("Requests that were answered")
-                                                          .Register(all);
+  prometheus::Family<prometheus::Counter>& requests = FamilyIn(
+      all, BuildCounter(), "farhorizon_http_requests_total", "Requests that were answered");
   prometheus::Family<prometheus::Histogram>& request_seconds =
-      BuildHistogram()
-          .Name("farhorizon_http_request_duration_seconds")
-          .Help("From a request's head to the end of its response")
-          .Register(all);
-  prometheus::Counter& uploaded = BuildCounter()
-                                      .Name("farhorizon_upload_bytes_total")
-                                      .Help("Bytes of the bodies of submissions")
-                                      .Register(all)
-                                      .Add({});
-  prometheus::Histogram& waits = BuildHistogram()
-                                     .Name("farhorizon_job_queue_wait_seconds")
-                                     .Help("From a job's acceptance to the start of a run")
-                                     .Register(all)
-                                     .Add({}, WorkBuckets());
-  prometheus::Family<prometheus::Counter>& ends = BuildCounter()
-                                                      .Name("farhorizon_jobs_finished_total")
-                                                      .Help("Jobs that ended, by outcome and code")
-                                                      .Register(all);
-  prometheus::Family<prometheus::Histogram>& stages =
-      BuildHistogram()
-          .Name("farhorizon_job_stage_duration_seconds")
-          .Help("Stages of successful runs")
-          .Register(all);
-  prometheus::Family<prometheus::Counter>& exits = BuildCounter()
-                                                       .Name("farhorizon_worker_exits_total")
-                                                       .Help("Worker processes that ended")
-                                                       .Register(all);
-  prometheus::Counter& corrupt = BuildCounter()
-                                     .Name("farhorizon_results_corrupt_total")
-                                     .Help("Artifacts that were not what had been stored")
-                                     .Register(all)
-                                     .Add({});
+      FamilyIn(all, BuildHistogram(), "farhorizon_http_request_duration_seconds",
+               "From a request's head to the end of its response");
+  prometheus::Counter& uploaded =
+      CounterIn(all, "farhorizon_upload_bytes_total", "Bytes of the bodies of submissions");
+  prometheus::Histogram& waits =
+      FamilyIn(all, BuildHistogram(), "farhorizon_job_queue_wait_seconds",
+               "From a job's acceptance to the start of a run")
+          .Add({}, WorkBuckets());
+  prometheus::Family<prometheus::Counter>& ends =
+      FamilyIn(all, BuildCounter(), "farhorizon_jobs_finished_total",
+               "Jobs that ended, by outcome and code");
+  prometheus::Family<prometheus::Histogram>& stages = FamilyIn(
+      all, BuildHistogram(), "farhorizon_job_stage_duration_seconds", "Stages of successful runs");
+  prometheus::Family<prometheus::Counter>& exits =
+      FamilyIn(all, BuildCounter(), "farhorizon_worker_exits_total", "Worker processes that ended");
+  prometheus::Counter& corrupt = CounterIn(all, "farhorizon_results_corrupt_total",
+                                           "Artifacts that were not what had been stored");
   prometheus::Family<prometheus::Gauge>& jobs =
-      BuildGauge().Name("farhorizon_jobs").Help("Jobs that have not ended, by state").Register(all);
-  prometheus::Gauge& free_bytes = BuildGauge()
-                                      .Name("farhorizon_storage_free_bytes")
-                                      .Help("Room on the disk of the data folder")
-                                      .Register(all)
-                                      .Add({});
-  prometheus::Counter& dropped = BuildCounter()
-                                     .Name("farhorizon_log_lines_dropped_total")
-                                     .Help("Lines of the log that nobody read")
-                                     .Register(all)
-                                     .Add({});
-  prometheus::Gauge& ready =
-      BuildGauge().Name("farhorizon_ready").Help("1 if /readyz answers 200").Register(all).Add({});
-  prometheus::Counter& cpu = BuildCounter()
-                                 .Name("process_cpu_seconds_total")
-                                 .Help("Processor time of the service without its workers")
-                                 .Register(all)
-                                 .Add({});
-  prometheus::Gauge& resident = BuildGauge()
-                                    .Name("process_resident_memory_bytes")
-                                    .Help("Resident memory of the service without its workers")
-                                    .Register(all)
-                                    .Add({});
-  prometheus::Gauge& files =
-      BuildGauge().Name("process_open_fds").Help("Open descriptors").Register(all).Add({});
-  prometheus::Gauge& most_files =
-      BuildGauge().Name("process_max_fds").Help("Most open descriptors").Register(all).Add({});
-  prometheus::Gauge& start = BuildGauge()
-                                 .Name("process_start_time_seconds")
-                                 .Help("Start of the process, seconds since 1970")
-                                 .Register(all)
-                                 .Add({});
-  prometheus::Family<prometheus::Gauge>& build = BuildGauge()
-                                                     .Name("farhorizon_build_info")
-                                                     .Help("Always 1; the version is in the label")
-                                                     .Register(all);
+      FamilyIn(all, BuildGauge(), "farhorizon_jobs", "Jobs that have not ended, by state");
+  prometheus::Gauge& free_bytes =
+      GaugeIn(all, "farhorizon_storage_free_bytes", "Room on the disk of the data folder");
+  prometheus::Counter& dropped =
+      CounterIn(all, "farhorizon_log_lines_dropped_total", "Lines of the log that nobody read");
+  prometheus::Gauge& ready = GaugeIn(all, "farhorizon_ready", "1 if /readyz answers 200");
+  prometheus::Counter& cpu = CounterIn(all, "process_cpu_seconds_total",
+                                       "Processor time of the service without its workers");
+  prometheus::Gauge& resident = GaugeIn(all, "process_resident_memory_bytes",
+                                        "Resident memory of the service without its workers");
+  prometheus::Gauge& files = GaugeIn(all, "process_open_fds", "Open descriptors");
+  prometheus::Gauge& most_files = GaugeIn(all, "process_max_fds", "Most open descriptors");
+  prometheus::Gauge& start =
+      GaugeIn(all, "process_start_time_seconds", "Start of the process, seconds since 1970");
+  prometheus::Family<prometheus::Gauge>& build =
+      FamilyIn(all, BuildGauge(), "farhorizon_build_info", "Always 1; the version is in the label");
 };
 
 Registry& Registered() {
