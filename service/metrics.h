@@ -21,7 +21,7 @@ void CountJobStart(std::chrono::duration<double> waited);
 void CountJobEnd(const std::string& outcome, const std::string& code);
 /// Seconds by stage of a successful run.
 void CountStages(const std::map<std::string, double>& seconds);
-/// The end of a worker process. reason: "done", or the kind of its error.
+/// The end of a worker process. reason: "done", "stopped", or the kind of its error.
 void CountWorkerEnd(const std::string& reason);
 /// An artifact that is not the one that was stored.
 void CountCorruptResult();

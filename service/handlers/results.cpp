@@ -11,6 +11,7 @@
 #include "service/handlers/json.h"
 #include "service/handlers/problem.h"
 #include "service/log.h"
+#include "service/metrics.h"
 
 namespace farhorizon {
 
@@ -76,6 +77,7 @@ class ArtifactSource : public BodySource {
   Result<std::string_view> Read(std::int64_t offset, std::int64_t most) override {
     Result<std::string_view> bytes = object_->Read(offset, most);
     if (!bytes) {
+      CountCorruptResult();
       Log(LogLevel::kError, "artifact damaged while it was sent",
           {{"error", bytes.error().message}});
     }

@@ -14,6 +14,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "service/metrics.h"
 #include "service/worker/worker_protocol.h"
 
 namespace farhorizon {
@@ -162,9 +163,7 @@ WorkerOutcome OutcomeOfExit(int status, const std::optional<WorkerMessage>& fina
                      "; the fault is ours, the DEM that shows it is worth a report");
 }
 
-}  // namespace
-
-WorkerOutcome RunWorker(const WorkerCall& call, const RunControl& control) {
+WorkerOutcome Supervise(const WorkerCall& call, const RunControl& control) {
   const UniqueFd stop_event(::eventfd(0, EFD_CLOEXEC));
   const std::stop_callback wake(control.stop,
                                 [&stop_event] { ::eventfd_write(stop_event.get(), 1); });
@@ -201,6 +200,17 @@ WorkerOutcome RunWorker(const WorkerCall& call, const RunControl& control) {
       break;
   }
   outcome.stderr_tail = StderrTail(call.directory);
+  return outcome;
+}
+
+}  // namespace
+
+WorkerOutcome RunWorker(const WorkerCall& call, const RunControl& control) {
+  WorkerOutcome outcome = Supervise(call, control);
+  const char* ended = outcome.end == WorkerEnd::kDone      ? "done"
+                      : outcome.end == WorkerEnd::kStopped ? "stopped"
+                                                           : nullptr;
+  CountWorkerEnd(ended != nullptr ? ended : std::string(outcome.error.kind));
   return outcome;
 }
 
