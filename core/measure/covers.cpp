@@ -1,3 +1,6 @@
+// In the plane, over the posts: triangles that all turn one way, whose areas add up to the domain's
+// and whose outline is the domain's, cover it once. Areas are whole numbers there, and their sum is
+// exact; the displaced vertices themselves need only turn the same way.
 #include "core/measure/covers.h"
 
 #include <algorithm>

@@ -1,3 +1,6 @@
+// A format is told by the bytes that its specification begins with, before GDAL sees the file, so
+// that no driver is tried on what is not meant for it. Formats without such bytes come last: SRTM
+// HGT by its name and size, USGS DEM by two fields of its header, points by their first lines.
 #include "core/io/file_kind/file_kind.h"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// A word is a cell; how cells stand in lines is looked at beside (grid_lines.h). The place of a
+// word is kept for its error, whose remedy is a command for just what stands there.
 #include "core/io/text_grid/body_cells.h"
 
 #include <algorithm>

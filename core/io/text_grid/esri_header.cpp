@@ -1,3 +1,5 @@
+// GDAL reads such a header leniently and without a word: what would be guessed from what is missing
+// or misspelt is refused here, key by key, before it opens the raster.
 #include "core/io/text_grid/esri_header.h"
 
 #include <algorithm>

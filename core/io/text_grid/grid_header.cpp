@@ -1,3 +1,5 @@
+// Keys are compared in lower case, and kept with the place of their value, which errors name. A key
+// that stands twice is harmless where both say the same.
 #include "core/io/text_grid/grid_header.h"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// Corner and centre, cellsize and dx, dy are two ways to say one thing. A header that uses both
+// must mean the same by both: none of them is preferred in silence.
 #include "core/io/text_grid/grid_place.h"
 
 #include <cmath>

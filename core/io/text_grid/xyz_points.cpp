@@ -1,3 +1,5 @@
+// Lists of points have no standard: what parts the fields and whether the first line has names is
+// found from that line, and every later one must follow it.
 #include "core/io/text_grid/xyz_points.h"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// GDAL 3.6 hands out samples as unsigned integers where their type is none of its own. So what the
+// file itself says is read beside it: the tags of a TIFF, or the word PIXELTYPE of other formats.
 #include "core/io/dem/values/sample_type.h"
 
 #include <algorithm>
