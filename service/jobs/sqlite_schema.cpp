@@ -71,7 +71,12 @@ CREATE TABLE store (
 ) STRICT;
 INSERT INTO store (one, id) VALUES (1, lower(hex(randomblob(16))));
 )";
-constexpr std::array kVersions = {kVersion1, kVersion2, kVersion3};
+constexpr const char* kVersion4 = R"(
+ALTER TABLE artifacts ADD COLUMN gzip_sha256 TEXT;
+ALTER TABLE artifacts ADD COLUMN gzip_bytes INTEGER;
+CREATE INDEX artifacts_by_gzip ON artifacts (gzip_sha256) WHERE gzip_sha256 IS NOT NULL;
+)";
+constexpr std::array kVersions = {kVersion1, kVersion2, kVersion3, kVersion4};
 
 void Migrate(Database& database) {
   Transaction transaction(database);
