@@ -56,7 +56,7 @@ def descriptors(folder: str, verdict: Verdict) -> None:
 
 def frozen_worker(folder: str, verdict: Verdict) -> None:
     with Service(folder, workers=1) as service:
-        job = service.submit(small_dem(1, 600, 500))[1]["jobID"]
+        job = service.submit(small_dem(1, 240, 200))[1]["jobID"]
         pid = worker_of(service, job)
         if not verdict.ask("the worker of a job is found", pid):
             return
@@ -67,13 +67,13 @@ def frozen_worker(folder: str, verdict: Verdict) -> None:
         verdict.ask("a stopped worker is noticed within 20 s", time.monotonic() - begun < 20,
                     f"{time.monotonic() - begun:.1f} s")
         info = service.wait(job, 180)
-        verdict.ask("and its job runs again", info["status"] == "successful", (info["status"], info.get("attempt")))
+        verdict.ask("and its job runs again", info["status"] == "successful", (info["status"], info.get("attempt"), info.get("exception")))
 
 
 def drain(folder: str, verdict: Verdict) -> None:
     service = Service(folder, workers=1)
     service.start()
-    job = service.submit(small_dem(1, 600, 500))[1]["jobID"]
+    job = service.submit(small_dem(1, 240, 200))[1]["jobID"]
     worker_of(service, job)
     took = service.stop(30)
     verdict.ask("SIGTERM beside a long job: exit 0 within 10 s", took < 10 and service.process.returncode == 0,
@@ -81,7 +81,7 @@ def drain(folder: str, verdict: Verdict) -> None:
     service.start()
     info = service.wait(job, 180)
     verdict.ask("the job that was cut off is done, at its first attempt",
-                info["status"] == "successful" and info["attempt"] == 1, (info["status"], info.get("attempt")))
+                info["status"] == "successful" and info["attempt"] == 1, (info["status"], info.get("attempt"), info.get("exception")))
     service.stop()
 
 
