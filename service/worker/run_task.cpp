@@ -86,6 +86,7 @@ Status Probe(const WorkerTask& task, const BuildOptions& options, const RunContr
   Result<std::unique_ptr<TerrainInput>> input =
       TerrainInput::Open(task.input, options, control, kMostProbedPosts);
   if (!input) return std::move(input.error());
+  Send(WorkerSize{(*input)->posts()});
   if ((*input)->HeaderOnly()) return Ok{};
   Result<LevelPlan> plan = PlanLevels(**input, options);
   if (!plan) return std::move(plan.error());

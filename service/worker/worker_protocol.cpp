@@ -67,6 +67,13 @@ std::optional<WorkerMessage> ReadAssumption(const json& assumption) {
   return read;
 }
 
+// The posts of a raster of at most 2^31 - 1 columns and rows.
+std::optional<WorkerMessage> ReadSize(const json& posts) {
+  constexpr std::int64_t kMost = std::int64_t{1} << 62U;
+  if (!posts.is_number_integer() || posts < 1 || posts > kMost) return std::nullopt;
+  return WorkerSize{posts.get<std::int64_t>()};
+}
+
 std::optional<WorkerMessage> ReadDone(const json& timings) {
   if (!timings.is_object()) return std::nullopt;
   WorkerDone done;
@@ -118,6 +125,7 @@ Result<WorkerTask> ReadTaskFile() {
 
 std::string WriteMessage(const WorkerMessage& message) {
   if (std::holds_alternative<WorkerBeat>(message)) return Line({{"beat", true}});
+  if (const auto* size = std::get_if<WorkerSize>(&message)) return Line({{"posts", size->posts}});
   if (const auto* progress = std::get_if<WorkerProgress>(&message)) {
     return Line({{"stage", StageName(progress->stage)}, {"done", progress->done}});
   }
@@ -145,6 +153,7 @@ std::optional<WorkerMessage> ReadMessage(std::string_view line) {
     return ReadAssumption(*what);
   }
   if (object.contains("beat")) return WorkerBeat{};
+  if (const auto posts = object.find("posts"); posts != object.end()) return ReadSize(*posts);
   const auto done = object.find("done");
   if (done == object.end() || !done->is_number()) return std::nullopt;
   const double share = done->get<double>();

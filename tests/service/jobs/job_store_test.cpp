@@ -39,7 +39,7 @@ class JobStoreConformance : public testing::TestWithParam<OpenJobs> {
   }
   void Succeed(const Job& job) { EXPECT_TRUE(*store_->Publish(job.id, job.run, {}, {}, ++time_)); }
   Job Claim() {
-    auto claimed = store_->ClaimNext(++time_);
+    auto claimed = store_->ClaimNext(++time_, {});
     EXPECT_TRUE(claimed && *claimed);
     return **claimed;
   }
@@ -66,7 +66,7 @@ TEST_P(JobStoreConformance, HandsOutEachJobOnceOldestFirst) {
   const Job second = Insert();
   EXPECT_EQ(Claim().id, first.id);
   EXPECT_EQ(Claim().id, second.id);
-  const auto none = store_->ClaimNext(++time_);
+  const auto none = store_->ClaimNext(++time_, {});
   ASSERT_TRUE(none);
   EXPECT_FALSE(*none);
 }
@@ -79,7 +79,7 @@ TEST_P(JobStoreConformance, HandsOutEachJobOnceToManyThreads) {
   for (int i = 0; i < 4; ++i) {
     threads.emplace_back([&] {
       for (;;) {
-        auto job = store_->ClaimNext(time_);
+        auto job = store_->ClaimNext(time_, {});
         if (!job || !*job) return;
         ++claimed;
       }
@@ -366,7 +366,7 @@ TEST_P(JobStoreConformance, AFaultOfTheMachinePutsAJobOffAndSpendsNothing) {
   const Job job = Claim();
   ASSERT_TRUE(*store_->Postpone(job.id, job.run, 5000, ++time_));
   EXPECT_EQ(StateOf(job), JobState::kAccepted);
-  const auto none = store_->ClaimNext(time_ + 4999);
+  const auto none = store_->ClaimNext(time_ + 4999, {});
   ASSERT_TRUE(none);
   EXPECT_FALSE(*none) << "not yet";
   time_ += 5000;
@@ -409,7 +409,7 @@ TEST_P(JobStoreConformance, WhatRanInACrashRunsAloneUntilItIsKnownWhichDidIt) {
   ASSERT_EQ(*store_->RecoverRunning(PreviousEnd::kCrashed, ++time_), 2);
   const Job alone = Claim();
   EXPECT_EQ(alone.id, innocent.id);
-  const auto beside = store_->ClaimNext(++time_);
+  const auto beside = store_->ClaimNext(++time_, {});
   ASSERT_TRUE(beside);
   EXPECT_FALSE(*beside);
   Succeed(alone);
@@ -440,7 +440,7 @@ TEST_P(JobStoreConformance, AJobThatMustRunAloneLetsOthersPassForAWhile) {
   EXPECT_EQ(Claim().id, passing.id);
   InsertOf("third");
   time_ += 600'000;
-  const auto none = store_->ClaimNext(time_);
+  const auto none = store_->ClaimNext(time_, {});
   ASSERT_TRUE(none);
   EXPECT_FALSE(*none) << "its patience is at an end";
   ASSERT_TRUE(*store_->Publish(running.id, 1, {}, {}, ++time_));
@@ -551,7 +551,7 @@ TEST(SqliteJobStore, ADamagedRowHidesNoOtherAndDoesNotRun) {
   store = OpenSqliteJobStore(path);
   ASSERT_TRUE(store);
   EXPECT_EQ((*store)->List({{}, {}, 10})->jobs.size(), 2U);
-  const auto claimed = (*store)->ClaimNext(2);
+  const auto claimed = (*store)->ClaimNext(2, {});
   ASSERT_TRUE(claimed && *claimed);
   ASSERT_TRUE((*claimed)->failure) << "its parameters are lost: it must not run with others";
   EXPECT_EQ((*claimed)->failure->kind, "job-store");

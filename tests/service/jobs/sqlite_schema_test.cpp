@@ -101,7 +101,7 @@ TEST_P(SchemaTest, GoesOnWhereAnEarlierVersionStopped) {
   auto store = OpenSqliteJobStore(path_);
   ASSERT_TRUE(store);
   EXPECT_EQ(*(*store)->RecoverRunning(PreviousEnd::kKilled, 5000), 1);
-  const auto next = (*store)->ClaimNext(5001);
+  const auto next = (*store)->ClaimNext(5001, {});
   ASSERT_TRUE(next && *next);
   EXPECT_EQ((*next)->id, Id(3));
   EXPECT_EQ((*next)->run, 4) << "an earlier version counted runs as attempts";
