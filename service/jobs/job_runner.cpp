@@ -180,7 +180,8 @@ Status JobRunner::Publish(const Job& job, const WorkerOutcome& outcome, const fs
       const std::int64_t took = NowMs() - job.started_ms.value_or(job.created_ms);
       CountJobEnd("successful", "");
       CountStages(outcome.timings);
-      Log(LogLevel::kInfo, "job successful", {{"job_id", job.id}, {"dur_ms", took}});
+      Log(LogLevel::kInfo, "job successful",
+          {{"job_id", job.id}, {"dur_ms", took}, {"peak_bytes", outcome.peak_bytes}});
       return Ok{};
     }
   }

@@ -69,10 +69,10 @@ struct OpenArtifact {
 /// Threads: safe.
 class JobService {
  public:
-  /// Shares out the memory, opens the data directory, makes jobs of an earlier process accepted again, and starts the
-  /// engine.
-  /// Errors: kIo, kInvalidArgument "invalid-config" where there is too little memory for a job; each
-  ///   with the remedy.
+  /// Shares out the memory, opens the data directory, makes jobs of an earlier process accepted
+  /// again, and starts the engine.
+  /// Errors: kIo, kInvalidArgument "invalid-config" where there is too little memory for a job;
+  ///   each with the remedy.
   static Result<std::unique_ptr<JobService>> Open(JobServiceOptions options);
   ~JobService();
 

@@ -1,7 +1,7 @@
 // The embedded job store: calls that write under one mutex, those that answer clients beside it.
-// The statements of the queue are in sqlite_queue.h and sqlite_claim.h, of running jobs in sqlite_runs.h, those that
-// remove jobs in sqlite_removal.h, the rows in sqlite_rows.h, the tables in sqlite_schema.h;
-// sqlite.h has the wrapper of SQLite.
+// The statements of the queue are in sqlite_queue.h and sqlite_claim.h, of running jobs in
+// sqlite_runs.h, those that remove jobs in sqlite_removal.h, the rows in sqlite_rows.h, the tables
+// in sqlite_schema.h; sqlite.h has the wrapper of SQLite.
 #include "service/jobs/sqlite_job_store.h"
 
 #include <algorithm>

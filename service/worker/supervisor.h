@@ -27,6 +27,7 @@ struct WorkerOutcome {
   /// "worker-stuck", "memory-limit", "file-limit" or "timeout".
   Error error = {ErrorCode::kIo, "", ""};
   std::map<std::string, double> timings;
+  std::int64_t peak_bytes = 0;  ///< resident memory at its peak, as a worker that is done says
   std::optional<std::int64_t> posts;  ///< of the DEM, where the worker has said so
   std::string stderr_tail = {};       ///< the end of the worker's standard error, for the log
 };

@@ -74,9 +74,12 @@ std::optional<WorkerMessage> ReadSize(const json& posts) {
   return WorkerSize{posts.get<std::int64_t>()};
 }
 
-std::optional<WorkerMessage> ReadDone(const json& timings) {
-  if (!timings.is_object()) return std::nullopt;
+std::optional<WorkerMessage> ReadDone(const json& object) {
+  const json& timings = object["timings"];
+  const json peak = object.value("peakBytes", json(0U));
+  if (!timings.is_object() || !peak.is_number_unsigned()) return std::nullopt;
   WorkerDone done;
+  done.peak_bytes = peak.get<std::int64_t>();
   for (const auto& [stage, seconds] : timings.items()) {
     if (!seconds.is_number() || !StageFromName(stage)) return std::nullopt;
     done.timings[stage] = seconds.get<double>();
@@ -130,7 +133,7 @@ std::string WriteMessage(const WorkerMessage& message) {
     return Line({{"stage", StageName(progress->stage)}, {"done", progress->done}});
   }
   if (const auto* done = std::get_if<WorkerDone>(&message)) {
-    return Line({{"timings", done->timings}});
+    return Line({{"timings", done->timings}, {"peakBytes", done->peak_bytes}});
   }
   if (const auto* assumption = std::get_if<Assumption>(&message)) {
     return Line(
@@ -148,7 +151,7 @@ std::optional<WorkerMessage> ReadMessage(std::string_view line) {
   const json object = json::parse(line, shallow, false);
   if (!object.is_object()) return std::nullopt;
   if (const auto error = object.find("error"); error != object.end()) return ReadError(*error);
-  if (const auto times = object.find("timings"); times != object.end()) return ReadDone(*times);
+  if (object.contains("timings")) return ReadDone(object);
   if (const auto what = object.find("assumption"); what != object.end()) {
     return ReadAssumption(*what);
   }

@@ -16,9 +16,9 @@ namespace {
 // As many threads as a worker may have, and then some: its programs start no process.
 constexpr std::int64_t kMostThreads = 2048;
 
-// Address space that is not memory: the program, its libraries and the database of reference systems
-// take 180 MiB of it, and each thread's heap reserves 128 MiB before it has a byte. It bounds what
-// the limit of private memory does not count: mappings of files and what processes share.
+// Address space that is not memory: the program, its libraries and the database of reference
+// systems take 180 MiB of it, and each thread's heap reserves 128 MiB before it has a byte. This
+// bounds what the limit of private memory does not count: mappings of files, shared mappings.
 constexpr std::int64_t kUnbackedBytes = std::int64_t{1} << 30U;
 
 #if defined(__SANITIZE_ADDRESS__)

@@ -5,6 +5,7 @@
 #include <thread>
 #include <vector>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "service/jobs/sqlite.h"
@@ -448,6 +449,122 @@ TEST_P(JobStoreConformance, AJobThatMustRunAloneLetsOthersPassForAWhile) {
   EXPECT_EQ(Claim().id, suspect.id);
 }
 
+class Choice : public JobStoreConformance {
+ protected:
+  std::string With(const JobTerms& terms, const std::string& client = "") {
+    auto job =
+        store_->Insert({"a", {}, std::string(64, 'a'), 5, {}, {}, client, terms, {}}, {}, ++time_);
+    EXPECT_TRUE(job);
+    return job->id;
+  }
+  std::string Costing(std::int64_t memory_bytes, const std::string& client = "") {
+    auto job = store_->Insert(
+        {"a", {}, std::string(64, 'a'), 5, {}, {}, client, {}, {memory_bytes, 1}}, {}, ++time_);
+    EXPECT_TRUE(job);
+    return job->id;
+  }
+  // The id of the job that starts where so much memory is free; "" for none.
+  std::string Next(std::int64_t free_bytes = 100) {
+    auto job = store_->ClaimNext(++time_, {free_bytes, 100});
+    EXPECT_TRUE(job);
+    return *job ? (*job)->id : "";
+  }
+  void End(const std::string& id) { EXPECT_TRUE(*store_->Publish(id, 1, {}, {}, ++time_)); }
+};
+
+TEST_P(Choice, TakesTheHighestPriorityAndThereTheFairShare) {
+  const std::string low = With({Priority::kLow}, "a");
+  const std::string normal = With({}, "a");
+  const std::string high = With({Priority::kHigh}, "a");
+  const std::string high_too = With({Priority::kHigh}, "a");
+  const std::string of_another = With({Priority::kHigh}, "b");
+  EXPECT_EQ(Next(), high);
+  EXPECT_EQ(Next(), of_another) << "the other client has none that runs";
+  EXPECT_EQ(Next(), high_too);
+  // Every fourth start goes by share and age alone.
+  EXPECT_EQ(Next(), low);
+  EXPECT_EQ(Next(), normal);
+}
+
+TEST_P(Choice, NoPriorityKeepsAJobWaitingForEver) {
+  const std::string low = With({Priority::kLow});
+  int starts = 0;
+  for (std::string next; next != low; ++starts) {
+    for (int i = 0; i < 3; ++i) With({Priority::kHigh}, "client " + std::to_string(i));
+    next = Next();
+    End(next);
+    ASSERT_LT(starts, 40);
+  }
+}
+
+TEST_P(Choice, TakesWhatThereIsMemoryForAndWaitsForTheLargeOneInTheEnd) {
+  const std::string running = Costing(50);
+  EXPECT_EQ(Next(), running);
+  const std::string large = Costing(80);
+  const std::string small = Costing(10);
+  EXPECT_EQ(Next(50), small) << "it fits beside the one that runs";
+  time_ += 600'000;
+  const std::string later = Costing(10);
+  EXPECT_EQ(Next(40), "") << "the large one has waited for long enough";
+  End(running);
+  EXPECT_EQ(Next(90), large);
+  EXPECT_EQ(Next(10), later);
+}
+
+TEST_P(Choice, AJobOfUnknownCostTakesAsMuchAsOneMayHave) {
+  const std::string unknown = Costing(0);
+  EXPECT_EQ(Next(99), "");
+  EXPECT_EQ(Next(100), unknown);
+  const std::string larger = Costing(1000);  // accepted under another configuration
+  EXPECT_EQ(Next(99), "");
+  EXPECT_EQ(Next(100), larger);
+}
+
+TEST_P(Choice, MoreMemoryThanExpectedIsAskedForAgain) {
+  const std::string id = Costing(10);
+  ASSERT_EQ(Next(), id);
+  ASSERT_TRUE(*store_->RequeueWithMemory(id, 1, 40, ++time_));
+  EXPECT_FALSE(*store_->RequeueWithMemory(id, 1, 80, ++time_)) << "no longer its run";
+  EXPECT_EQ(store_->Find(id)->cost.memory_bytes, 40);
+  EXPECT_EQ(Next(39), "");
+  EXPECT_EQ(Next(40), id);
+  EXPECT_EQ(store_->Find(id)->crash_count, 0);
+}
+
+TEST_P(Choice, AJobThatWaitsPastItsDeadlineFailsWithoutARun) {
+  const std::string late = With({Priority::kNormal, 5, 0});
+  const std::string patient = With({Priority::kNormal, 600, 7});
+  EXPECT_THAT(*store_->FailOverdue(++time_), testing::IsEmpty());
+  time_ += 5000;
+  EXPECT_EQ(Next(), patient) << "what is too late does not start";
+  EXPECT_EQ(store_->Find(patient)->timeout_seconds, 7);
+  EXPECT_THAT(*store_->FailOverdue(++time_), testing::ElementsAre(late));
+  EXPECT_THAT(*store_->FailOverdue(++time_), testing::IsEmpty());
+  const Job ended = *store_->Find(late);
+  EXPECT_EQ(ended.state, JobState::kFailed);
+  ASSERT_TRUE(ended.failure);
+  EXPECT_EQ(ended.failure->kind, "timeout");
+  EXPECT_THAT(ended.failure->message, testing::HasSubstr("the 5 seconds of its deadline"));
+  EXPECT_EQ(ended.failure->message, ended.message);
+  EXPECT_EQ(ended.run, 0);
+  EXPECT_FALSE(ended.started_ms);
+  time_ += 600'000;
+  EXPECT_THAT(*store_->FailOverdue(++time_), testing::IsEmpty()) << "it runs";
+}
+
+TEST_P(Choice, AKeyWithOtherTermsIsAnotherSubmission) {
+  NewJob job{"a", {}, std::string(64, 'a'), 5, "k"};
+  job.terms = {Priority::kHigh, 60, 9};
+  const auto first = store_->Insert(job, {}, ++time_);
+  ASSERT_TRUE(first);
+  EXPECT_EQ(store_->Insert(job, {}, ++time_)->id, first->id);
+  for (const JobTerms& other : {JobTerms{Priority::kLow, 60, 9}, JobTerms{Priority::kHigh, 61, 9},
+                                JobTerms{Priority::kHigh, 60, 8}}) {
+    job.terms = other;
+    EXPECT_EQ(store_->Insert(job, {}, ++time_).error().kind, "idempotency-key-reused");
+  }
+}
+
 class Expiry : public JobStoreConformance {
  protected:
   std::string Done(std::int64_t bytes) {
@@ -502,6 +619,9 @@ TEST_P(Expiry, IsByBytesOldestFirst) {
 
 INSTANTIATE_TEST_SUITE_P(Sqlite, JobStoreConformance,
                          testing::Values([](const std::filesystem::path& folder) {
+                           return OpenSqliteJobStore(folder / "jobs.sqlite");
+                         }));
+INSTANTIATE_TEST_SUITE_P(Sqlite, Choice, testing::Values([](const std::filesystem::path& folder) {
                            return OpenSqliteJobStore(folder / "jobs.sqlite");
                          }));
 INSTANTIATE_TEST_SUITE_P(Sqlite, Expiry, testing::Values([](const std::filesystem::path& folder) {

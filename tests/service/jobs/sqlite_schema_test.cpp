@@ -46,6 +46,22 @@ constexpr const char* kVersion2 = R"(
 ALTER TABLE jobs ADD COLUMN assumptions TEXT NOT NULL DEFAULT '[]';
 PRAGMA user_version = 2;
 )";
+constexpr const char* kVersion3 = R"(
+ALTER TABLE jobs ADD COLUMN client TEXT NOT NULL DEFAULT '';
+ALTER TABLE jobs ADD COLUMN run INTEGER NOT NULL DEFAULT 0;
+ALTER TABLE jobs ADD COLUMN retries INTEGER NOT NULL DEFAULT 0;
+ALTER TABLE jobs ADD COLUMN crashes INTEGER NOT NULL DEFAULT 0;
+ALTER TABLE jobs ADD COLUMN not_before_ms INTEGER NOT NULL DEFAULT 0;
+CREATE INDEX jobs_by_client ON jobs (state, client, id);
+CREATE INDEX jobs_by_end ON jobs (finished_ms, id) WHERE finished_ms IS NOT NULL;
+CREATE TABLE garbage (sha256 TEXT PRIMARY KEY) STRICT, WITHOUT ROWID;
+CREATE TABLE store (
+  one INTEGER PRIMARY KEY CHECK (one = 1), id TEXT NOT NULL,
+  generation INTEGER NOT NULL DEFAULT 0, pings INTEGER NOT NULL DEFAULT 0
+) STRICT;
+INSERT INTO store (one, id) VALUES (1, lower(hex(randomblob(16))));
+PRAGMA user_version = 3;
+)";
 // One job in each state, with attempts behind it. The running one was cut off.
 constexpr const char* kRows = R"(
 INSERT INTO jobs (id, state, filename, parameters, input_sha256, input_bytes, progress, created_ms,
@@ -73,7 +89,9 @@ class SchemaTest : public testing::TestWithParam<int> {
     database.Open(path_);
     database.Execute(kVersion1);
     if (GetParam() > 1) database.Execute(kVersion2);
+    if (GetParam() > 2) database.Execute(kVersion3);
     database.Execute(kRows);
+    if (GetParam() > 2) database.Execute("UPDATE jobs SET run = attempt");
   }
   TempDir folder_;
   const std::filesystem::path path_ = folder_ / "jobs.sqlite";
@@ -89,6 +107,9 @@ TEST_P(SchemaTest, BringsAFileOfAnEarlierVersionForward) {
     EXPECT_EQ(done->parameters, (Parameters{{"levels", "2"}}));
     EXPECT_EQ(done->attempt, 1);
     EXPECT_TRUE(done->assumptions.empty());
+    EXPECT_EQ(done->priority, Priority::kNormal);
+    EXPECT_FALSE(done->deadline_ms);
+    EXPECT_EQ(done->cost.memory_bytes, 0) << "nobody knows";
     EXPECT_EQ((*store)->Artifacts(Id(1))->at(0).sha256, "y");
     EXPECT_EQ((*store)->Find(Id(2))->failure->kind, "no-crs");
     EXPECT_EQ((*store)->List({{}, {}, 10})->jobs.size(), 4U);
@@ -110,7 +131,7 @@ TEST_P(SchemaTest, GoesOnWhereAnEarlierVersionStopped) {
   EXPECT_EQ((*store)->Insert(again, {}, 5003)->id, Id(4));
 }
 
-INSTANTIATE_TEST_SUITE_P(Versions, SchemaTest, testing::Values(1, 2));
+INSTANTIATE_TEST_SUITE_P(Versions, SchemaTest, testing::Values(1, 2, 3));
 
 }  // namespace
 }  // namespace farhorizon
