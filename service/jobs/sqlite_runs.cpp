@@ -65,7 +65,7 @@ bool RequeueRun(const Database& database, const RunAt& at, RequeueReason reason)
 
 bool RequeueWithMemory(const Database& database, const RunAt& at, std::int64_t memory_bytes) {
   Statement update(database, Setting("state = 'accepted', cost_memory_bytes = ?, "
-                                     "message = 'waiting to run again with more memory'"));
+                                     "message = 'waiting to run again'"));
   update.Bind(memory_bytes);
   return Change(update, at);
 }

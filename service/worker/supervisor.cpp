@@ -97,6 +97,7 @@ class FolderWatch {
     next_ = now + kLookInterval;
     return BytesIn(folder_, most_) <= most_;
   }
+  [[nodiscard]] Clock::time_point next() const { return next_; }
 
  private:
   static constexpr std::chrono::seconds kLookInterval{1};
@@ -118,7 +119,7 @@ WaitResult WaitForChild(const ChildProcess& child, MessageReader& reader, int st
     if (now >= heard + kLongestSilence) return WaitResult::kSilent;
     if (!watch.Fits()) return WaitResult::kFolderFull;
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(
-        std::min(deadline, heard + kLongestSilence) - now);
+        std::min({deadline, heard + kLongestSilence, watch.next()}) - now);
     std::array<struct pollfd, 3> waits = {{{open ? child.message_fd() : -1, POLLIN, 0},
                                            {child.pidfd(), POLLIN, 0},
                                            {stop_event, POLLIN, 0}}};
