@@ -1,21 +1,22 @@
-// Peaks of resident memory (VmHWM, MiB) of `build` on defaults, two threads:
+// Peaks of resident memory (VmHWM, MiB) of `build` on defaults with two threads:
 //
-//   posts            65²  129²  257²  513²  1000²  1201²  3600²
-//   flat              63    66    73    97    220
-//   fractal mountains 68    74    87   127
-//   White Mountains                                  281
-//   one degree, 1"                                          2450
-//   noise of 0 to 2   70    80   105   227
+//   posts               65²  129²  257²  513²  1000²  1201²  1400²  2000²  3600²
+//   flat                 63    66    73    97    220                  666
+//   fractal mountains    68    74    87   127    251           369    680
+//   one degree of 3"                                    281
+//   one degree of 1"                                                          2450
+//   noise of 0 to 2      70    80   105   227    722          1174
 //
 // Beside 64 MiB that any build takes, of which 42 are pages of the program, its libraries and the
-// database of reference systems, that is 250 bytes a post of mountains at 513², 160 at 1201² and
-// 190 at 3600², 130 to 160 of a plain, and 650 of noise, where every post is on the skyline of its
-// neighbours and each edge of it is kept. A thread adds 8 to 10 MiB, its stack and its own heap.
+// database of reference systems, that is 250 bytes a post of mountains at 513², 155 to 190 from
+// 1000² on, 130 to 160 of a plain, and 560 to 660 of noise, where every post is on the skyline of
+// its neighbours and each edge of it is kept. A thread adds 8 to 10 MiB, its stack and its heap.
 // Levels and formats change less than two MiB of 127 (12 levels instead of 5: 128), for they are
-// made one after the other of what is there already.
+// made one after the other of what is there already. White noise, at the end of its work budget,
+// took 205 MiB at 129².
 //
-// Processor time: 36 microseconds a post at 1201² and at 3600², 60 at 513² beside other work, 150
-// of noise. What stays undecided is decided up to three times by `approximate`.
+// Processor time: 36 microseconds a post from 1201² to 3600², 44 to 60 below, 160 of noise. What
+// stays undecided is decided up to three times by `approximate`.
 #include "core/pipeline/build_cost.h"
 
 #include <algorithm>

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <fcntl.h>
 #include <iterator>
+#include <limits>
 #include <optional>
 #include <poll.h>
 #include <signal.h>
@@ -87,8 +88,9 @@ bool ReadMessages(const ChildProcess& child, MessageReader& reader, bool& open) 
 // Watches the folder of a worker, which the limit of each file alone does not bound.
 class FolderWatch {
  public:
+  // most: beside what is there now.
   FolderWatch(const std::filesystem::path& folder, std::int64_t most)
-      : folder_(folder), most_(most) {}
+      : folder_(folder), most_(most + BytesIn(folder, std::numeric_limits<std::int64_t>::max())) {}
 
   // Looks once in kLookInterval; false where the folder has too much.
   bool Fits() {

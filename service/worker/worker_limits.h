@@ -14,7 +14,7 @@ struct WorkerLimits {
   std::int64_t wall_seconds = 3600;
   std::int64_t file_bytes = std::int64_t{1} << 33U;  ///< of each file it writes
   std::int64_t open_files = 128;
-  /// Of all files in its folder together. RunWorker looks every second.
+  /// Of all files that it adds to its folder. RunWorker looks every second.
   std::int64_t folder_bytes = std::int64_t{1} << 34U;
   /// What wall_seconds are, for who is told that they were not enough.
   const char* wall_bound = "what a job may take here";

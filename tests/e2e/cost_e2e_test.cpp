@@ -155,6 +155,9 @@ TEST_F(CostE2e, AWorkersFilesTogetherHaveALimit) {
   EXPECT_EQ(FailureOf(job), "file-limit");
   EXPECT_THAT(StatusOf(job).value("message", ""), HasSubstr("8 MiB"));
   EXPECT_EQ(LeftOver("work"), 0U);
+  const std::string blanks(9 << 20, ' ');
+  EXPECT_EQ(WaitForEnd(Accepted("filename=slow.asc", SmallGrid() + blanks)), "successful")
+      << "its input is no file of its own";
 }
 
 TEST_F(CostE2e, AProbeThatHangsEndsAtItsTimeAndOthersPassIt) {
