@@ -7,6 +7,7 @@
 
 #include "core/io/sha256.h"
 #include "service/handlers/byte_range.h"
+#include "service/handlers/content_coding.h"
 #include "service/handlers/jobs.h"
 #include "service/handlers/json.h"
 #include "service/handlers/problem.h"
@@ -89,16 +90,16 @@ class ArtifactSource : public BodySource {
 };
 
 HttpResponse SendArtifact(const HttpRequest& request, OpenArtifact open) {
-  const Artifact& artifact = open.artifact;
-  const std::string etag = "\"" + artifact.sha256 + "\"";
-  const Selection selection = SelectBytes(request, etag, artifact.bytes);
+  const StoredObject& stored = open.stored;
+  const std::string etag = "\"" + stored.sha256 + "\"";
+  const Selection selection = SelectBytes(request, etag, stored.bytes);
   HttpResponse response;
   response.status = selection.status;
   if (selection.status == 416) {
     response = ProblemResponse(
-        request, {"range-not-satisfiable", "the artifact has " + std::to_string(artifact.bytes) +
+        request, {"range-not-satisfiable", "the artifact has " + std::to_string(stored.bytes) +
                                                " bytes; the range starts after them"});
-    response.Set("Content-Range", "bytes */" + std::to_string(artifact.bytes));
+    response.Set("Content-Range", "bytes */" + std::to_string(stored.bytes));
     return response;
   }
   if (selection.status == 412) {
@@ -106,18 +107,20 @@ HttpResponse SendArtifact(const HttpRequest& request, OpenArtifact open) {
         request, {"precondition-failed", "the artifact is not the one that If-Match names"});
   }
   response.Set("ETag", etag);
+  response.Set("Vary", "Accept-Encoding");
   response.Set("Cache-Control", "private, max-age=31536000, immutable");
   if (selection.status == 304) return response;
-  response.Set("Content-Type", artifact.media_type);
+  response.Set("Content-Type", open.artifact.media_type);
+  if (open.coding == Coding::kGzip) response.Set("Content-Encoding", "gzip");
   response.Set("Accept-Ranges", "bytes");
-  SetDisposition(response, artifact);
+  SetDisposition(response, open.artifact);
   if (selection.status == 206) {
     response.Set("Content-Range", "bytes " + std::to_string(selection.offset) + "-" +
                                       std::to_string(selection.offset + selection.bytes - 1) + "/" +
-                                      std::to_string(artifact.bytes));
+                                      std::to_string(stored.bytes));
   }
-  const std::optional<Digest> digest = Digest::FromHex(artifact.sha256);
-  Check(digest.has_value(), "an artifact's sha256 is one");
+  const std::optional<Digest> digest = Digest::FromHex(stored.sha256);
+  Check(digest.has_value(), "an object's name is a sha256");
   response.Set("Repr-Digest", "sha-256=:" + digest->Base64() + ":");
   response.file = FileBody{std::make_shared<ArtifactSource>(std::move(open.object)),
                            selection.offset, selection.bytes};
@@ -127,7 +130,8 @@ HttpResponse SendArtifact(const HttpRequest& request, OpenArtifact open) {
 HttpResponse GetArtifact(const HandlerContext& context, const HttpRequest& request) {
   Result<Job> job = FinishedJob(context, request.parameters.at(0));
   if (!job) return ProblemResponse(request, ProblemOf(job.error()));
-  Result<OpenArtifact> open = context.jobs.Open(job->id, request.parameters.at(1));
+  const Coding coding = AcceptsGzip(request) ? Coding::kGzip : Coding::kIdentity;
+  Result<OpenArtifact> open = context.jobs.Open(job->id, request.parameters.at(1), coding);
   if (open) {
     HttpResponse response = SendArtifact(request, *std::move(open));
     response.job_id = job->id;

@@ -112,6 +112,15 @@ bool IsJobId(std::string_view text) {
 
 Error NoSuchJob() { return {ErrorCode::kNotFound, "there is no job with this id", "no-such-job"}; }
 
+std::vector<std::string> ObjectsOf(const std::vector<Artifact>& artifacts) {
+  std::vector<std::string> names;
+  for (const Artifact& artifact : artifacts) {
+    names.push_back(artifact.sha256);
+    if (artifact.gzip) names.push_back(artifact.gzip->sha256);
+  }
+  return names;
+}
+
 std::string SafeFilename(std::string_view path) {
   const std::size_t slash = path.find_last_of("/\\");
   if (slash != std::string_view::npos) path = path.substr(slash + 1);

@@ -10,6 +10,7 @@
 
 #include "core/base/assumption.h"
 #include "core/base/result.h"
+#include "service/jobs/object_store.h"
 #include "service/url_query.h"
 
 namespace farhorizon {
@@ -92,7 +93,11 @@ struct Artifact {
   std::string media_type;
   std::int64_t bytes = 0;
   std::string sha256;
+  std::optional<StoredObject> gzip = {};  ///< the same, compressed; where that pays
 };
+
+/// The objects of artifacts: the copies of some, too.
+std::vector<std::string> ObjectsOf(const std::vector<Artifact>& artifacts);
 
 /// The Error of a call that names a job which does not exist: kNotFound "no-such-job".
 Error NoSuchJob();

@@ -10,6 +10,7 @@
 #include "core/pipeline/progress_plan.h"
 #include "service/clock.h"
 #include "service/jobs/collect_artifacts.h"
+#include "service/jobs/gzip_copy.h"
 #include "service/log.h"
 #include "service/metrics.h"
 #include "service/worker/worker_protocol.h"
@@ -172,9 +173,11 @@ Status JobRunner::Publish(const Job& job, const WorkerOutcome& outcome, const fs
     const auto pin = collector_.Pin();
     Result<std::vector<Artifact>> artifacts = CollectArtifacts(directory / "out", objects_);
     if (!artifacts) return std::move(artifacts.error());
+    Status copied = AddGzipCopies(*artifacts, objects_, work_directory_);
+    if (!copied) return copied;
     Result<bool> published = jobs_.Publish(job.id, job.run, *artifacts, outcome.timings, NowMs());
     if (!published) return std::move(published.error());
-    for (const Artifact& artifact : *artifacts) objects.push_back(artifact.sha256);
+    objects = ObjectsOf(*artifacts);
     if (*published) {
       objects_.Keep(objects);
       const std::int64_t took = NowMs() - job.started_ms.value_or(job.created_ms);

@@ -170,15 +170,29 @@ Result<Job> JobService::Submit(const SpoolFile& upload, const Submission& submis
   return inserted;
 }
 
-Result<OpenArtifact> JobService::Open(const std::string& id, const std::string& name) {
+std::shared_ptr<VerifiedObject> JobService::OpenSound(const StoredObject& stored) {
+  Result<OpenObject> object = objects_->Open(stored.sha256);
+  if (!object || object->bytes != stored.bytes) return nullptr;
+  auto verified = verifier_.Open(*std::move(object), stored.sha256);
+  return verified ? *std::move(verified) : nullptr;
+}
+
+Result<OpenArtifact> JobService::Open(const std::string& id, const std::string& name,
+                                      Coding coding) {
   Result<std::vector<Artifact>> artifacts = jobs_->Artifacts(id);
   if (!artifacts) return std::move(artifacts.error());
   for (Artifact& artifact : *artifacts) {
     if (artifact.name != name) continue;
-    Result<OpenObject> object = objects_->Open(artifact.sha256);
-    if (object && object->bytes == artifact.bytes) {
-      auto verified = verifier_.Open(*std::move(object), artifact.sha256);
-      if (verified) return OpenArtifact{std::move(artifact), *std::move(verified)};
+    // A lost copy is no lost result.
+    if (coding == Coding::kGzip && artifact.gzip) {
+      const StoredObject copy = *artifact.gzip;
+      if (auto object = OpenSound(copy)) {
+        return OpenArtifact{std::move(artifact), Coding::kGzip, copy, std::move(object)};
+      }
+    }
+    const StoredObject own{artifact.sha256, artifact.bytes};
+    if (auto object = OpenSound(own)) {
+      return OpenArtifact{std::move(artifact), Coding::kIdentity, own, std::move(object)};
     }
     // If the job is gone by now, it was dismissed between the two calls. If not, the object is
     // lost.
@@ -204,8 +218,8 @@ Result<Job> JobService::Dismiss(const std::string& id) {
   Result<Job> dismissed = DismissWithReserve(id);
   if (!dismissed) return dismissed;
   engine_->Cancel(id);
-  std::vector<std::string> names = {before->input_sha256};
-  for (const Artifact& artifact : *artifacts) names.push_back(artifact.sha256);
+  std::vector<std::string> names = ObjectsOf(*artifacts);
+  names.push_back(before->input_sha256);
   Status removed = collector_.RemoveUnreferenced(names);
   if (!removed) Log(LogLevel::kWarning, "objects are left", {{"error", removed.error().message}});
   SetExpiry(*dismissed);

@@ -59,9 +59,14 @@ struct ReadinessCheck {
   Status status;
 };
 
+/// How the bytes of an artifact are coded on their way [RFC 9110, section 8.4].
+enum class Coding { kIdentity, kGzip };
+
 /// An artifact, open for reading: no wrong byte of it can be read.
 struct OpenArtifact {
   Artifact artifact;
+  Coding coding = Coding::kIdentity;
+  StoredObject stored;  ///< the bytes as they are coded
   std::shared_ptr<VerifiedObject> object;
 };
 
@@ -93,8 +98,9 @@ class JobService {
   Result<Job> Find(const std::string& id);
   Result<JobPage> List(const JobQuery& query);
   Result<std::vector<Artifact>> Artifacts(const std::string& id) { return jobs_->Artifacts(id); }
+  /// coding: in which the artifact is wanted; it is given as it is where there is no such copy.
   /// Errors: kNotFound; kIo "result-corrupt" where the object is missing or damaged.
-  Result<OpenArtifact> Open(const std::string& id, const std::string& name);
+  Result<OpenArtifact> Open(const std::string& id, const std::string& name, Coding coding);
   /// Dismisses the job, stops its worker and removes its objects. Errors: kNotFound.
   Result<Job> Dismiss(const std::string& id);
 
@@ -124,6 +130,8 @@ class JobService {
   JobService(JobServiceOptions options, const MemoryPlan& memory, DataDirectory directory,
              Stores stores);
   [[nodiscard]] QueueBounds Bounds() const;
+  /// nullptr where it is missing or damaged.
+  std::shared_ptr<VerifiedObject> OpenSound(const StoredObject& stored);
   Status SortOut();
   void Begin();
   void SetExpiry(Job& job) const;

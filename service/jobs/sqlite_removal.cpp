@@ -19,9 +19,7 @@ void RemoveJob(const Database& database, const std::string& id) {
   Statement(database, "INSERT OR IGNORE INTO garbage SELECT input_sha256 FROM jobs WHERE id = ?")
       .Bind(id)
       .Run();
-  Statement(database, "INSERT OR IGNORE INTO garbage SELECT sha256 FROM artifacts WHERE job_id = ?")
-      .Bind(id)
-      .Run();
+  RemoveArtifacts(database, id);
   Statement(database, "DELETE FROM jobs WHERE id = ?").Bind(id).Run();
 }
 
@@ -53,7 +51,8 @@ std::vector<std::string> TooMany(const Database& database, std::int64_t jobs) {
 // for each: the bound is kept, if not used up.
 std::vector<std::string> TooLarge(const Database& database, std::int64_t bytes) {
   const std::string size =
-      "input_bytes + (SELECT coalesce(sum(bytes), 0) FROM artifacts WHERE job_id = jobs.id)";
+      "input_bytes + (SELECT coalesce(sum(bytes + coalesce(gzip_bytes, 0)), 0) FROM artifacts "
+      "WHERE job_id = jobs.id)";
   Statement total(database, "SELECT coalesce(sum(" + size + "), 0) FROM jobs WHERE " + kFinished);
   total.Step();
   std::int64_t over = total.Integer(0) - bytes;
@@ -70,6 +69,13 @@ std::vector<std::string> TooLarge(const Database& database, std::int64_t bytes) 
 }
 
 }  // namespace
+
+void RemoveArtifacts(const Database& database, const std::string& id) {
+  for (const std::string& object : ObjectsOf(SelectArtifacts(database, id))) {
+    Statement(database, "INSERT OR IGNORE INTO garbage VALUES (?)").Bind(object).Run();
+  }
+  Statement(database, "DELETE FROM artifacts WHERE job_id = ?").Bind(id).Run();
+}
 
 Result<Job> DismissJob(Database& database, const std::string& id, std::int64_t now_ms) {
   Transaction transaction(database);
@@ -107,8 +113,9 @@ std::int64_t RemoveExpiredJobs(Database& database, const Retention& retention,
 bool IsReferenced(const Database& database, const std::string& sha256) {
   Statement row(database,
                 "SELECT 1 FROM jobs WHERE input_sha256 = ? UNION ALL "
-                "SELECT 1 FROM artifacts WHERE sha256 = ? LIMIT 1");
-  return row.Bind(sha256).Bind(sha256).Step();
+                "SELECT 1 FROM artifacts WHERE sha256 = ? UNION ALL "
+                "SELECT 1 FROM artifacts WHERE gzip_sha256 = ? LIMIT 1");
+  return row.Bind(sha256).Bind(sha256).Bind(sha256).Step();
 }
 
 std::vector<std::string> SelectGarbage(const Database& database) {

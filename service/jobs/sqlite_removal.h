@@ -12,6 +12,8 @@ namespace farhorizon {
 
 /// As JobStore::Dismiss has it.
 Result<Job> DismissJob(Database& database, const std::string& id, std::int64_t now_ms);
+/// Removes the rows of the job's artifacts; their objects become garbage.
+void RemoveArtifacts(const Database& database, const std::string& id);
 /// As JobStore::RemoveExpired has it.
 std::int64_t RemoveExpiredJobs(Database& database, const Retention& retention, std::int64_t now_ms);
 /// As the calls of these names of JobStore have it.

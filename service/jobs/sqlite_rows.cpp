@@ -138,22 +138,25 @@ StoreIdentity SelectIdentity(const Database& database) {
 
 std::vector<Artifact> SelectArtifacts(const Database& database, const std::string& id) {
   Statement rows(database,
-                 "SELECT name, media_type, bytes, sha256 FROM artifacts WHERE job_id = ? "
-                 "ORDER BY name");
+                 "SELECT name, media_type, bytes, sha256, gzip_sha256, gzip_bytes FROM artifacts "
+                 "WHERE job_id = ? ORDER BY name");
   rows.Bind(id);
   std::vector<Artifact> artifacts;
   while (rows.Step()) {
     artifacts.push_back({rows.Text(0), rows.Text(1), rows.Integer(2), rows.Text(3)});
+    if (!rows.IsNull(4)) artifacts.back().gzip = StoredObject{rows.Text(4), rows.Integer(5)};
   }
   return artifacts;
 }
 
 void InsertArtifact(const Database& database, const std::string& id, const Artifact& artifact) {
   Statement insert(database,
-                   "INSERT INTO artifacts (job_id, name, media_type, bytes, sha256) "
-                   "VALUES (?, ?, ?, ?, ?)");
+                   "INSERT INTO artifacts (job_id, name, media_type, bytes, sha256, gzip_sha256, "
+                   "gzip_bytes) VALUES (?, ?, ?, ?, ?, ?, ?)");
   insert.Bind(id).Bind(artifact.name).Bind(artifact.media_type);
-  insert.Bind(artifact.bytes).Bind(artifact.sha256).Run();
+  insert.Bind(artifact.bytes).Bind(artifact.sha256);
+  if (artifact.gzip) insert.Bind(artifact.gzip->sha256).Bind(artifact.gzip->bytes);
+  insert.Run();
 }
 
 }  // namespace farhorizon

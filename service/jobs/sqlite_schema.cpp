@@ -71,9 +71,14 @@ CREATE TABLE store (
 ) STRICT;
 INSERT INTO store (one, id) VALUES (1, lower(hex(randomblob(16))));
 )";
+constexpr const char* kVersion4 = R"(
+ALTER TABLE artifacts ADD COLUMN gzip_sha256 TEXT;
+ALTER TABLE artifacts ADD COLUMN gzip_bytes INTEGER;
+CREATE INDEX artifacts_by_gzip ON artifacts (gzip_sha256) WHERE gzip_sha256 IS NOT NULL;
+)";
 // A priority is a number, so that an index has its order. Of the jobs that were accepted before,
 // nobody has looked at the cost.
-constexpr const char* kVersion4 = R"(
+constexpr const char* kVersion5 = R"(
 ALTER TABLE jobs ADD COLUMN priority INTEGER NOT NULL DEFAULT 1 CHECK (priority BETWEEN 0 AND 2);
 ALTER TABLE jobs ADD COLUMN deadline_ms INTEGER;
 ALTER TABLE jobs ADD COLUMN timeout_seconds INTEGER NOT NULL DEFAULT 0;
@@ -83,7 +88,7 @@ CREATE INDEX jobs_by_priority ON jobs (priority, client, id) WHERE state = 'acce
 CREATE INDEX jobs_by_deadline ON jobs (deadline_ms)
   WHERE state = 'accepted' AND deadline_ms IS NOT NULL;
 )";
-constexpr std::array kVersions = {kVersion1, kVersion2, kVersion3, kVersion4};
+constexpr std::array kVersions = {kVersion1, kVersion2, kVersion3, kVersion4, kVersion5};
 
 void Migrate(Database& database) {
   Transaction transaction(database);

@@ -9,6 +9,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "core/io/sha256.h"
+#include "tests/support/gunzip.h"
 #include "tests/support/json_schema.h"
 #include "tests/support/service_fixture.h"
 
@@ -108,6 +110,35 @@ TEST_F(ServiceE2e, ShowsAPageUnderAPolicyThatShutsItIn) {
   const std::string report = Ask(port_, "GET", job + "/results/report.json").head;
   EXPECT_THAT(report, testing::HasSubstr("Content-Disposition: attachment"));
   EXPECT_THAT(report, testing::HasSubstr(policy + "\r\n"));
+}
+
+TEST_F(ServiceE2e, SendsInGzipWhatThatMakesSmaller) {
+  Start();
+  const RawAnswer answer = Ask(port_, "POST", "/jobs?crs=EPSG:4326&levels=1&filename=a.asc",
+                               "Content-Type: application/octet-stream\r\n", SmallGrid());
+  const std::string job = "/jobs/" + json::parse(answer.body).value("jobID", "");
+  ASSERT_EQ(WaitForEnd(job), "successful");
+  const std::string page = job + "/results/report.html";
+  const RawAnswer plain = Ask(port_, "GET", page);
+  EXPECT_EQ(plain.head.find("Content-Encoding"), std::string::npos);
+  const RawAnswer small = Ask(port_, "GET", page, "Accept-Encoding: gzip, br\r\n");
+  EXPECT_THAT(small.head, testing::HasSubstr("Content-Encoding: gzip\r\n"));
+  for (const RawAnswer* both : {&plain, &small}) {
+    EXPECT_THAT(both->head, testing::HasSubstr("Content-Type: text/html\r\n"));
+    EXPECT_THAT(both->head, testing::HasSubstr("Vary: Accept-Encoding\r\n"));
+    EXPECT_THAT(both->head, testing::HasSubstr("ETag: \"" + Sha256Hex(both->body) + "\"\r\n"))
+        << "each form has a tag of its own";
+  }
+  EXPECT_LT(small.body.size(), plain.body.size());
+  EXPECT_EQ(Gunzip(small.body), plain.body);
+  // A download in gzip that was cut off goes on where it ended.
+  const RawAnswer rest = Ask(port_, "GET", page,
+                             "Accept-Encoding: gzip\r\nRange: bytes=100-\r\nIf-Range: \"" +
+                                 Sha256Hex(small.body) + "\"\r\n");
+  EXPECT_EQ(rest.status, 206);
+  EXPECT_EQ(small.body.substr(0, 100) + rest.body, small.body);
+  const RawAnswer mesh = Ask(port_, "GET", job + "/results/lod0.drc", "Accept-Encoding: gzip\r\n");
+  EXPECT_EQ(mesh.head.find("Content-Encoding"), std::string::npos);
 }
 
 TEST_F(ServiceE2e, ServesPartsAndKnowsWhatTheClientHas) {

@@ -61,8 +61,11 @@ template <typename Scene>
 bool KineticSweep<Scene>::Fits() const {
   const auto extent = static_cast<unsigned>(std::max(terrain_.dem().columns, terrain_.dem().rows));
   const auto range = static_cast<unsigned>(summit_ - Height(order_.back()));
+  // bit_width gives an unsigned number until LWG 3656, an int after.
+  const auto extent_bits = static_cast<int>(std::bit_width(extent));
+  const auto range_bits = static_cast<int>(std::bit_width(range));
   const int factors = hull_certificates_ == HullCertificates::kTree ? 4 : 3;
-  return 2 * std::bit_width(extent) + factors * std::bit_width(range) + 6 <= 124;
+  return 2 * extent_bits + factors * range_bits + 6 <= 124;
 }
 
 template <typename Scene>

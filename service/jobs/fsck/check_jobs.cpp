@@ -29,7 +29,7 @@ void MendJob(FsckRun& run, Database& database, const Job& job, const Lot& lot) {
   const std::string line = "job " + job.id + ": " + lot.why;
   if (!run.options.repair) return run.Fault(line, false);
   Transaction transaction(database);
-  Statement(database, "DELETE FROM artifacts WHERE job_id = ?").Bind(job.id).Run();
+  RemoveArtifacts(database, job.id);
   if (lot.again) {
     Statement(database,
               "UPDATE jobs SET state = 'accepted', message = 'waiting to run again', progress = 0, "
@@ -53,6 +53,26 @@ void MendJob(FsckRun& run, Database& database, const Job& job, const Lot& lot) {
   run.Fault(line + (lot.again ? "; it runs again" : "; it has failed"), true);
 }
 
+bool IsGood(const FsckRun& run, const StoredObject& object) {
+  const auto found = run.good.find(object.sha256);
+  return found != run.good.end() && found->second == object.bytes;
+}
+
+// A result whose compressed copy is lost is sent as it is.
+void CheckCopy(FsckRun& run, Database& database, const std::string& id, const Artifact& artifact) {
+  if (!artifact.gzip || IsGood(run, *artifact.gzip)) return;
+  if (run.options.repair) {
+    Statement(database,
+              "UPDATE artifacts SET gzip_sha256 = NULL, gzip_bytes = NULL "
+              "WHERE job_id = ? AND name = ?")
+        .Bind(id)
+        .Bind(artifact.name)
+        .Run();
+  }
+  run.Fault("job " + id + ": the compressed copy of " + artifact.name + " is lost or damaged",
+            run.options.repair);
+}
+
 void CheckJob(FsckRun& run, Database& database, const Job& job) {
   if (!IsTerminal(job.state)) {
     if (job.failure) return MendJob(run, database, job, {"its row is damaged", false});
@@ -61,8 +81,10 @@ void CheckJob(FsckRun& run, Database& database, const Job& job) {
   }
   if (job.state != JobState::kSuccessful) return;
   for (const Artifact& artifact : SelectArtifacts(database, job.id)) {
-    const auto object = run.good.find(artifact.sha256);
-    if (object != run.good.end() && object->second == artifact.bytes) continue;
+    if (IsGood(run, {artifact.sha256, artifact.bytes})) {
+      CheckCopy(run, database, job.id, artifact);
+      continue;
+    }
     return MendJob(run, database, job,
                    {"its result " + artifact.name + " is lost or damaged",
                     run.good.contains(job.input_sha256)});

@@ -94,8 +94,9 @@ TEST_P(JobStoreConformance, PublishesArtifactsWithTheState) {
   Insert();
   const Job job = Claim();
   EXPECT_TRUE(store_->Artifacts(job.id)->empty());
-  const std::vector<Artifact> artifacts = {{"b", "x/y", 1, std::string(64, 'b')},
-                                           {"a", "x/z", 2, std::string(64, 'c')}};
+  const std::vector<Artifact> artifacts = {
+      {"b", "x/y", 1, std::string(64, 'b')},
+      {"a", "x/z", 2, std::string(64, 'c'), StoredObject{std::string(64, 'd'), 1}}};
   ASSERT_TRUE(*store_->Publish(job.id, job.run, artifacts, {{"sweep", 1.5}}, ++time_));
   const auto found = store_->Find(job.id);
   EXPECT_EQ(found->state, JobState::kSuccessful);
@@ -105,7 +106,16 @@ TEST_P(JobStoreConformance, PublishesArtifactsWithTheState) {
   const auto stored = store_->Artifacts(job.id);
   ASSERT_EQ(stored->size(), 2U);
   EXPECT_EQ(stored->at(0).name, "a");
+  ASSERT_TRUE(stored->at(0).gzip);
+  EXPECT_EQ(stored->at(0).gzip->sha256, std::string(64, 'd'));
+  EXPECT_EQ(stored->at(0).gzip->bytes, 1);
   EXPECT_EQ(stored->at(1).sha256, std::string(64, 'b'));
+  EXPECT_FALSE(stored->at(1).gzip);
+  for (const std::string& object : ObjectsOf(*stored)) {
+    EXPECT_TRUE(*store_->IsReferenced(object));
+  }
+  ASSERT_TRUE(store_->Dismiss(job.id, ++time_));
+  EXPECT_EQ(store_->Garbage()->size(), 4U) << "the upload, two artifacts and a copy";
 }
 
 TEST_P(JobStoreConformance, KeepsTheFailure) {

@@ -52,6 +52,7 @@ ALTER TABLE jobs ADD COLUMN run INTEGER NOT NULL DEFAULT 0;
 ALTER TABLE jobs ADD COLUMN retries INTEGER NOT NULL DEFAULT 0;
 ALTER TABLE jobs ADD COLUMN crashes INTEGER NOT NULL DEFAULT 0;
 ALTER TABLE jobs ADD COLUMN not_before_ms INTEGER NOT NULL DEFAULT 0;
+UPDATE jobs SET run = attempt;
 CREATE INDEX jobs_by_client ON jobs (state, client, id);
 CREATE INDEX jobs_by_end ON jobs (finished_ms, id) WHERE finished_ms IS NOT NULL;
 CREATE TABLE garbage (sha256 TEXT PRIMARY KEY) STRICT, WITHOUT ROWID;
@@ -61,6 +62,12 @@ CREATE TABLE store (
 ) STRICT;
 INSERT INTO store (one, id) VALUES (1, lower(hex(randomblob(16))));
 PRAGMA user_version = 3;
+)";
+constexpr const char* kVersion4 = R"(
+ALTER TABLE artifacts ADD COLUMN gzip_sha256 TEXT;
+ALTER TABLE artifacts ADD COLUMN gzip_bytes INTEGER;
+CREATE INDEX artifacts_by_gzip ON artifacts (gzip_sha256) WHERE gzip_sha256 IS NOT NULL;
+PRAGMA user_version = 4;
 )";
 // One job in each state, with attempts behind it. The running one was cut off.
 constexpr const char* kRows = R"(
@@ -89,9 +96,9 @@ class SchemaTest : public testing::TestWithParam<int> {
     database.Open(path_);
     database.Execute(kVersion1);
     if (GetParam() > 1) database.Execute(kVersion2);
-    if (GetParam() > 2) database.Execute(kVersion3);
     database.Execute(kRows);
-    if (GetParam() > 2) database.Execute("UPDATE jobs SET run = attempt");
+    if (GetParam() > 2) database.Execute(kVersion3);
+    if (GetParam() > 3) database.Execute(kVersion4);
   }
   TempDir folder_;
   const std::filesystem::path path_ = folder_ / "jobs.sqlite";
@@ -131,7 +138,7 @@ TEST_P(SchemaTest, GoesOnWhereAnEarlierVersionStopped) {
   EXPECT_EQ((*store)->Insert(again, {}, 5003)->id, Id(4));
 }
 
-INSTANTIATE_TEST_SUITE_P(Versions, SchemaTest, testing::Values(1, 2, 3));
+INSTANTIATE_TEST_SUITE_P(Versions, SchemaTest, testing::Values(1, 2, 3, 4));
 
 }  // namespace
 }  // namespace farhorizon

@@ -37,8 +37,10 @@ class CheckStoreTest : public testing::Test {
     ASSERT_EQ((*job)->id, done_.id);
     SpillFile(folder_ / "result", "a result");
     result_ = (*objects)->PutFile(folder_ / "result")->sha256;
-    ASSERT_TRUE(*(*jobs)->Publish(done_.id, (*job)->run, {{"r", "a/b", 8, result_}}, {}, 2));
-    (*objects)->Keep({result_});
+    SpillFile(folder_ / "copy", "a copy");
+    copy_ = *(*objects)->PutFile(folder_ / "copy");
+    ASSERT_TRUE(*(*jobs)->Publish(done_.id, (*job)->run, {{"r", "a/b", 8, result_, copy_}}, {}, 2));
+    (*objects)->Keep({result_, copy_.sha256});
   }
   static std::unique_ptr<JobService> OpenService(const fs::path& data) {
     JobServiceOptions options;
@@ -84,6 +86,7 @@ class CheckStoreTest : public testing::Test {
   Job done_;
   Job waiting_;
   std::string result_;
+  StoredObject copy_;  ///< of the result, compressed as it were
   std::vector<std::string> lines_;
 };
 
@@ -91,8 +94,8 @@ TEST_F(CheckStoreTest, FindsNothingInASoundStore) {
   const FsckSum sum = Check();
   EXPECT_THAT(lines_, IsEmpty());
   EXPECT_EQ(sum.jobs, 3);
-  EXPECT_EQ(sum.objects, 4);
-  EXPECT_EQ(sum.bytes, 4 + 7 + 9 + 8);
+  EXPECT_EQ(sum.objects, 5);
+  EXPECT_EQ(sum.bytes, 4 + 7 + 9 + 8 + 6);
   EXPECT_EQ(sum.faults, 0);
 }
 
@@ -104,6 +107,24 @@ TEST_F(CheckStoreTest, RunsAJobAgainWhoseResultIsDamaged) {
   ExpectMended(2);
   EXPECT_EQ(SlurpFile(data_ / "stray" / "damaged" / result_), "damaged") << "kept aside";
   EXPECT_EQ(OpenService(data_)->Find(done_.id)->state, JobState::kAccepted);
+}
+
+TEST_F(CheckStoreTest, SendsAResultAsItIsWhereItsCopyIsLost) {
+  Damage(ObjectFile(copy_.sha256));
+  for (const Coding coding : {Coding::kGzip, Coding::kIdentity}) {
+    const auto artifact = OpenService(data_)->Open(done_.id, "r", coding);
+    ASSERT_TRUE(artifact);
+    EXPECT_EQ(artifact->coding, Coding::kIdentity);
+  }
+  ExpectMended(2);
+  EXPECT_EQ(OpenService(data_)->Find(done_.id)->state, JobState::kSuccessful);
+}
+
+TEST_F(CheckStoreTest, ACopyGoesWithItsJob) {
+  ASSERT_TRUE(fs::exists(ObjectFile(copy_.sha256)));
+  ASSERT_TRUE(OpenService(data_)->Dismiss(done_.id));
+  EXPECT_FALSE(fs::exists(ObjectFile(copy_.sha256)));
+  EXPECT_EQ(Check().faults, 0) << testing::PrintToString(lines_);
 }
 
 TEST_F(CheckStoreTest, FailsAJobThatHasLostResultAndUpload) {
@@ -219,9 +240,10 @@ TEST_F(CheckStoreTest, ACopyOfARunningStoreRestores) {
   ASSERT_NE(restored, nullptr);
   EXPECT_EQ(restored->List({{}, {}, 10})->jobs.size(), 4U);
   EXPECT_TRUE(restored->Find(late.id));
-  const auto artifact = restored->Open(done_.id, "r");
+  const auto artifact = restored->Open(done_.id, "r", Coding::kIdentity);
   ASSERT_TRUE(artifact);
   EXPECT_EQ(*artifact->object->Read(0, 8), "a result");
+  EXPECT_EQ(restored->Open(done_.id, "r", Coding::kGzip)->coding, Coding::kGzip);
   EXPECT_FALSE(BackUpStore({data_, false, {}}, copy)) << "it is there already";
 }
 
