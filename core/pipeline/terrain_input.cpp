@@ -55,6 +55,7 @@ Result<std::unique_ptr<TerrainInput>> TerrainInput::Open(const std::filesystem::
                                    .most_decoded = most_decoded});
   if (!dem) return std::move(dem.error()).WithContext("read DEM");
   input->dem_ = *std::move(dem);
+  input->posts_ = std::int64_t{input->dem_.columns} * input->dem_.rows;
   input->Assume(input->dem_.assumptions, control);
   input->header_only_ = input->dem_.heights.empty();
   if (input->header_only_) input->dem_ = StandInFor(input->dem_);

@@ -33,6 +33,8 @@ class TerrainInput {
                                                     std::int64_t most_decoded = kAll);
 
   [[nodiscard]] bool HeaderOnly() const { return header_only_; }
+  /// Of the file, whether its heights were read or not.
+  [[nodiscard]] std::int64_t posts() const { return posts_; }
   [[nodiscard]] const Dem& dem() const { return dem_; }
   [[nodiscard]] const Terrain& terrain() const { return *terrain_; }
   [[nodiscard]] const Georeference& georeference() const { return *georeference_; }
@@ -50,6 +52,7 @@ class TerrainInput {
   void Assume(const Assumptions& assumptions, const RunControl& control);
 
   Dem dem_;
+  std::int64_t posts_ = 0;
   bool header_only_ = false;
   std::optional<Terrain> terrain_;
   std::optional<Georeference> georeference_;

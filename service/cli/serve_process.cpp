@@ -104,6 +104,18 @@ void LogStart(const LoadedConfig& loaded, const std::string& base, std::uint16_t
        {"max_connections", std::int64_t{config.http.max_connections}}});
 }
 
+TermBounds TermsOf(const JobServiceOptions& options) {
+  return {options.highest_priority, options.runner.limits.wall_seconds, options.deadline_seconds};
+}
+
+void LogMemory(const MemoryPlan& memory) {
+  Log(LogLevel::kInfo, "memory",
+      {{"jobs_bytes", memory.jobs_bytes},
+       {"job_bytes", memory.job_bytes},
+       {"probes", std::int64_t{memory.probes}},
+       {"probe_bytes", memory.probe_bytes}});
+}
+
 // Takes the keys that may change while the service runs, and says which others have changed.
 void Reload(const std::function<Result<LoadedConfig>()>& read, const HostPort& address,
             Config& current, Server& server) {
@@ -157,9 +169,10 @@ int ServeProcess(const LoadedConfig& loaded, const std::function<Result<LoadedCo
   if (!jobs) return ReportError(jobs.error());
   (*jobs)->MarkEnd();
   const std::string base = BaseUrl(config, *address, (*server)->port());
-  const Router router = BuildRouter({**jobs, base, config.max_body_bytes});
+  const Router router = BuildRouter({**jobs, base, config.max_body_bytes, TermsOf(options)});
   (*server)->Serve(router);
   LogStart(loaded, base, (*server)->port());
+  LogMemory((*jobs)->Memory());
   NotifyManager("READY=1");
   const int signal = WaitForEnd(**server, [&] { Reload(reload, *address, config, **server); });
   NotifyManager("STOPPING=1");

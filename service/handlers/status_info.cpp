@@ -33,6 +33,12 @@ ordered_json StatusInfo(const Job& job, const std::string& base) {
   if (job.finished_ms) info["finished"] = FormatTime(*job.finished_ms);
   info["updated"] = FormatTime(job.updated_ms);
   if (job.expires_ms) info["expires"] = FormatTime(*job.expires_ms);
+  info["priority"] = kPriorityNames.at(static_cast<std::size_t>(job.priority));
+  if (job.deadline_ms) info["deadline"] = FormatTime(*job.deadline_ms);
+  if (job.timeout_seconds > 0) info["timeout"] = job.timeout_seconds;
+  if (job.cost.memory_bytes > 0) {
+    info["estimate"] = {{"memoryBytes", job.cost.memory_bytes}, {"seconds", job.cost.seconds}};
+  }
   info["filename"] = job.filename;
   info["attempt"] = job.attempt;
   if (!job.timings.empty()) info["timings"] = job.timings;

@@ -28,7 +28,7 @@ constexpr std::size_t kMaxKeyBytes = 256;
 
 // The contents of the head of a submission.
 struct SubmissionHead {
-  Parameters parameters;  // of the query, except the file name
+  Parameters parameters;  // of the query, except the file name, with the job's terms
   std::optional<std::string> filename;
   std::optional<std::string> idempotency_key;
   ContentDigest digest;
@@ -49,13 +49,16 @@ Result<std::optional<std::string>> ReadIdempotencyKey(const HttpRequest& request
   return std::optional<std::string>(key);
 }
 
-Status CheckParameters(const Parameters& parameters) {
+// parameters: those of the job, with its terms.
+Status CheckParameters(Parameters parameters, const TermBounds& bounds) {
+  Result<JobTerms> terms = TakeTerms(parameters, bounds);
+  if (!terms) return std::move(terms.error());
   Result<BuildOptions> options = ParseOptions(parameters);
   if (!options) return std::move(options.error());
   return CheckOptions(*options);
 }
 
-// Moves the file name out of the parameters of a build.
+// Moves the file name out of the parameters of a job.
 void TakeFilename(SubmissionHead& head) {
   const auto name = head.parameters.find("filename");
   if (name == head.parameters.end()) return;
@@ -63,7 +66,7 @@ void TakeFilename(SubmissionHead& head) {
   head.parameters.erase(name);
 }
 
-Result<SubmissionHead> ReadSubmissionHead(const HttpRequest& request) {
+Result<SubmissionHead> ReadSubmissionHead(const HttpRequest& request, const TermBounds& bounds) {
   Result<std::optional<std::string>> key = ReadIdempotencyKey(request);
   if (!key) return std::move(key.error());
   std::optional<Parameters> query = DecodeQuery(request.query, {"formats", "nodata", "triangles"});
@@ -78,13 +81,13 @@ Result<SubmissionHead> ReadSubmissionHead(const HttpRequest& request) {
   if (!digest) return std::move(digest.error());
   SubmissionHead head{*std::move(query), {}, *std::move(key), *std::move(digest)};
   TakeFilename(head);
-  Status parameters = CheckParameters(head.parameters);
+  Status parameters = CheckParameters(head.parameters, bounds);
   if (!parameters) return std::move(parameters.error());
   return head;
 }
 
 // Adds the parameters of a form to those of the query.
-Status AddFormParameters(const std::string& json, SubmissionHead& head) {
+Status AddFormParameters(const std::string& json, const TermBounds& bounds, SubmissionHead& head) {
   Result<Parameters> form = ParametersOfJson(json);
   if (!form) return std::move(form.error());
   for (const auto& [name, value] : *form) {
@@ -95,7 +98,7 @@ Status AddFormParameters(const std::string& json, SubmissionHead& head) {
                  "invalid-parameter"};
   }
   TakeFilename(head);
-  return CheckParameters(head.parameters);
+  return CheckParameters(head.parameters, bounds);
 }
 
 class SubmitExchange : public Exchange {
@@ -127,15 +130,19 @@ class SubmitExchange : public Exchange {
 // Head and form joined.
 Result<Submission> SubmitExchange::ReadSubmission() {
   if (body_.params()) {
-    Status added = AddFormParameters(*body_.params(), head_);
+    Status added = AddFormParameters(*body_.params(), context_.terms, head_);
     if (!added) return std::move(added.error());
   }
+  Result<JobTerms> terms = TakeTerms(head_.parameters, context_.terms);
+  if (!terms) return std::move(terms.error());
   const std::string name = head_.filename.value_or(body_.filename().value_or(""));
   return Submission{SafeFilename(name),
                     std::move(head_.parameters),
                     std::move(head_.idempotency_key),
                     {},
-                    request_.peer};
+                    request_.peer,
+                    *terms,
+                    {}};
 }
 
 Result<Job> SubmitExchange::Submit() {
@@ -154,9 +161,10 @@ Result<Job> SubmitExchange::Submit() {
     }
     return error;
   }
-  Result<Assumptions> assumptions = context_.jobs.Probe(spool, *submission);
-  if (!assumptions) return std::move(assumptions.error());
-  submission->assumptions = *std::move(assumptions);
+  Result<ProbeReport> report = context_.jobs.Probe(spool, *submission);
+  if (!report) return std::move(report.error());
+  submission->assumptions = std::move(report->assumptions);
+  submission->cost = report->cost;
   auto job = context_.jobs.Submit(spool, *submission);
   if (!job) return std::move(job.error());
   return job;
@@ -185,7 +193,7 @@ Admission BeginSubmission(const HandlerContext& context, const HttpRequest& requ
   if (request.content_length.value_or(0) > context.max_body_bytes) {
     return ProblemResponse(request, ProblemOf(BodyTooLarge(context.max_body_bytes)));
   }
-  Result<SubmissionHead> head = ReadSubmissionHead(request);
+  Result<SubmissionHead> head = ReadSubmissionHead(request, context.terms);
   if (!head) return ProblemResponse(request, ProblemOf(head.error()));
   const Status room = context.jobs.CheckRoom(request.peer);
   if (!room) return ProblemResponse(request, ProblemOf(room.error()));

@@ -5,6 +5,7 @@
 #include "service/clock.h"
 #include "service/jobs/end_mark.h"
 #include "service/log.h"
+#include "service/metrics.h"
 
 namespace farhorizon {
 
@@ -54,12 +55,22 @@ void Housekeeper::Tidy() {
   }
   // Another service may be on the folder by now.
   if (lock_lost_) return;
+  FailOverdue();
   MarkRunning(household_.directory.lock.get());
   household_.reserve.Ensure();
   RemoveExpired();
   Status cleared = household_.objects.RemoveUnacknowledged();
   if (cleared) cleared = household_.objects.RemoveGarbage();
   if (!cleared) Warn("objects are left", cleared.error());
+}
+
+void Housekeeper::FailOverdue() {
+  const Result<std::vector<std::string>> failed = household_.jobs.FailOverdue(NowMs());
+  if (!failed) return Warn("jobs past their deadline are left", failed.error());
+  for (const std::string& id : *failed) {
+    CountJobEnd("failed", "timeout");
+    Log(LogLevel::kWarning, "job failed", {{"job_id", id}, {"code", "timeout"}});
+  }
 }
 
 void Housekeeper::RemoveExpired() {

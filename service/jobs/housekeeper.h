@@ -24,8 +24,8 @@ struct Household {
   std::function<void()> on_lost_lock;  ///< called once
 };
 
-/// A thread for the work that nobody waits for: removes expired jobs and what removed jobs have
-/// left, keeps the reserve and watches the lock.
+/// A thread for the work that nobody waits for: ends jobs at their deadline, removes expired jobs
+/// and what removed jobs have left, keeps the reserve and watches the lock.
 class Housekeeper {
  public:
   /// Requires: what `household` refers to outlives this object.
@@ -40,6 +40,7 @@ class Housekeeper {
  private:
   void Run();
   void Tidy();
+  void FailOverdue();
   void RemoveExpired();
   /// Logs a failure, unless it is the one that was logged last.
   void Warn(const char* what, const Error& error);

@@ -82,7 +82,9 @@ bool IsTerminal(JobState state) {
 }
 
 bool MayFollow(JobState from, JobState to) {
-  if (from == JobState::kAccepted) return to == JobState::kRunning || to == JobState::kDismissed;
+  if (from == JobState::kAccepted) {
+    return to == JobState::kRunning || to == JobState::kFailed || to == JobState::kDismissed;
+  }
   if (from == JobState::kRunning) return to != JobState::kRunning;
   return false;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -26,7 +27,8 @@ std::optional<JobState> JobStateOf(std::string_view name);
 bool IsTerminal(JobState state);
 
 /// The state machine: accepted -> running -> successful | failed; running -> accepted (the worker
-/// or the service stopped); accepted | running -> dismissed. A terminal state is the last.
+/// or the service stopped); accepted -> failed (its deadline has passed); accepted | running ->
+/// dismissed. A terminal state is the last.
 bool MayFollow(JobState from, JobState to);
 
 /// A UUIDv7 in lower-case text: 48 bits of time, 74 random ones.
@@ -37,6 +39,23 @@ std::string NextJobId(std::int64_t now_ms, const std::string& last);
 /// True for a UUID in lower-case text. Requests with any other text as an id are refused before
 /// they reach a store.
 bool IsJobId(std::string_view text);
+
+/// Which of the waiting jobs comes first.
+enum class Priority { kLow, kNormal, kHigh };
+inline constexpr std::array kPriorityNames = {"low", "normal", "high"};
+
+/// What a client asks of the queue, beside what it asks of the build.
+struct JobTerms {
+  Priority priority = Priority::kNormal;
+  std::int64_t deadline_seconds = 0;  ///< from its acceptance to its end; 0: none
+  std::int64_t timeout_seconds = 0;   ///< of each run; 0: as long as a worker may take
+};
+
+/// What a run is expected to need at most; 0: not known.
+struct JobCost {
+  std::int64_t memory_bytes = 0;
+  std::int64_t seconds = 0;  ///< of one core
+};
 
 /// One piece of work, as it is stored. Times are milliseconds since 1970.
 struct Job {
@@ -62,6 +81,10 @@ struct Job {
   std::optional<Error> failure;            ///< set if and only if state is kFailed
   std::map<std::string, double> timings;   ///< seconds by stage, of the run that succeeded
   Assumptions assumptions;                 ///< of the last run that has read the DEM, or the probe
+  Priority priority = Priority::kNormal;
+  std::optional<std::int64_t> deadline_ms;  ///< when it fails unless it has ended
+  std::int64_t timeout_seconds = 0;         ///< as JobTerms has it
+  JobCost cost;
 };
 
 /// One output file of a job.

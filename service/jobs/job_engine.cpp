@@ -15,8 +15,9 @@ constexpr std::chrono::milliseconds kRetryInterval{1000};
 
 }  // namespace
 
-JobEngine::JobEngine(JobStore& jobs, JobRunner& runner, int slots) : jobs_(jobs), runner_(runner) {
-  for (int i = 0; i < slots; ++i) slots_.emplace_back([this] { RunSlot(); });
+JobEngine::JobEngine(JobStore& jobs, JobRunner& runner, const EngineLimits& limits)
+    : jobs_(jobs), runner_(runner), memory_bytes_(limits.memory_bytes) {
+  for (int i = 0; i < limits.slots; ++i) slots_.emplace_back([this] { RunSlot(); });
 }
 
 JobEngine::~JobEngine() { Stop(); }
@@ -56,6 +57,21 @@ void JobEngine::Stop() {
   slots_.clear();
 }
 
+Result<std::optional<Job>> JobEngine::Claim() {
+  const std::lock_guard one_at_a_time(claim_);
+  MemoryRoom room{0, runner_.MostMemory()};
+  {
+    const std::lock_guard lock(mutex_);
+    room.free_bytes = memory_bytes_ - taken_bytes_;
+  }
+  Result<std::optional<Job>> job = jobs_.ClaimNext(NowMs(), room);
+  if (job && *job) {
+    const std::lock_guard lock(mutex_);
+    taken_bytes_ += runner_.MemoryOf(**job);
+  }
+  return job;
+}
+
 void JobEngine::RunSlot() {
   std::unique_lock lock(mutex_);
   std::uint64_t seen = 0;
@@ -63,7 +79,7 @@ void JobEngine::RunSlot() {
     seen = wakes_;
     ++busy_;
     lock.unlock();
-    Result<std::optional<Job>> job = jobs_.ClaimNext(NowMs());
+    Result<std::optional<Job>> job = Claim();
     std::stop_source stop;
     lock.lock();
     if (job && *job) {
@@ -73,7 +89,8 @@ void JobEngine::RunSlot() {
       runner_.Run(**job, stop.get_token());
       lock.lock();
       running_.erase((*job)->id);
-      ++wakes_;  // one that must run alone may be waiting for this one's end
+      taken_bytes_ -= runner_.MemoryOf(**job);
+      ++wakes_;  // one that needs its memory, or must run alone, may be waiting for its end
     }
     --busy_;
     changed_.notify_all();

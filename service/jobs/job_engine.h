@@ -3,8 +3,10 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <thread>
@@ -15,13 +17,20 @@
 
 namespace farhorizon {
 
-/// Takes accepted jobs from the store and runs as many at once as it has slots.
+/// What runs at once.
+struct EngineLimits {
+  int slots = 1;                                                         ///< jobs
+  std::int64_t memory_bytes = std::numeric_limits<std::int64_t>::max();  ///< of them together
+};
+
+/// Takes accepted jobs from the store and runs as many at once as it has slots, and memory for
+/// their costs.
 /// Threads: safe. Each slot is a thread that lives until Stop; a worker process dies with the
 /// thread that started it.
 class JobEngine {
  public:
   /// Requires: `jobs` and `runner` outlive this object.
-  JobEngine(JobStore& jobs, JobRunner& runner, int slots);
+  JobEngine(JobStore& jobs, JobRunner& runner, const EngineLimits& limits);
   ~JobEngine();
   JobEngine(const JobEngine&) = delete;
   JobEngine& operator=(const JobEngine&) = delete;
@@ -39,11 +48,16 @@ class JobEngine {
 
  private:
   void RunSlot();
+  /// Takes a job that there is memory for, and counts it as taken.
+  Result<std::optional<Job>> Claim();
 
   JobStore& jobs_;
   JobRunner& runner_;
+  const std::int64_t memory_bytes_;
 
+  std::mutex claim_;  // one slot at a time: the memory that it takes is no other's. Before mutex_.
   std::mutex mutex_;
+  std::int64_t taken_bytes_ = 0;
   std::condition_variable changed_;
   bool taking_ = true;
   bool stopping_ = false;

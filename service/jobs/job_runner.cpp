@@ -1,5 +1,6 @@
 #include "service/jobs/job_runner.h"
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <new>
@@ -32,9 +33,33 @@ JobRunner::JobRunner(const Stores& stores, fs::path work_directory, RunnerOption
       work_directory_(std::move(work_directory)),
       options_(std::move(options)) {}
 
+std::int64_t JobRunner::MemoryOf(const Job& job) const {
+  const std::int64_t most = MostMemory();
+  return job.cost.memory_bytes > 0 ? std::min(job.cost.memory_bytes, most) : most;
+}
+
+// Of time, the least of what the service, the client's timeout and the rest of the deadline leave.
+WorkerLimits JobRunner::LimitsOf(const Job& job) const {
+  WorkerLimits limits = options_.limits;
+  limits.memory_bytes = MemoryOf(job);
+  const auto shorten = [&limits](std::int64_t seconds, const char* bound) {
+    if (seconds >= limits.wall_seconds) return;
+    limits.wall_seconds = std::max<std::int64_t>(1, seconds);
+    limits.wall_bound = bound;
+  };
+  if (job.timeout_seconds > 0) shorten(job.timeout_seconds, "the timeout that came with it");
+  if (job.deadline_ms)
+    shorten((*job.deadline_ms - NowMs()) / 1000, "what its deadline left of them");
+  return limits;
+}
+
 void JobRunner::Run(const Job& job, const std::stop_token& stop) {
   CountJobStart(std::chrono::milliseconds(NowMs() - job.created_ms));
-  Log(LogLevel::kInfo, "job starts", {{"job_id", job.id}, {"attempt", job.attempt}});
+  Log(LogLevel::kInfo, "job starts",
+      {{"job_id", job.id},
+       {"attempt", job.attempt},
+       {"memory_bytes", MemoryOf(job)},
+       {"expected_seconds", job.cost.seconds}});
   const fs::path directory = work_directory_ / (job.id + "-" + std::to_string(job.run));
   try {
     // A dismissal between the claim and this line had no worker to stop.
@@ -45,7 +70,7 @@ void JobRunner::Run(const Job& job, const std::stop_token& stop) {
     if (!prepared) {
       ending_.Failed(job, prepared.error(), stop);
     } else {
-      const WorkerCall call{options_.worker_program, false, directory, options_.limits,
+      const WorkerCall call{options_.worker_program, false, directory, LimitsOf(job),
                             options_.spawner};
       const RunControl control{ReportTo(job), stop, {}, StoreAssumptionsOf(job)};
       StoreOutcome(job, RunWorker(call, control), directory, stop);
@@ -122,6 +147,10 @@ void JobRunner::StoreOutcome(const Job& job, const WorkerOutcome& outcome,
       return;
     }
     case WorkerEnd::kFailed:
+      // Rougher ground than was expected: twice as much, until it is as much as any may have.
+      if (outcome.error.kind == "memory-limit" && MemoryOf(job) < MostMemory()) {
+        return ending_.ShortOfMemory(job, std::min(2 * MemoryOf(job), MostMemory()), stop);
+      }
       ending_.WorkerFailed(job, outcome.error, stop);
       return;
     case WorkerEnd::kCrashed:
@@ -154,7 +183,8 @@ Status JobRunner::Publish(const Job& job, const WorkerOutcome& outcome, const fs
       const std::int64_t took = NowMs() - job.started_ms.value_or(job.created_ms);
       CountJobEnd("successful", "");
       CountStages(outcome.timings);
-      Log(LogLevel::kInfo, "job successful", {{"job_id", job.id}, {"dur_ms", took}});
+      Log(LogLevel::kInfo, "job successful",
+          {{"job_id", job.id}, {"dur_ms", took}, {"peak_bytes", outcome.peak_bytes}});
       return Ok{};
     }
   }

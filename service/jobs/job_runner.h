@@ -41,11 +41,17 @@ class JobRunner {
   };
   JobRunner(const Stores& stores, std::filesystem::path work_directory, RunnerOptions options);
 
+  /// The memory that the job's worker may take: as much as the job is expected to need, or as any
+  /// may have where nobody knows.
+  [[nodiscard]] std::int64_t MemoryOf(const Job& job) const;
+  [[nodiscard]] std::int64_t MostMemory() const { return options_.limits.memory_bytes; }
+
   /// Runs `job` and stores how it ended. A stop ends the worker: then the job is accepted again,
   /// unless it was dismissed.
   void Run(const Job& job, const std::stop_token& stop);
 
  private:
+  [[nodiscard]] WorkerLimits LimitsOf(const Job& job) const;
   Status Prepare(const Job& job, const std::filesystem::path& directory);
   void StoreOutcome(const Job& job, const WorkerOutcome& outcome,
                     const std::filesystem::path& directory, const std::stop_token& stop);

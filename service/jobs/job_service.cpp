@@ -1,15 +1,13 @@
 #include "service/jobs/job_service.h"
 
-#include <system_error>
-
 #include "service/clock.h"
 #include "service/jobs/end_mark.h"
 #include "service/jobs/open_stores.h"
 #include "service/jobs/storage_file.h"
 #include "service/jobs/sync_failure.h"
 #include "service/log.h"
+#include "service/machine_memory.h"
 #include "service/metrics.h"
-#include "service/worker/worker_protocol.h"
 
 namespace farhorizon {
 
@@ -22,41 +20,46 @@ Error Draining() {
           "draining"};
 }
 
-WorkerLimits ProbeLimits(const ProbeOptions& probe) {
-  WorkerLimits limits;
-  limits.memory_bytes = probe.memory_bytes;
-  limits.cpu_seconds = probe.wall_seconds;
-  limits.wall_seconds = probe.wall_seconds;
-  limits.file_bytes = std::int64_t{1} << 20U;  // a probe writes only what goes to standard error
-  return limits;
+MemoryWishes WishesOf(const JobServiceOptions& options) {
+  return {MachineMemoryBytes(),       options.memory_bytes, options.runner.limits.memory_bytes,
+          options.probe.memory_bytes, options.workers,      options.probe.at_once};
+}
+
+JobServiceOptions Within(const MemoryPlan& memory, JobServiceOptions options) {
+  options.runner.limits.memory_bytes = memory.job_bytes;
+  options.probe.memory_bytes = memory.probe_bytes;
+  options.probe.at_once = memory.probes;
+  return options;
 }
 
 }  // namespace
 
 Result<std::unique_ptr<JobService>> JobService::Open(JobServiceOptions options) {
+  const Result<MemoryPlan> memory = PlanMemory(WishesOf(options));
+  if (!memory) return memory.error();
   Result<DataDirectory> directory = OpenDataDirectory(options.data);
   if (!directory) return std::move(directory.error());
   Result<Stores> stores = OpenStores(*directory);
   if (!stores) return std::move(stores.error());
-  std::unique_ptr<JobService> service(new JobService(std::move(options), *std::move(directory),
-                                                     std::move(stores->jobs),
-                                                     std::move(stores->objects)));
+  std::unique_ptr<JobService> service(
+      new JobService(std::move(options), *memory, *std::move(directory), *std::move(stores)));
   Status sorted = service->SortOut();
   if (!sorted) return std::move(sorted.error());
   service->Begin();
   return service;
 }
 
-JobService::JobService(JobServiceOptions options, DataDirectory directory,
-                       std::unique_ptr<JobStore> jobs, std::unique_ptr<ObjectStore> objects)
-    : options_(std::move(options)),
+JobService::JobService(JobServiceOptions options, const MemoryPlan& memory, DataDirectory directory,
+                       Stores stores)
+    : memory_(memory),
+      options_(Within(memory, std::move(options))),
       directory_(std::move(directory)),
-      jobs_(std::move(jobs)),
-      objects_(std::move(objects)),
+      jobs_(std::move(stores.jobs)),
+      objects_(std::move(stores.objects)),
       collector_(*jobs_, *objects_),
       health_(directory_, *jobs_, options_.min_free_bytes),
       reserve_(directory_.Reserve()),
-      probes_(options_.workers),
+      probe_(directory_.Work(), options_.probe, options_.runner),
       runner_({*jobs_, *objects_, collector_, health_}, directory_.Work(), options_.runner) {}
 
 JobService::~JobService() { Stop(); }
@@ -87,7 +90,8 @@ Status JobService::SortOut() {
 
 void JobService::Begin() {
   MarkRunning(directory_.lock.get());
-  engine_ = std::make_unique<JobEngine>(*jobs_, runner_, options_.workers);
+  engine_ = std::make_unique<JobEngine>(*jobs_, runner_,
+                                        EngineLimits{options_.workers, memory_.jobs_bytes});
   housekeeper_ = std::make_unique<Housekeeper>(Household{directory_, *jobs_, collector_, reserve_,
                                                          options_.retention,
                                                          [this] { engine_->StopTaking(); }});
@@ -146,45 +150,14 @@ Result<JobPage> JobService::List(const JobQuery& query) {
   return page;
 }
 
-Result<Assumptions> JobService::Probe(const SpoolFile& upload, const Submission& submission) {
-  Assumptions assumptions;
-  if (upload.bytes() > options_.probe.max_bytes) return assumptions;
-  const fs::path directory = directory_.Work() / ("probe-" + std::to_string(next_probe_++));
-  const fs::path input = fs::path("in") / submission.filename;
-  std::error_code failure;
-  fs::create_directories(directory / "in", failure);
-  // The upload is not an object of the store yet. So a hard link suffices: by writing to it, a
-  // worker could damage only its own input.
-  if (!failure) fs::create_hard_link(upload.path(), directory / input, failure);
-  const RunnerOptions& runner = options_.runner;
-  const WorkerTask task{input.string(), "", submission.parameters, runner.max_posts, 1};
-  std::optional<Error> refusal;
-  if (!failure && WriteTaskFile(directory, task)) {
-    probes_.acquire();
-    WorkerOutcome outcome = RunWorker(
-        {runner.worker_program, true, directory, ProbeLimits(options_.probe), runner.spawner},
-        {.on_assumption = [&](const Assumption& met) { assumptions.push_back(met); }});
-    probes_.release();
-    // A worker that runs out of the probe's memory says so itself; a job may have more.
-    if (outcome.end == WorkerEnd::kFailed && outcome.error.kind != "memory-limit") {
-      refusal = std::move(outcome.error);
-    } else if (outcome.end == WorkerEnd::kCrashed) {
-      Log(LogLevel::kWarning, "probe crashed",
-          {{"code", outcome.error.kind}, {"last_words", outcome.stderr_tail}});
-    }
-  }
-  fs::remove_all(directory, failure);
-  if (refusal) return *std::move(refusal);
-  return assumptions;
-}
-
 Result<Job> JobService::Submit(const SpoolFile& upload, const Submission& submission) {
   auto pin = collector_.Pin();
   Result<StoredObject> stored = objects_->PutFile(upload.path());
   if (!stored) return std::move(stored.error());
   Result<Job> inserted =
       jobs_->Insert({submission.filename, submission.parameters, stored->sha256, stored->bytes,
-                     submission.idempotency_key, submission.assumptions, submission.client},
+                     submission.idempotency_key, submission.assumptions, submission.client,
+                     submission.terms, submission.cost},
                     Bounds(), NowMs());
   if (inserted) objects_->Keep({stored->sha256});
   pin.unlock();

@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
-#include <semaphore>
 #include <string>
 #include <vector>
 
@@ -16,22 +15,16 @@
 #include "service/jobs/job_engine.h"
 #include "service/jobs/job_runner.h"
 #include "service/jobs/job_store.h"
+#include "service/jobs/memory_plan.h"
 #include "service/jobs/object_collector.h"
 #include "service/jobs/object_store.h"
+#include "service/jobs/open_stores.h"
 #include "service/jobs/spool_file.h"
 #include "service/jobs/storage_health.h"
+#include "service/jobs/upload_probe.h"
 #include "service/jobs/verified_object.h"
 
 namespace farhorizon {
-
-/// Limits of reading an upload before its job is accepted.
-struct ProbeOptions {
-  std::int64_t max_bytes = std::int64_t{1} << 31U;  ///< larger uploads are read by their job only
-  /// What ends a probe for want of memory is no fault of the DEM: its job has more.
-  std::int64_t memory_bytes = std::int64_t{1} << 30U;
-  /// A probe reads the header of a large raster alone: it takes some 100 ms of a free core.
-  std::int64_t wall_seconds = 5;
-};
 
 struct JobServiceOptions {
   std::filesystem::path data = "farhorizon-data";
@@ -44,6 +37,9 @@ struct JobServiceOptions {
   /// A month; as many jobs as the list of them pages through in a second.
   Retention retention = {30 * 86400, 100'000, 0};
   ProbeOptions probe;
+  std::int64_t memory_bytes = 0;  ///< of workers and probes together; 0: the machine's
+  Priority highest_priority = Priority::kHigh;
+  std::int64_t deadline_seconds = 0;  ///< of a job that comes without one; 0: none
 };
 
 /// A client's DEM and its parameters.
@@ -53,6 +49,8 @@ struct Submission {
   std::optional<std::string> idempotency_key;
   Assumptions assumptions = {};  ///< those of the probe
   std::string client = {};       ///< the peer's address
+  JobTerms terms = {};
+  JobCost cost = {};  ///< likewise
 };
 
 /// One thing that a service depends on.
@@ -76,9 +74,10 @@ struct OpenArtifact {
 /// Threads: safe.
 class JobService {
  public:
-  /// Opens the data directory, makes jobs of an earlier process accepted again, and starts the
-  /// engine.
-  /// Errors: kIo, with the remedy.
+  /// Shares out the memory, opens the data directory, makes jobs of an earlier process accepted
+  /// again, and starts the engine.
+  /// Errors: kIo, kInvalidArgument "invalid-config" where there is too little memory for a job;
+  ///   each with the remedy.
   static Result<std::unique_ptr<JobService>> Open(JobServiceOptions options);
   ~JobService();
 
@@ -87,11 +86,10 @@ class JobService {
   Status CheckRoom(const std::string& client);
   Result<SpoolFile> NewSpoolFile() { return SpoolFile::Create(directory_.Spool()); }
 
-  /// Reads, places and plans the upload in a worker process, without building anything; returns
-  /// what was assumed. Succeeds, with what is known by then, also where the limits of the probe end
-  /// the worker: the job has larger ones.
-  /// Errors: those of TerrainInput::Open and PlanLevels.
-  Result<Assumptions> Probe(const SpoolFile& upload, const Submission& submission);
+  /// As UploadProbe::Look has it.
+  Result<ProbeReport> Probe(const SpoolFile& upload, const Submission& submission) {
+    return probe_.Look(upload, submission.filename, submission.parameters);
+  }
 
   /// Stores the bytes and an accepted job, durably, and returns the job: an earlier one where the
   /// idempotency key has made one. Errors: those of the stores.
@@ -113,6 +111,8 @@ class JobService {
   /// Room on the disk of the data folder.
   [[nodiscard]] Result<std::int64_t> FreeBytes() const;
 
+  /// The memory of workers and probes.
+  [[nodiscard]] const MemoryPlan& Memory() const { return memory_; }
   /// What encloses each worker process.
   [[nodiscard]] SandboxLayers ActiveSandbox() const;
 
@@ -127,8 +127,8 @@ class JobService {
   void MarkEnd();
 
  private:
-  JobService(JobServiceOptions options, DataDirectory directory, std::unique_ptr<JobStore> jobs,
-             std::unique_ptr<ObjectStore> objects);
+  JobService(JobServiceOptions options, const MemoryPlan& memory, DataDirectory directory,
+             Stores stores);
   [[nodiscard]] QueueBounds Bounds() const;
   /// nullptr where it is missing or damaged.
   std::shared_ptr<VerifiedObject> OpenSound(const StoredObject& stored);
@@ -138,7 +138,8 @@ class JobService {
   /// The job as DELETE leaves it. Needs no free byte of the disk while there is a reserve.
   Result<Job> DismissWithReserve(const std::string& id);
 
-  JobServiceOptions options_;
+  MemoryPlan memory_;
+  JobServiceOptions options_;  // limits as memory_ has them
   DataDirectory directory_;
   std::unique_ptr<JobStore> jobs_;
   std::unique_ptr<ObjectStore> objects_;
@@ -147,8 +148,7 @@ class JobService {
   StorageHealth health_;
   DiskReserve reserve_;
   std::atomic<bool> draining_{false};
-  std::atomic<std::int64_t> next_probe_{0};
-  std::counting_semaphore<> probes_;
+  UploadProbe probe_;
   JobRunner runner_;
   std::unique_ptr<JobEngine> engine_;
   std::unique_ptr<Housekeeper> housekeeper_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -20,6 +21,8 @@ struct NewJob {
   std::optional<std::string> idempotency_key;
   Assumptions assumptions = {};  ///< as far as they are known before it runs
   std::string client = {};       ///< who sends it
+  JobTerms terms = {};
+  JobCost cost = {};
 };
 
 /// How many jobs have not ended.
@@ -32,6 +35,13 @@ struct UnfinishedJobs {
 struct QueueBounds {
   std::int64_t all = 1000;
   std::int64_t of_client = 1000;
+};
+
+/// Memory for the next job.
+struct MemoryRoom {
+  std::int64_t free_bytes = std::numeric_limits<std::int64_t>::max();
+  /// As much as one job may have: what counts for a job that needs more, or no one knows how much.
+  std::int64_t most_bytes = std::numeric_limits<std::int64_t>::max();
 };
 
 /// The jobs that a page of the list is to have.
@@ -104,9 +114,14 @@ class JobStore {
   virtual Result<UnfinishedJobs> CountUnfinished() = 0;
 
   /// Makes an accepted job running, with the next run; nullopt if none may be started now. Of the
-  /// clients with the fewest running jobs, the one that was served the longest ago gets its oldest.
-  /// A job that ran while an earlier process crashed runs alone.
-  virtual Result<std::optional<Job>> ClaimNext(std::int64_t now_ms) = 0;
+  /// jobs of the highest priority, every fourth time of all, it is one of the client with the
+  /// fewest running jobs that was served the longest ago, and of that client's the oldest. A job
+  /// that `room` is too small for, or that must run alone, for it ran while an earlier process
+  /// crashed, lets others pass for ten minutes; then they wait for it.
+  /// Requires: where no job runs, `room` has all that one may have.
+  virtual Result<std::optional<Job>> ClaimNext(std::int64_t now_ms, const MemoryRoom& room) = 0;
+  /// Fails the accepted jobs whose deadline has passed, "timeout"; returns their ids.
+  virtual Result<std::vector<std::string>> FailOverdue(std::int64_t now_ms) = 0;
   virtual Result<bool> ReportProgress(const std::string& id, std::int64_t run, int progress,
                                       const std::string& message, std::int64_t now_ms) = 0;
   /// Replaces the job's assumptions, those of an earlier run too.
@@ -121,6 +136,9 @@ class JobStore {
   /// Makes the job accepted again. An end that the service has caused spends no attempt.
   virtual Result<bool> Requeue(const std::string& id, std::int64_t run, RequeueReason reason,
                                std::int64_t now_ms) = 0;
+  /// Makes a job that needs more memory than was expected accepted again, with this estimate.
+  virtual Result<bool> RequeueWithMemory(const std::string& id, std::int64_t run,
+                                         std::int64_t memory_bytes, std::int64_t now_ms) = 0;
   /// Makes a job that a fault of the machine has ended accepted again, not to be started within
   /// `delay_ms`. Spends no attempt.
   virtual Result<bool> Postpone(const std::string& id, std::int64_t run, std::int64_t delay_ms,

@@ -57,6 +57,14 @@ void RunEnding::WorkerCrashed(const Job& job, const Error& error, const std::sto
   });
 }
 
+void RunEnding::ShortOfMemory(const Job& job, std::int64_t memory_bytes,
+                              const std::stop_token& stop) {
+  Log(LogLevel::kInfo, "the job needs more memory than was expected",
+      {{"job_id", job.id}, {"memory_bytes", memory_bytes}});
+  StoreSurely(job, stop,
+              [&] { return jobs_.RequeueWithMemory(job.id, job.run, memory_bytes, NowMs()); });
+}
+
 void RunEnding::Stopped(const Job& job, const std::stop_token& stop) {
   const bool requeued = StoreSurely(job, stop, [&] {
     return jobs_.Requeue(job.id, job.run, RequeueReason::kServiceStopped, NowMs());

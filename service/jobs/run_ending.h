@@ -30,6 +30,8 @@ class RunEnding {
   /// A run whose worker died or was killed. Any crash on a disk that is full or fails is the
   /// machine's fault.
   void WorkerCrashed(const Job& job, const Error& error, const std::stop_token& stop);
+  /// A run that `memory_bytes` are expected to suffice for, which were not expected before.
+  void ShortOfMemory(const Job& job, std::int64_t memory_bytes, const std::stop_token& stop);
   /// A run that a stop has ended: its job was dismissed, or the service is being stopped.
   void Stopped(const Job& job, const std::stop_token& stop);
 

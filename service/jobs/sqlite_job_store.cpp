@@ -1,7 +1,7 @@
 // The embedded job store: calls that write under one mutex, those that answer clients beside it.
-// The statements of the queue are in sqlite_queue.h, of running jobs in sqlite_runs.h, those that
-// remove jobs in sqlite_removal.h, the rows in sqlite_rows.h, the tables in sqlite_schema.h;
-// sqlite.h has the wrapper of SQLite.
+// The statements of the queue are in sqlite_queue.h and sqlite_claim.h, of running jobs in
+// sqlite_runs.h, those that remove jobs in sqlite_removal.h, the rows in sqlite_rows.h, the tables
+// in sqlite_schema.h; sqlite.h has the wrapper of SQLite.
 #include "service/jobs/sqlite_job_store.h"
 
 #include <algorithm>
@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "service/jobs/sqlite.h"
+#include "service/jobs/sqlite_claim.h"
 #include "service/jobs/sqlite_queue.h"
 #include "service/jobs/sqlite_readers.h"
 #include "service/jobs/sqlite_removal.h"
@@ -30,7 +31,8 @@ class SqliteJobStore : public JobStore {
   Result<Job> Find(const std::string& id) override;
   Result<JobPage> List(const JobQuery& query) override;
   Result<UnfinishedJobs> CountUnfinished() override;
-  Result<std::optional<Job>> ClaimNext(std::int64_t now_ms) override;
+  Result<std::optional<Job>> ClaimNext(std::int64_t now_ms, const MemoryRoom& room) override;
+  Result<std::vector<std::string>> FailOverdue(std::int64_t now_ms) override;
   Result<bool> ReportProgress(const std::string& id, std::int64_t run, int progress,
                               const std::string& message, std::int64_t now_ms) override;
   Result<bool> ReportAssumptions(const std::string& id, std::int64_t run,
@@ -42,6 +44,8 @@ class SqliteJobStore : public JobStore {
                     std::int64_t now_ms) override;
   Result<bool> Requeue(const std::string& id, std::int64_t run, RequeueReason reason,
                        std::int64_t now_ms) override;
+  Result<bool> RequeueWithMemory(const std::string& id, std::int64_t run, std::int64_t memory_bytes,
+                                 std::int64_t now_ms) override;
   Result<bool> Postpone(const std::string& id, std::int64_t run, std::int64_t delay_ms,
                         std::int64_t now_ms) override;
   Result<Job> Dismiss(const std::string& id, std::int64_t now_ms) override;
@@ -87,7 +91,7 @@ class SqliteJobStore : public JobStore {
   std::mutex mutex_;
   Database database_;
   SqliteReaders readers_;
-  ClientTurns turns_;
+  StartTurns turns_;
   std::int64_t latest_ms_ = 0;
 };
 
@@ -156,8 +160,12 @@ Result<UnfinishedJobs> SqliteJobStore::CountUnfinished() {
   });
 }
 
-Result<std::optional<Job>> SqliteJobStore::ClaimNext(std::int64_t now_ms) {
-  return Call([&] { return ClaimJob(database_, turns_, Later(now_ms)); });
+Result<std::optional<Job>> SqliteJobStore::ClaimNext(std::int64_t now_ms, const MemoryRoom& room) {
+  return Call([&] { return ClaimJob(database_, turns_, room, Later(now_ms)); });
+}
+
+Result<std::vector<std::string>> SqliteJobStore::FailOverdue(std::int64_t now_ms) {
+  return Call([&] { return FailOverdueJobs(database_, Later(now_ms)); });
 }
 
 Result<bool> SqliteJobStore::ReportProgress(const std::string& id, std::int64_t run, int progress,
@@ -188,6 +196,13 @@ Result<bool> SqliteJobStore::Fail(const std::string& id, std::int64_t run, const
 Result<bool> SqliteJobStore::Requeue(const std::string& id, std::int64_t run, RequeueReason reason,
                                      std::int64_t now_ms) {
   return Call([&] { return RequeueRun(database_, {id, run, Later(now_ms)}, reason); });
+}
+
+Result<bool> SqliteJobStore::RequeueWithMemory(const std::string& id, std::int64_t run,
+                                               std::int64_t memory_bytes, std::int64_t now_ms) {
+  return Call([&] {
+    return farhorizon::RequeueWithMemory(database_, {id, run, Later(now_ms)}, memory_bytes);
+  });
 }
 
 Result<bool> SqliteJobStore::Postpone(const std::string& id, std::int64_t run,

@@ -1,5 +1,7 @@
 #include "service/jobs/sqlite_rows.h"
 
+#include <algorithm>
+
 #include <nlohmann/json.hpp>
 
 namespace farhorizon {
@@ -67,6 +69,10 @@ Job ReadJob(const Statement& row) {
   job.client = row.Text(19);
   job.run = row.Integer(20);
   job.retries = row.Integer(21);
+  job.priority = static_cast<Priority>(std::clamp<std::int64_t>(row.Integer(22), 0, 2));
+  if (!row.IsNull(23)) job.deadline_ms = row.Integer(23);
+  job.timeout_seconds = row.Integer(24);
+  job.cost = {row.Integer(25), row.Integer(26)};
   const bool unclear = !parameters && !IsTerminal(job.state);
   if (unclear || (job.state == JobState::kFailed && !job.failure)) {
     job.failure =
@@ -110,11 +116,17 @@ std::string InsertJob(const Database& database, const NewJob& job, std::int64_t 
   const std::string id = IsJobId(last) ? NextJobId(now_ms, last) : NewJobId(now_ms);
   Statement insert(database,
                    "INSERT INTO jobs (id, state, filename, parameters, input_sha256, "
-                   "input_bytes, created_ms, updated_ms, assumptions, client, message) "
-                   "VALUES (?, 'accepted', ?, ?, ?, ?, ?, ?, ?, ?, 'waiting')");
+                   "input_bytes, created_ms, updated_ms, assumptions, client, message, priority, "
+                   "timeout_seconds, cost_memory_bytes, cost_seconds, deadline_ms) "
+                   "VALUES (?, 'accepted', ?, ?, ?, ?, ?, ?, ?, ?, 'waiting', ?, ?, ?, ?, "
+                   "nullif(?, 0))");
   insert.Bind(id).Bind(job.filename).Bind(EncodeQuery(job.parameters));
   insert.Bind(job.input_sha256).Bind(job.input_bytes).Bind(now_ms).Bind(now_ms);
-  insert.Bind(AssumptionsColumn(job.assumptions)).Bind(job.client).Run();
+  insert.Bind(AssumptionsColumn(job.assumptions)).Bind(job.client);
+  const JobTerms& terms = job.terms;
+  insert.Bind(static_cast<std::int64_t>(terms.priority)).Bind(terms.timeout_seconds);
+  insert.Bind(job.cost.memory_bytes).Bind(job.cost.seconds);
+  insert.Bind(terms.deadline_seconds > 0 ? now_ms + terms.deadline_seconds * 1000 : 0).Run();
   return id;
 }
 

@@ -63,6 +63,13 @@ bool RequeueRun(const Database& database, const RunAt& at, RequeueReason reason)
   return Change(update, at);
 }
 
+bool RequeueWithMemory(const Database& database, const RunAt& at, std::int64_t memory_bytes) {
+  Statement update(database, Setting("state = 'accepted', cost_memory_bytes = ?, "
+                                     "message = 'waiting to run again'"));
+  update.Bind(memory_bytes);
+  return Change(update, at);
+}
+
 bool PostponeRun(const Database& database, const RunAt& at, std::int64_t delay_ms) {
   Statement update(database,
                    Setting("state = 'accepted', message = 'waiting to run again', "

@@ -26,6 +26,8 @@ bool PublishRun(Database& database, const RunAt& at, const std::vector<Artifact>
                 const std::map<std::string, double>& timings);
 bool FailRun(const Database& database, const RunAt& at, const Error& failure);
 bool RequeueRun(const Database& database, const RunAt& at, RequeueReason reason);
+/// As JobStore::RequeueWithMemory has it.
+bool RequeueWithMemory(const Database& database, const RunAt& at, std::int64_t memory_bytes);
 bool PostponeRun(const Database& database, const RunAt& at, std::int64_t delay_ms);
 
 }  // namespace farhorizon

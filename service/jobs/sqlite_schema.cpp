@@ -76,7 +76,19 @@ ALTER TABLE artifacts ADD COLUMN gzip_sha256 TEXT;
 ALTER TABLE artifacts ADD COLUMN gzip_bytes INTEGER;
 CREATE INDEX artifacts_by_gzip ON artifacts (gzip_sha256) WHERE gzip_sha256 IS NOT NULL;
 )";
-constexpr std::array kVersions = {kVersion1, kVersion2, kVersion3, kVersion4};
+// A priority is a number, so that an index has its order. Of the jobs that were accepted before,
+// nobody has looked at the cost.
+constexpr const char* kVersion5 = R"(
+ALTER TABLE jobs ADD COLUMN priority INTEGER NOT NULL DEFAULT 1 CHECK (priority BETWEEN 0 AND 2);
+ALTER TABLE jobs ADD COLUMN deadline_ms INTEGER;
+ALTER TABLE jobs ADD COLUMN timeout_seconds INTEGER NOT NULL DEFAULT 0;
+ALTER TABLE jobs ADD COLUMN cost_memory_bytes INTEGER NOT NULL DEFAULT 0;
+ALTER TABLE jobs ADD COLUMN cost_seconds INTEGER NOT NULL DEFAULT 0;
+CREATE INDEX jobs_by_priority ON jobs (priority, client, id) WHERE state = 'accepted';
+CREATE INDEX jobs_by_deadline ON jobs (deadline_ms)
+  WHERE state = 'accepted' AND deadline_ms IS NOT NULL;
+)";
+constexpr std::array kVersions = {kVersion1, kVersion2, kVersion3, kVersion4, kVersion5};
 
 void Migrate(Database& database) {
   Transaction transaction(database);

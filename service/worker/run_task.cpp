@@ -8,6 +8,7 @@
 #include <new>
 #include <optional>
 #include <string>
+#include <sys/resource.h>
 #include <system_error>
 #include <thread>
 #include <vector>
@@ -76,6 +77,11 @@ AssumptionHandler SendAssumptions() {
   };
 }
 
+std::int64_t PeakBytes() {
+  struct rusage used {};
+  return ::getrusage(RUSAGE_SELF, &used) == 0 ? std::int64_t{used.ru_maxrss} * 1024 : 0;
+}
+
 // A tile of three arc seconds and a degree has 1201 x 1201 posts: that, and half as much again, is
 // read and placed in some 100 ms.
 constexpr std::int64_t kMostProbedPosts = std::int64_t{1} << 21U;
@@ -86,6 +92,7 @@ Status Probe(const WorkerTask& task, const BuildOptions& options, const RunContr
   Result<std::unique_ptr<TerrainInput>> input =
       TerrainInput::Open(task.input, options, control, kMostProbedPosts);
   if (!input) return std::move(input.error());
+  Send(WorkerSize{(*input)->posts()});
   if ((*input)->HeaderOnly()) return Ok{};
   Result<LevelPlan> plan = PlanLevels(**input, options);
   if (!plan) return std::move(plan.error());
@@ -121,7 +128,7 @@ int RunTask(bool probe_only) {
       Send(status.error());
       return 1;
     }
-    Send(WorkerDone{timer.Seconds()});
+    Send(WorkerDone{timer.Seconds(), PeakBytes()});
     return 0;
   } catch (const std::bad_alloc&) {
     Send(Error{ErrorCode::kResourceExhausted,

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <fcntl.h>
 #include <iterator>
+#include <limits>
 #include <optional>
 #include <poll.h>
 #include <signal.h>
@@ -15,6 +16,7 @@
 #include <unistd.h>
 
 #include "service/metrics.h"
+#include "service/worker/folder_bytes.h"
 #include "service/worker/worker_protocol.h"
 
 namespace farhorizon {
@@ -46,6 +48,7 @@ class MessageReader {
     return buffer_.size() <= kLongestLine;
   }
   [[nodiscard]] const std::optional<WorkerMessage>& final_message() const { return final_message_; }
+  [[nodiscard]] std::optional<std::int64_t> posts() const { return posts_; }
 
  private:
   bool AddLine(std::string_view line) {
@@ -56,6 +59,8 @@ class MessageReader {
     } else if (const auto* assumption = std::get_if<Assumption>(&*message)) {
       if (++assumptions_ > kMostAssumptions) return false;
       control_.Assume(*assumption);
+    } else if (const auto* size = std::get_if<WorkerSize>(&*message)) {
+      posts_ = size->posts;
     } else if (!std::holds_alternative<WorkerBeat>(*message)) {
       final_message_ = std::move(message);
     }
@@ -64,11 +69,12 @@ class MessageReader {
 
   const RunControl& control_;
   std::size_t assumptions_ = 0;
+  std::optional<std::int64_t> posts_;
   std::string buffer_;
   std::optional<WorkerMessage> final_message_;
 };
 
-enum class WaitResult { kEnded, kStopped, kTimedOut, kSilent, kProtocolError };
+enum class WaitResult { kEnded, kStopped, kTimedOut, kSilent, kProtocolError, kFolderFull };
 
 // Reads once; false where the bytes violate the protocol. open: cleared at the end of the stream.
 bool ReadMessages(const ChildProcess& child, MessageReader& reader, bool& open) {
@@ -79,18 +85,43 @@ bool ReadMessages(const ChildProcess& child, MessageReader& reader, bool& open) 
   return reader.Add({bytes.data(), static_cast<std::size_t>(size)});
 }
 
-// Reads messages until the worker ends or is silent for too long, `stop_event` is readable or the
-// deadline has passed.
+// Watches the folder of a worker, which the limit of each file alone does not bound.
+class FolderWatch {
+ public:
+  // most: beside what is there now.
+  FolderWatch(const std::filesystem::path& folder, std::int64_t most)
+      : folder_(folder), most_(most + BytesIn(folder, std::numeric_limits<std::int64_t>::max())) {}
+
+  // Looks once in kLookInterval; false where the folder has too much.
+  bool Fits() {
+    const Clock::time_point now = Clock::now();
+    if (now < next_) return true;
+    next_ = now + kLookInterval;
+    return BytesIn(folder_, most_) <= most_;
+  }
+  [[nodiscard]] Clock::time_point next() const { return next_; }
+
+ private:
+  static constexpr std::chrono::seconds kLookInterval{1};
+
+  const std::filesystem::path& folder_;
+  std::int64_t most_;
+  Clock::time_point next_ = Clock::now() + kLookInterval;
+};
+
+// Reads messages until the worker ends or is silent for too long, its folder is full, `stop_event`
+// is readable or the deadline has passed.
 WaitResult WaitForChild(const ChildProcess& child, MessageReader& reader, int stop_event,
-                        Clock::time_point deadline) {
+                        Clock::time_point deadline, FolderWatch watch) {
   bool open = true;
   Clock::time_point heard = Clock::now();
   for (;;) {
     const Clock::time_point now = Clock::now();
     if (now >= deadline) return WaitResult::kTimedOut;
     if (now >= heard + kLongestSilence) return WaitResult::kSilent;
+    if (!watch.Fits()) return WaitResult::kFolderFull;
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(
-        std::min(deadline, heard + kLongestSilence) - now);
+        std::min({deadline, heard + kLongestSilence, watch.next()}) - now);
     std::array<struct pollfd, 3> waits = {{{open ? child.message_fd() : -1, POLLIN, 0},
                                            {child.pidfd(), POLLIN, 0},
                                            {stop_event, POLLIN, 0}}};
@@ -123,13 +154,13 @@ std::string StderrTail(const std::filesystem::path& directory) {
 }
 
 WorkerOutcome Crashed(ErrorCode code, ErrorKind kind, std::string message) {
-  return {WorkerEnd::kCrashed, {code, std::move(message), kind}, {}, {}};
+  return {WorkerEnd::kCrashed, {code, std::move(message), kind}, {}, {}, {}, {}};
 }
 
-WorkerOutcome TimedOut(const char* what) {
-  return Crashed(ErrorCode::kResourceExhausted, "timeout",
-                 std::string("the work took more than its share of ") + what +
-                     "; send a smaller DEM or ask for fewer levels");
+WorkerOutcome TimedOut(const std::string& what) {
+  return Crashed(
+      ErrorCode::kResourceExhausted, "timeout",
+      "the work took more than " + what + "; send a smaller DEM or ask for fewer levels");
 }
 
 // The outcome of a worker that ended by itself. status: as of waitpid.
@@ -137,15 +168,15 @@ WorkerOutcome OutcomeOfExit(int status, const std::optional<WorkerMessage>& fina
   if (WIFEXITED(status) && final_message) {
     if (const auto* done = std::get_if<WorkerDone>(&*final_message)) {
       if (WEXITSTATUS(status) == 0) {
-        return {WorkerEnd::kDone, {ErrorCode::kIo, ""}, done->timings, {}};
+        return {WorkerEnd::kDone, {ErrorCode::kIo, ""}, done->timings, done->peak_bytes, {}, {}};
       }
     } else if (const auto* error = std::get_if<Error>(&*final_message)) {
-      if (WEXITSTATUS(status) == 1) return {WorkerEnd::kFailed, *error, {}, {}};
+      if (WEXITSTATUS(status) == 1) return {WorkerEnd::kFailed, *error, {}, {}, {}, {}};
     }
   }
   if (WIFSIGNALED(status)) {
     const int signal = WTERMSIG(status);
-    if (signal == SIGXCPU) return TimedOut("processor time");
+    if (signal == SIGXCPU) return TimedOut("its share of processor time");
     if (signal == SIGXFSZ) {
       return Crashed(ErrorCode::kResourceExhausted, "file-limit",
                      "the work wrote a file larger than the limit; ask for fewer triangles");
@@ -172,10 +203,11 @@ WorkerOutcome Supervise(const WorkerCall& call, const RunControl& control) {
   }
   Result<ChildProcess> child =
       call.spawner->StartWorker({call.program, call.probe_only, call.directory, call.limits});
-  if (!child) return {WorkerEnd::kCrashed, std::move(child.error()), {}, {}};
+  if (!child) return {WorkerEnd::kCrashed, std::move(child.error()), {}, {}, {}, {}};
   MessageReader reader(control);
   const Clock::time_point deadline = Clock::now() + std::chrono::seconds(call.limits.wall_seconds);
-  const WaitResult waited = WaitForChild(*child, reader, stop_event.get(), deadline);
+  const WaitResult waited = WaitForChild(*child, reader, stop_event.get(), deadline,
+                                         FolderWatch(call.directory, call.limits.folder_bytes));
   if (waited != WaitResult::kEnded) child->Kill();
   const int status = child->Wait();
   WorkerOutcome outcome;
@@ -184,10 +216,17 @@ WorkerOutcome Supervise(const WorkerCall& call, const RunControl& control) {
       outcome = OutcomeOfExit(status, reader.final_message());
       break;
     case WaitResult::kStopped:
-      outcome = {WorkerEnd::kStopped, {ErrorCode::kCancelled, "stopped", ""}, {}, {}};
+      outcome = {WorkerEnd::kStopped, {ErrorCode::kCancelled, "stopped", ""}, {}, {}, {}, {}};
       break;
     case WaitResult::kTimedOut:
-      outcome = TimedOut("time");
+      outcome =
+          TimedOut(std::to_string(call.limits.wall_seconds) + " s, " + call.limits.wall_bound);
+      break;
+    case WaitResult::kFolderFull:
+      outcome = Crashed(ErrorCode::kResourceExhausted, "file-limit",
+                        "the work wrote more than the " +
+                            std::to_string(call.limits.folder_bytes >> 20U) +
+                            " MiB that all of its files may have; ask for fewer triangles");
       break;
     case WaitResult::kSilent:
       outcome = Crashed(ErrorCode::kIo, "worker-stuck",
@@ -199,6 +238,7 @@ WorkerOutcome Supervise(const WorkerCall& call, const RunControl& control) {
                         "the worker said what it should not; the fault is ours");
       break;
   }
+  outcome.posts = reader.posts();
   outcome.stderr_tail = StderrTail(call.directory);
   return outcome;
 }

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "core/base/result.h"
@@ -25,7 +27,9 @@ struct WorkerOutcome {
   /// "worker-stuck", "memory-limit", "file-limit" or "timeout".
   Error error = {ErrorCode::kIo, "", ""};
   std::map<std::string, double> timings;
-  std::string stderr_tail;  ///< the end of the worker's standard error, for the log
+  std::int64_t peak_bytes = 0;  ///< resident memory at its peak, as a worker that is done says
+  std::optional<std::int64_t> posts;  ///< of the DEM, where the worker has said so
+  std::string stderr_tail = {};       ///< the end of the worker's standard error, for the log
 };
 
 /// How to start one worker process.

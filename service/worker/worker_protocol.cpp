@@ -67,9 +67,19 @@ std::optional<WorkerMessage> ReadAssumption(const json& assumption) {
   return read;
 }
 
-std::optional<WorkerMessage> ReadDone(const json& timings) {
-  if (!timings.is_object()) return std::nullopt;
+// The posts of a raster of at most 2^31 - 1 columns and rows.
+std::optional<WorkerMessage> ReadSize(const json& posts) {
+  constexpr std::int64_t kMost = std::int64_t{1} << 62U;
+  if (!posts.is_number_integer() || posts < 1 || posts > kMost) return std::nullopt;
+  return WorkerSize{posts.get<std::int64_t>()};
+}
+
+std::optional<WorkerMessage> ReadDone(const json& object) {
+  const json& timings = object["timings"];
+  const json peak = object.value("peakBytes", json(0U));
+  if (!timings.is_object() || !peak.is_number_unsigned()) return std::nullopt;
   WorkerDone done;
+  done.peak_bytes = peak.get<std::int64_t>();
   for (const auto& [stage, seconds] : timings.items()) {
     if (!seconds.is_number() || !StageFromName(stage)) return std::nullopt;
     done.timings[stage] = seconds.get<double>();
@@ -118,11 +128,12 @@ Result<WorkerTask> ReadTaskFile() {
 
 std::string WriteMessage(const WorkerMessage& message) {
   if (std::holds_alternative<WorkerBeat>(message)) return Line({{"beat", true}});
+  if (const auto* size = std::get_if<WorkerSize>(&message)) return Line({{"posts", size->posts}});
   if (const auto* progress = std::get_if<WorkerProgress>(&message)) {
     return Line({{"stage", StageName(progress->stage)}, {"done", progress->done}});
   }
   if (const auto* done = std::get_if<WorkerDone>(&message)) {
-    return Line({{"timings", done->timings}});
+    return Line({{"timings", done->timings}, {"peakBytes", done->peak_bytes}});
   }
   if (const auto* assumption = std::get_if<Assumption>(&message)) {
     return Line(
@@ -140,11 +151,12 @@ std::optional<WorkerMessage> ReadMessage(std::string_view line) {
   const json object = json::parse(line, shallow, false);
   if (!object.is_object()) return std::nullopt;
   if (const auto error = object.find("error"); error != object.end()) return ReadError(*error);
-  if (const auto times = object.find("timings"); times != object.end()) return ReadDone(*times);
+  if (object.contains("timings")) return ReadDone(object);
   if (const auto what = object.find("assumption"); what != object.end()) {
     return ReadAssumption(*what);
   }
   if (object.contains("beat")) return WorkerBeat{};
+  if (const auto posts = object.find("posts"); posts != object.end()) return ReadSize(*posts);
   const auto done = object.find("done");
   if (done == object.end() || !done->is_number()) return std::nullopt;
   const double share = done->get<double>();

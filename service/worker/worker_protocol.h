@@ -45,17 +45,22 @@ constexpr std::size_t kMostAssumptions = 32;
 constexpr std::chrono::seconds kBeatInterval{1};
 
 /// A worker's messages, one JSON object a line: beats and progress any number of times, an
-/// assumption up to kMostAssumptions times, then at most once that the work is done or the error
-/// that stopped it.
+/// assumption up to kMostAssumptions times, the DEM's size, then at most once that the work is done
+/// or the error that stopped it.
 struct WorkerBeat {};
+struct WorkerSize {
+  std::int64_t posts = 0;
+};
 struct WorkerProgress {
   Stage stage = Stage::kRead;
   double done = 0;
 };
 struct WorkerDone {
   std::map<std::string, double> timings;  ///< seconds by stage
+  std::int64_t peak_bytes = 0;            ///< resident memory at its peak
 };
-using WorkerMessage = std::variant<WorkerBeat, WorkerProgress, Assumption, WorkerDone, Error>;
+using WorkerMessage =
+    std::variant<WorkerBeat, WorkerSize, WorkerProgress, Assumption, WorkerDone, Error>;
 
 /// One line, with its newline. A text is cut after 2000 bytes.
 std::string WriteMessage(const WorkerMessage& message);

@@ -3,6 +3,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
+#include <new>
 #include <string>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -64,6 +65,22 @@ int Misbehave(const WorkerTask& task) {
     std::ofstream file(task.output + "/large");
     const std::string piece(1 << 20, 'x');
     while (file) file << piece << std::flush;
+  }
+  if (Named(task, "folder")) {
+    const std::string piece(1 << 20, 'x');
+    for (int i = 0; i < 40; ++i) {
+      if (!WriteFile(task.output + "/" + std::to_string(i), piece)) return 4;
+    }
+    std::this_thread::sleep_for(std::chrono::hours(1));
+  }
+  if (Named(task, "hungry")) {
+    try {
+      const std::vector<char> memory(std::size_t{100} << 20U, 'x');
+      [[maybe_unused]] const volatile char used = memory[task.input.size()];
+    } catch (const std::bad_alloc&) {
+      Send(WriteMessage(Error{ErrorCode::kResourceExhausted, "too much", "memory-limit"}));
+      return 1;
+    }
   }
   if (Named(task, "liar")) {
     WriteOne(task.output, "{}");
@@ -128,6 +145,8 @@ int main(int argc, char** argv) {
     return 1;
   }
   Assume(*task);
+  if (Named(*task, "hungry")) Send(WriteMessage(WorkerSize{400}));
+  if (Named(*task, "probe-hang")) std::this_thread::sleep_for(std::chrono::hours(1));
   if (Named(*task, "probe-segv")) std::raise(SIGSEGV);
   Send(WriteMessage(WorkerDone{}));
   return 0;

@@ -31,8 +31,12 @@ Result<LaunchOrder> ReadOrder(std::string_view text) {
     order.program = object.at("program").get<std::string>();
     order.probe_only = object.at("probe").get<bool>();
     order.directory = object.at("directory").get<std::string>();
-    order.limits = {number("memoryBytes"), number("cpuSeconds"), number("wallSeconds"),
-                    number("fileBytes"), number("openFiles")};
+    WorkerLimits& limits = order.limits;
+    limits.memory_bytes = number("memoryBytes");
+    limits.cpu_seconds = number("cpuSeconds");
+    limits.wall_seconds = number("wallSeconds");
+    limits.file_bytes = number("fileBytes");
+    limits.open_files = number("openFiles");
     return order;
   } catch (const json::exception& failure) {
     return Error{ErrorCode::kInvalidArgument, std::string("spawner's order: ") + failure.what()};

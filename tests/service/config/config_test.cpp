@@ -35,7 +35,8 @@ TEST(Config, EveryKeyHasItsOwnField) {
   for (const ConfigKey& key : ConfigKeys()) {
     Config config;
     ConfigValue value = std::string("other");
-    if (!key.choices.empty()) value = key.choices.back();
+    if (!key.choices.empty()) value = key.choices.front();
+    if (key.get(config) == value) value = key.choices.back();
     if (!key.IsText()) value = key.most;
     ASSERT_NE(key.get(config), value) << key.name;
     key.set(config, value);

@@ -47,7 +47,7 @@ TEST_F(RoutesTest, TakesTheParametersThatOpenapiLists) {
       listed.insert(post.substr(at + row.size(), comma - at - row.size()));
     }
   }
-  std::set<std::string> taken = {"filename"};
+  std::set<std::string> taken = {"filename", "priority", "deadline", "timeout"};
   for (const std::string_view name : ParameterNames()) taken.emplace(name);
   EXPECT_EQ(listed, taken);
 }

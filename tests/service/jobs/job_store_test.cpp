@@ -5,6 +5,7 @@
 #include <thread>
 #include <vector>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "service/jobs/sqlite.h"
@@ -39,7 +40,7 @@ class JobStoreConformance : public testing::TestWithParam<OpenJobs> {
   }
   void Succeed(const Job& job) { EXPECT_TRUE(*store_->Publish(job.id, job.run, {}, {}, ++time_)); }
   Job Claim() {
-    auto claimed = store_->ClaimNext(++time_);
+    auto claimed = store_->ClaimNext(++time_, {});
     EXPECT_TRUE(claimed && *claimed);
     return **claimed;
   }
@@ -66,7 +67,7 @@ TEST_P(JobStoreConformance, HandsOutEachJobOnceOldestFirst) {
   const Job second = Insert();
   EXPECT_EQ(Claim().id, first.id);
   EXPECT_EQ(Claim().id, second.id);
-  const auto none = store_->ClaimNext(++time_);
+  const auto none = store_->ClaimNext(++time_, {});
   ASSERT_TRUE(none);
   EXPECT_FALSE(*none);
 }
@@ -79,7 +80,7 @@ TEST_P(JobStoreConformance, HandsOutEachJobOnceToManyThreads) {
   for (int i = 0; i < 4; ++i) {
     threads.emplace_back([&] {
       for (;;) {
-        auto job = store_->ClaimNext(time_);
+        auto job = store_->ClaimNext(time_, {});
         if (!job || !*job) return;
         ++claimed;
       }
@@ -376,7 +377,7 @@ TEST_P(JobStoreConformance, AFaultOfTheMachinePutsAJobOffAndSpendsNothing) {
   const Job job = Claim();
   ASSERT_TRUE(*store_->Postpone(job.id, job.run, 5000, ++time_));
   EXPECT_EQ(StateOf(job), JobState::kAccepted);
-  const auto none = store_->ClaimNext(time_ + 4999);
+  const auto none = store_->ClaimNext(time_ + 4999, {});
   ASSERT_TRUE(none);
   EXPECT_FALSE(*none) << "not yet";
   time_ += 5000;
@@ -419,7 +420,7 @@ TEST_P(JobStoreConformance, WhatRanInACrashRunsAloneUntilItIsKnownWhichDidIt) {
   ASSERT_EQ(*store_->RecoverRunning(PreviousEnd::kCrashed, ++time_), 2);
   const Job alone = Claim();
   EXPECT_EQ(alone.id, innocent.id);
-  const auto beside = store_->ClaimNext(++time_);
+  const auto beside = store_->ClaimNext(++time_, {});
   ASSERT_TRUE(beside);
   EXPECT_FALSE(*beside);
   Succeed(alone);
@@ -450,12 +451,128 @@ TEST_P(JobStoreConformance, AJobThatMustRunAloneLetsOthersPassForAWhile) {
   EXPECT_EQ(Claim().id, passing.id);
   InsertOf("third");
   time_ += 600'000;
-  const auto none = store_->ClaimNext(time_);
+  const auto none = store_->ClaimNext(time_, {});
   ASSERT_TRUE(none);
   EXPECT_FALSE(*none) << "its patience is at an end";
   ASSERT_TRUE(*store_->Publish(running.id, 1, {}, {}, ++time_));
   ASSERT_TRUE(*store_->Publish(passing.id, 1, {}, {}, ++time_));
   EXPECT_EQ(Claim().id, suspect.id);
+}
+
+class Choice : public JobStoreConformance {
+ protected:
+  std::string With(const JobTerms& terms, const std::string& client = "") {
+    auto job =
+        store_->Insert({"a", {}, std::string(64, 'a'), 5, {}, {}, client, terms, {}}, {}, ++time_);
+    EXPECT_TRUE(job);
+    return job->id;
+  }
+  std::string Costing(std::int64_t memory_bytes, const std::string& client = "") {
+    auto job = store_->Insert(
+        {"a", {}, std::string(64, 'a'), 5, {}, {}, client, {}, {memory_bytes, 1}}, {}, ++time_);
+    EXPECT_TRUE(job);
+    return job->id;
+  }
+  // The id of the job that starts where so much memory is free; "" for none.
+  std::string Next(std::int64_t free_bytes = 100) {
+    auto job = store_->ClaimNext(++time_, {free_bytes, 100});
+    EXPECT_TRUE(job);
+    return *job ? (*job)->id : "";
+  }
+  void End(const std::string& id) { EXPECT_TRUE(*store_->Publish(id, 1, {}, {}, ++time_)); }
+};
+
+TEST_P(Choice, TakesTheHighestPriorityAndThereTheFairShare) {
+  const std::string low = With({Priority::kLow}, "a");
+  const std::string normal = With({}, "a");
+  const std::string high = With({Priority::kHigh}, "a");
+  const std::string high_too = With({Priority::kHigh}, "a");
+  const std::string of_another = With({Priority::kHigh}, "b");
+  EXPECT_EQ(Next(), high);
+  EXPECT_EQ(Next(), of_another) << "the other client has none that runs";
+  EXPECT_EQ(Next(), high_too);
+  // Every fourth start goes by share and age alone.
+  EXPECT_EQ(Next(), low);
+  EXPECT_EQ(Next(), normal);
+}
+
+TEST_P(Choice, NoPriorityKeepsAJobWaitingForEver) {
+  const std::string low = With({Priority::kLow});
+  int starts = 0;
+  for (std::string next; next != low; ++starts) {
+    for (int i = 0; i < 3; ++i) With({Priority::kHigh}, "client " + std::to_string(i));
+    next = Next();
+    End(next);
+    ASSERT_LT(starts, 40);
+  }
+}
+
+TEST_P(Choice, TakesWhatThereIsMemoryForAndWaitsForTheLargeOneInTheEnd) {
+  const std::string running = Costing(50);
+  EXPECT_EQ(Next(), running);
+  const std::string large = Costing(80);
+  const std::string small = Costing(10);
+  EXPECT_EQ(Next(50), small) << "it fits beside the one that runs";
+  time_ += 600'000;
+  const std::string later = Costing(10);
+  EXPECT_EQ(Next(40), "") << "the large one has waited for long enough";
+  End(running);
+  EXPECT_EQ(Next(90), large);
+  EXPECT_EQ(Next(10), later);
+}
+
+TEST_P(Choice, AJobOfUnknownCostTakesAsMuchAsOneMayHave) {
+  const std::string unknown = Costing(0);
+  EXPECT_EQ(Next(99), "");
+  EXPECT_EQ(Next(100), unknown);
+  const std::string larger = Costing(1000);  // accepted under another configuration
+  EXPECT_EQ(Next(99), "");
+  EXPECT_EQ(Next(100), larger);
+}
+
+TEST_P(Choice, MoreMemoryThanExpectedIsAskedForAgain) {
+  const std::string id = Costing(10);
+  ASSERT_EQ(Next(), id);
+  ASSERT_TRUE(*store_->RequeueWithMemory(id, 1, 40, ++time_));
+  EXPECT_FALSE(*store_->RequeueWithMemory(id, 1, 80, ++time_)) << "no longer its run";
+  EXPECT_EQ(store_->Find(id)->cost.memory_bytes, 40);
+  EXPECT_EQ(Next(39), "");
+  EXPECT_EQ(Next(40), id);
+  EXPECT_EQ(store_->Find(id)->crash_count, 0);
+}
+
+TEST_P(Choice, AJobThatWaitsPastItsDeadlineFailsWithoutARun) {
+  const std::string late = With({Priority::kNormal, 5, 0});
+  const std::string patient = With({Priority::kNormal, 600, 7});
+  EXPECT_THAT(*store_->FailOverdue(++time_), testing::IsEmpty());
+  time_ += 5000;
+  EXPECT_EQ(Next(), patient) << "what is too late does not start";
+  EXPECT_EQ(store_->Find(patient)->timeout_seconds, 7);
+  EXPECT_THAT(*store_->FailOverdue(++time_), testing::ElementsAre(late));
+  EXPECT_THAT(*store_->FailOverdue(++time_), testing::IsEmpty());
+  const Job ended = *store_->Find(late);
+  EXPECT_EQ(ended.state, JobState::kFailed);
+  ASSERT_TRUE(ended.failure);
+  EXPECT_EQ(ended.failure->kind, "timeout");
+  EXPECT_THAT(ended.failure->message, testing::HasSubstr("the 5 seconds of its deadline"));
+  EXPECT_EQ(ended.failure->message, ended.message);
+  EXPECT_EQ(ended.run, 0);
+  EXPECT_FALSE(ended.started_ms);
+  time_ += 600'000;
+  EXPECT_THAT(*store_->FailOverdue(++time_), testing::IsEmpty()) << "it runs";
+}
+
+TEST_P(Choice, AKeyWithOtherTermsIsAnotherSubmission) {
+  NewJob job{"a", {}, std::string(64, 'a'), 5, "k"};
+  job.terms = {Priority::kHigh, 60, 9};
+  const auto first = store_->Insert(job, {}, ++time_);
+  ASSERT_TRUE(first);
+  EXPECT_EQ(store_->Insert(job, {}, ++time_)->id, first->id);
+  for (const JobTerms& other : {JobTerms{Priority::kLow, 60, 9}, JobTerms{Priority::kHigh, 61, 9},
+                                JobTerms{Priority::kHigh, 60, 8}}) {
+    job.terms = other;
+    EXPECT_EQ(store_->Insert(job, {}, ++time_).error().kind, "idempotency-key-reused");
+  }
 }
 
 class Expiry : public JobStoreConformance {
@@ -514,6 +631,9 @@ INSTANTIATE_TEST_SUITE_P(Sqlite, JobStoreConformance,
                          testing::Values([](const std::filesystem::path& folder) {
                            return OpenSqliteJobStore(folder / "jobs.sqlite");
                          }));
+INSTANTIATE_TEST_SUITE_P(Sqlite, Choice, testing::Values([](const std::filesystem::path& folder) {
+                           return OpenSqliteJobStore(folder / "jobs.sqlite");
+                         }));
 INSTANTIATE_TEST_SUITE_P(Sqlite, Expiry, testing::Values([](const std::filesystem::path& folder) {
                            return OpenSqliteJobStore(folder / "jobs.sqlite");
                          }));
@@ -561,7 +681,7 @@ TEST(SqliteJobStore, ADamagedRowHidesNoOtherAndDoesNotRun) {
   store = OpenSqliteJobStore(path);
   ASSERT_TRUE(store);
   EXPECT_EQ((*store)->List({{}, {}, 10})->jobs.size(), 2U);
-  const auto claimed = (*store)->ClaimNext(2);
+  const auto claimed = (*store)->ClaimNext(2, {});
   ASSERT_TRUE(claimed && *claimed);
   ASSERT_TRUE((*claimed)->failure) << "its parameters are lost: it must not run with others";
   EXPECT_EQ((*claimed)->failure->kind, "job-store");

@@ -60,7 +60,7 @@ TEST_F(ObjectCollectorTest, RemovesWhatRemovedJobsHaveLeft) {
   const std::string shared = Put("shared");
   objects_->Keep({input, shared});
   ASSERT_TRUE(jobs_->Insert({"a", {}, input, 5, {}}, {}, 1));
-  const auto job = jobs_->ClaimNext(2);
+  const auto job = jobs_->ClaimNext(2, {});
   ASSERT_TRUE(*jobs_->Publish((*job)->id, 1, {{"x", "a/b", 6, shared}}, {}, 3));
   ASSERT_TRUE(jobs_->Insert({"a", {}, shared, 6, {}}, {}, 4));
   // As of a process that ended between the row and the files.

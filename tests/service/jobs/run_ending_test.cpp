@@ -23,7 +23,7 @@ class RunEndingTest : public testing::Test {
   }
   Job Claim() {
     // Later than any delay.
-    auto claimed = jobs_->ClaimNext(time_ += std::int64_t{40'000'000'000'000});
+    auto claimed = jobs_->ClaimNext(time_ += std::int64_t{40'000'000'000'000}, {});
     EXPECT_TRUE(claimed && *claimed);
     return claimed && *claimed ? **claimed : Job{};
   }

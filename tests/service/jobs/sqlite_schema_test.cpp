@@ -63,6 +63,12 @@ CREATE TABLE store (
 INSERT INTO store (one, id) VALUES (1, lower(hex(randomblob(16))));
 PRAGMA user_version = 3;
 )";
+constexpr const char* kVersion4 = R"(
+ALTER TABLE artifacts ADD COLUMN gzip_sha256 TEXT;
+ALTER TABLE artifacts ADD COLUMN gzip_bytes INTEGER;
+CREATE INDEX artifacts_by_gzip ON artifacts (gzip_sha256) WHERE gzip_sha256 IS NOT NULL;
+PRAGMA user_version = 4;
+)";
 // One job in each state, with attempts behind it. The running one was cut off.
 constexpr const char* kRows = R"(
 INSERT INTO jobs (id, state, filename, parameters, input_sha256, input_bytes, progress, created_ms,
@@ -92,6 +98,7 @@ class SchemaTest : public testing::TestWithParam<int> {
     if (GetParam() > 1) database.Execute(kVersion2);
     database.Execute(kRows);
     if (GetParam() > 2) database.Execute(kVersion3);
+    if (GetParam() > 3) database.Execute(kVersion4);
   }
   TempDir folder_;
   const std::filesystem::path path_ = folder_ / "jobs.sqlite";
@@ -107,6 +114,9 @@ TEST_P(SchemaTest, BringsAFileOfAnEarlierVersionForward) {
     EXPECT_EQ(done->parameters, (Parameters{{"levels", "2"}}));
     EXPECT_EQ(done->attempt, 1);
     EXPECT_TRUE(done->assumptions.empty());
+    EXPECT_EQ(done->priority, Priority::kNormal);
+    EXPECT_FALSE(done->deadline_ms);
+    EXPECT_EQ(done->cost.memory_bytes, 0) << "nobody knows";
     EXPECT_EQ((*store)->Artifacts(Id(1))->at(0).sha256, "y");
     EXPECT_EQ((*store)->Find(Id(2))->failure->kind, "no-crs");
     EXPECT_EQ((*store)->List({{}, {}, 10})->jobs.size(), 4U);
@@ -119,7 +129,7 @@ TEST_P(SchemaTest, GoesOnWhereAnEarlierVersionStopped) {
   auto store = OpenSqliteJobStore(path_);
   ASSERT_TRUE(store);
   EXPECT_EQ(*(*store)->RecoverRunning(PreviousEnd::kKilled, 5000), 1);
-  const auto next = (*store)->ClaimNext(5001);
+  const auto next = (*store)->ClaimNext(5001, {});
   ASSERT_TRUE(next && *next);
   EXPECT_EQ((*next)->id, Id(3));
   EXPECT_EQ((*next)->run, 4) << "an earlier version counted runs as attempts";
@@ -128,7 +138,7 @@ TEST_P(SchemaTest, GoesOnWhereAnEarlierVersionStopped) {
   EXPECT_EQ((*store)->Insert(again, {}, 5003)->id, Id(4));
 }
 
-INSTANTIATE_TEST_SUITE_P(Versions, SchemaTest, testing::Values(1, 2, 3));
+INSTANTIATE_TEST_SUITE_P(Versions, SchemaTest, testing::Values(1, 2, 3, 4));
 
 }  // namespace
 }  // namespace farhorizon

@@ -30,7 +30,9 @@ TEST(WorkerProtocol, ReadsBackEveryMessage) {
   const auto assumption = ReadBack<Assumption>(Assumption{"height-unit", "taken for metres"});
   EXPECT_EQ(assumption.code, "height-unit");
   EXPECT_EQ(assumption.text, "taken for metres");
-  const auto done = ReadBack<WorkerDone>(WorkerDone{{{"sweep", 1.25}}});
+  const auto done = ReadBack<WorkerDone>(WorkerDone{{{"sweep", 1.25}}, 7});
+  EXPECT_EQ(done.peak_bytes, 7);
+  EXPECT_EQ(ReadBack<WorkerSize>(WorkerSize{12}).posts, 12);
   EXPECT_EQ(done.timings, (std::map<std::string, double>{{"sweep", 1.25}}));
   const auto error = ReadBack<Error>(Error{ErrorCode::kUnsupportedData, "no\nCRS \xff", "no-crs"});
   EXPECT_EQ(error.code, ErrorCode::kUnsupportedData);
@@ -40,12 +42,27 @@ TEST(WorkerProtocol, ReadsBackEveryMessage) {
 
 TEST(WorkerProtocol, RefusesWhatNoWorkerWrites) {
   for (const char* line :
-       {"", "x", "[]", "{}", "{\"stage\": \"sweep\"}", "{\"done\": \"1\"}", "{\"done\": 1.5}",
-        "{\"stage\": \"dance\", \"done\": 0.5}", "{\"done\": -0.1}", "{\"done\": [[[[[[]]]]]]}",
-        "{\"assumption\": \"a\"}", "{\"assumption\": {\"code\": \"a\"}}",
+       {"",
+        "x",
+        "[]",
+        "{}",
+        "{\"stage\": \"sweep\"}",
+        "{\"done\": \"1\"}",
+        "{\"done\": 1.5}",
+        "{\"stage\": \"dance\", \"done\": 0.5}",
+        "{\"done\": -0.1}",
+        "{\"done\": [[[[[[]]]]]]}",
+        "{\"assumption\": \"a\"}",
+        "{\"assumption\": {\"code\": \"a\"}}",
         "{\"assumption\": {\"code\": \"A b\", \"text\": \"c\"}}",
-        "{\"assumption\": {\"code\": \"\", \"text\": \"c\"}}", "{\"timings\": []}",
-        "{\"timings\": {\"a\": \"b\"}}", "{\"error\": 1}",
+        "{\"assumption\": {\"code\": \"\", \"text\": \"c\"}}",
+        "{\"timings\": []}",
+        "{\"timings\": {\"a\": \"b\"}}",
+        "{\"timings\": {}, \"peakBytes\": -1}",
+        "{\"posts\": 0}",
+        "{\"posts\": 1.5}",
+        "{\"posts\": 1e30}",
+        "{\"error\": 1}",
         "{\"error\": {\"code\": \"none\", \"kind\": \"a\", \"message\": \"b\"}}",
         "{\"error\": {\"code\": \"io\", \"kind\": \"A b\", \"message\": \"c\"}}"}) {
     EXPECT_FALSE(ReadMessage(line)) << line;

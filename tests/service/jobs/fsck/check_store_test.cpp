@@ -33,7 +33,7 @@ class CheckStoreTest : public testing::Test {
     service.reset();
     auto jobs = OpenSqliteJobStore(data_ / "jobs.sqlite");
     auto objects = OpenLocalObjectStore(data_ / "objects");
-    const auto job = (*jobs)->ClaimNext(1);
+    const auto job = (*jobs)->ClaimNext(1, {});
     ASSERT_EQ((*job)->id, done_.id);
     SpillFile(folder_ / "result", "a result");
     result_ = (*objects)->PutFile(folder_ / "result")->sha256;
