@@ -82,16 +82,20 @@ float PostSquares::Of(const Place& a, const Place& b, const Place& c) const {
   return squares + kOfAFacet * slope_weight_ * slopes;
 }
 
-void PostSquares::AddPull(const Place& a, const Place& b, const Place& c, HeightPull& sum) const {
+void PostSquares::AddPull(const Place& a, const Place& b, const Place& c, HeightPull& pull) const {
   const Plane plane(a, b, c);
   const float weight_by_column = static_cast<float>(b.y - c.y) * plane.inverse;  // 1 at a
   const float weight_by_row = static_cast<float>(c.x - b.x) * plane.inverse;
   float by_column = 0;
   float by_row = 0;
+  float slopes = 0;
   std::int32_t facets = 0;
   const auto add = [&](const FacetRow::Gradient& ground) {
-    by_column += ground.by_column - plane.by_column;
-    by_row += ground.by_row - plane.by_row;
+    const float off_by_column = ground.by_column - plane.by_column;
+    const float off_by_row = ground.by_row - plane.by_row;
+    by_column += off_by_column;
+    by_row += off_by_row;
+    slopes += off_by_column * off_by_column + off_by_row * off_by_row;
   };
   ForEachRowUnder(a, b, c, [&](const RowUnderTriangle& under) {
     const float* f = ground_->Row(under.row);
@@ -101,8 +105,10 @@ void PostSquares::AddPull(const Place& a, const Place& b, const Place& c, Height
     for (std::int32_t x = under.posts.first; x < under.posts.end; ++x) {
       const auto steps = static_cast<float>(x - a.x);
       const float weight = w + weight_by_column * steps;
-      sum.pull += weight * (f[x] - (z + plane.by_column * steps));
-      sum.stiffness += weight * weight;
+      const float off = f[x] - (z + plane.by_column * steps);
+      pull.pull += weight * off;
+      pull.stiffness += weight * weight;
+      pull.sum += off * off;
     }
     const FacetRow row(*ground_, under.row);
     const ColumnRange& right = under.right_facets;
@@ -112,9 +118,10 @@ void PostSquares::AddPull(const Place& a, const Place& b, const Place& c, Height
     facets += right.end - right.first + left.end - left.first;
   });
   const float worth = kOfAFacet * slope_weight_;
-  sum.pull += worth * (weight_by_column * by_column + weight_by_row * by_row);
-  sum.stiffness += worth * static_cast<float>(facets) *
-                   (weight_by_column * weight_by_column + weight_by_row * weight_by_row);
+  pull.pull += worth * (weight_by_column * by_column + weight_by_row * by_row);
+  pull.stiffness += worth * static_cast<float>(facets) *
+                    (weight_by_column * weight_by_column + weight_by_row * weight_by_row);
+  pull.sum += worth * slopes;
 }
 
 float PostSquares::OfRim(const Place& a, const Place& b) const {

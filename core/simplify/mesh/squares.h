@@ -7,11 +7,11 @@
 
 namespace farhorizon {
 
-/// What a change dz of one vertex's height does to a sum of squares:
-/// -2 dz pull + dz^2 stiffness.
+/// A sum of squares by a change dz of one vertex's height: sum - 2 dz pull + dz^2 stiffness.
 struct HeightPull {
   float pull = 0;
   float stiffness = 0;
+  float sum = 0;
 };
 
 /// How far posts are from a mesh, and facets from the ground's, summed triangle by triangle:
@@ -42,8 +42,8 @@ class PostSquares {
 
   /// The sum over triangle abc. Requires: Turn(a, b, c) > 0. Cost: the posts and cells under it.
   [[nodiscard]] float Of(const Place& a, const Place& b, const Place& c) const;
-  /// What the sum over triangle abc asks of a's height, added to `sum`.
-  void AddPull(const Place& a, const Place& b, const Place& c, HeightPull& sum) const;
+  /// Adds the sum over triangle abc by a's height to `pull`, whatever posts may be off.
+  void AddPull(const Place& a, const Place& b, const Place& c, HeightPull& pull) const;
   /// The sum over the posts of the rim's edge from a, inclusive, to b, exclusive, that no triangle
   /// has; 0 where triangles have them. The mesh lies on the side of positive turns of a -> b.
   /// Requires: the edge runs along steps of one column, one row or both.

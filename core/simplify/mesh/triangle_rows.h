@@ -23,10 +23,10 @@ struct RowUnderTriangle {
   ColumnRange left_facets;
 };
 
-/// An edge from row to row, from its upper end, whichever triangle asks: both triangles beside it
-/// compute the same whole numbers. The column is in steps of 2^-40; the slope is less than 2 steps
-/// of the 2^-37th off, all of its 2^15 rows so less than 2^-22. Posts and centroids beside an edge
-/// of n rows are 1 / 3n away or more, so 2^-17; within 2^-19, they are on it.
+/// An edge from row to row, from its upper end, whichever triangle asks: the triangles on both sides
+/// of it compute the same whole numbers. A column is in steps of 2^-40. A slope is off by a step, and
+/// a column after 2^15 rows by less than 2^-24; posts and centroids beside an edge of n rows are
+/// 1 / 3n, so 2^-17, away from it or more. What is within 2^-19 is on it.
 class EdgeByRows {
  public:
   /// Requires: `from` is not below `to`.
@@ -67,22 +67,18 @@ void ForEachRowUnder(Place a, Place b, Place c, Visit visit) {
   if (a.y > b.y) std::swap(a, b);
   if (b.y > c.y) std::swap(b, c);
   if (a.y > b.y) std::swap(a, b);
-  const bool turns_right = Turn(a, b, c) > 0;
-  EdgeByRows along(a, c);
-  const auto go = [&](EdgeByRows bent, std::int32_t from, std::int32_t to) {
-    const EdgeByRows& left = turns_right ? along : bent;
-    const EdgeByRows& right = turns_right ? bent : along;
-    for (std::int32_t row = from; row < to; ++row) {
-      visit(RowUnderTriangle{row,
-                             {left.Post(), right.Post()},
-                             {left.RightFacet(), right.RightFacet()},
-                             {left.LeftFacet(), right.LeftFacet()}});
-      along.GoToNextRow();
-      bent.GoToNextRow();
-    }
-  };
-  go(EdgeByRows(a, b), a.y, b.y);
-  go(EdgeByRows(b, c), b.y, c.y);
+  const bool bends_right = Turn(a, b, c) > 0;
+  EdgeByRows left(a, bends_right ? c : b);
+  EdgeByRows right(a, bends_right ? b : c);
+  for (std::int32_t row = a.y; row < c.y; ++row) {
+    if (row == b.y) (bends_right ? right : left) = EdgeByRows(b, c);
+    visit(RowUnderTriangle{row,
+                           {left.Post(), right.Post()},
+                           {left.RightFacet(), right.RightFacet()},
+                           {left.LeftFacet(), right.LeftFacet()}});
+    left.GoToNextRow();
+    right.GoToNextRow();
+  }
 }
 
 }  // namespace farhorizon

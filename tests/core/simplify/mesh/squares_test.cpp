@@ -137,7 +137,7 @@ TEST(PostSquares, AreChangedByOneHeightAsItsPullSays) {
     const Place c = any();
     if (Turn(a, b, c) <= 0) continue;
     ++rounds;
-    HeightPull sum = {3, 5};
+    HeightPull sum = {3, 5, 7};
     measure.SetSlopeWeight(static_cast<float>(rounds % 3));
     measure.AddPull(a, b, c, sum);
     const double pull = static_cast<double>(sum.pull) - 3;
@@ -145,6 +145,7 @@ TEST(PostSquares, AreChangedByOneHeightAsItsPullSays) {
     const auto change = static_cast<double>(AnyHeight(random));
     const Place to = ground.WithHeight(a.x, a.y, a.plan + static_cast<float>(change));
     const double before = measure.Of(a, b, c);
+    ASSERT_NEAR(static_cast<double>(sum.sum) - 7, before, kFloat * (1 + before));
     const double after = measure.Of(to, b, c);
     ASSERT_NEAR(after - before, -2 * change * pull + change * change * stiffness,
                 1e-4 * (1 + before + after));
