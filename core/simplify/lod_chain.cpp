@@ -23,8 +23,10 @@ namespace {
 constexpr double kLambda = 25;
 constexpr double kLambdaShare = 0.05;
 // Square cells that a squared gradient's error is worth, for each post to a triangle: the error of
-// a facet of that size is so much less steep. From 0.02 to 0.06 facets are as near to the ground's
-// as any simplifier's, at no cost in height (measured on three DEMs).
+// a facet of that size is so much less steep. From 0.02 to 0.07 facets come nearer to the ground's
+// by 8 to 14 % at a fifth of all triangles and by 3 to 8 % below; vertical errors grow by 1 to 8 %
+// and 0 to 3 % (by more on a coast, where they are small), and silhouettes at a tenth by up to a
+// fifth, most of it beyond 0.04 (measured on eight DEMs).
 constexpr double kSlopeWeight = 0.04;
 // Pencils of sampled lines: fewer leave room between them at fine levels.
 constexpr std::int32_t kDirections = 128;
@@ -190,7 +192,11 @@ class ChainBuilder {
       if (done) done = MoveVertices(work_, control);
       if (done) done = FitHeights(work_, control);
     }
-    if (done && !work_.rules.exact()) SideThinner(work_, collapser_).Finish(side_heights_);
+    if (done && !work_.rules.exact()) {
+      SideThinner(work_, collapser_).Finish(side_heights_);
+      // What the sides' posts kept from going may go now.
+      done = collapser_.Run(budget, control.Between(kCollapsing, 1), [this] { Weigh(); });
+    }
     if (done) control.Report(Stage::kSimplify, 1);
     return done;
   }

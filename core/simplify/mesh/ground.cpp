@@ -17,13 +17,13 @@ Ground::Ground(const Terrain& terrain, const EarthDrop& drop)
   }
 }
 
-// From the post above, parallel to the ground one column on, as a cell's triangle of its other
-// three corners has it.
+// The cell right of and below the post has one triangle, of its other three corners: its plane goes
+// on to the post, so that both of the cell's facets, whose centroids are on that triangle's long
+// edge, have its gradient. No triangle has centroids of other facets at the post.
 float Ground::Continued(std::int32_t x, std::int32_t y) const {
-  if (y == 0 || !HasData(x, y - 1)) return 0;
-  const float above = At(x, y - 1).frame;
-  if (x + 1 == columns_ || !HasData(x + 1, y) || !HasData(x + 1, y - 1)) return above;
-  return above + At(x + 1, y).frame - At(x + 1, y - 1).frame;
+  if (x + 1 == columns_ || y + 1 == rows_) return 0;
+  if (!HasData(x + 1, y) || !HasData(x, y + 1) || !HasData(x + 1, y + 1)) return 0;
+  return At(x + 1, y).frame + At(x, y + 1).frame - At(x + 1, y + 1).frame;
 }
 
 float Ground::DropAt(std::int32_t x, std::int32_t y) const {

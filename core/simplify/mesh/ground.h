@@ -31,7 +31,7 @@ class Ground {
   }
 
   /// Heights in the tile's frame of row y's posts. At a post without data: one that goes on as the
-  /// ground beside it, for differences across the ground's outline.
+  /// triangle right of it and below does, for differences across the ground's outline.
   [[nodiscard]] const float* Row(std::int32_t y) const {
     return frame_.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_);
   }

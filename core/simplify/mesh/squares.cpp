@@ -1,20 +1,17 @@
-// A triangle is taken row by row. The columns that a row has under it follow from the triangle's
-// edges; an edge is computed from its upper end, whichever triangle asks, so that the triangles on
-// both sides of it round alike and none of its posts counts twice or never.
 #include "core/simplify/mesh/squares.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <utility>
+
+#include "core/simplify/mesh/triangle_rows.h"
 
 namespace farhorizon {
 
 namespace {
 
-// A post within this of an edge, columns, is on it. Posts beside an edge of n rows are at least
-// 1 / n away from it.
-constexpr float kOnEdge = 1e-4F;
+// Of a cell's weight: it has two facets.
+constexpr float kOfAFacet = 0.5F;
 
 // The plane through three places: height and its change by columns and rows.
 struct Plane {
@@ -34,79 +31,97 @@ struct Plane {
   float by_row;
 };
 
-// visit(row, first column, column after the last) for each row of the triangle that has posts.
-template <typename Visit>
-void ForEachRow(Place a, Place b, Place c, Visit visit) {
-  if (a.y > b.y) std::swap(a, b);
-  if (b.y > c.y) std::swap(b, c);
-  if (a.y > b.y) std::swap(a, b);
-  const auto slope = [](const Place& p, const Place& q) {
-    return q.y > p.y ? static_cast<float>(q.x - p.x) / static_cast<float>(q.y - p.y) : 0.0F;
+// The gradients of the ground's facets of a row of cells, by the upper row of posts.
+class FacetRow {
+ public:
+  FacetRow(const Ground& ground, std::int32_t row)
+      : above_(ground.Row(row)), below_(ground.Row(row + 1)) {}
+  struct Gradient {
+    float by_column;
+    float by_row;
   };
-  const auto column = [](const Place& from, int row, float by_row) {
-    const float off = static_cast<float>(row - from.y) * by_row - kOnEdge;
-    const int whole = static_cast<int>(off);
-    return from.x + whole + static_cast<int>(off > static_cast<float>(whole));  // std::ceil
-  };
-  const float along = slope(a, c);
-  const float upper = slope(a, b);
-  const float lower = slope(b, c);
-  const auto row = [&](int r, int one, int other) {
-    const auto [first, end] = std::minmax(one, other);
-    if (first < end) visit(r, first, end);
-  };
-  for (int r = a.y; r < b.y; ++r) row(r, column(a, r, along), column(a, r, upper));
-  for (int r = b.y; r < c.y; ++r) row(r, column(a, r, along), column(b, r, lower));
-}
+  [[nodiscard]] Gradient Right(std::int32_t x) const {
+    return {above_[x + 1] - above_[x], below_[x + 1] - above_[x + 1]};
+  }
+  [[nodiscard]] Gradient Left(std::int32_t x) const {
+    return {below_[x + 1] - below_[x], below_[x] - above_[x]};
+  }
+
+ private:
+  const float* above_;
+  const float* below_;
+};
 
 }  // namespace
 
 float PostSquares::Of(const Place& a, const Place& b, const Place& c) const {
   const Plane plane(a, b, c);
-  const std::int32_t columns = ground_->columns();
   float squares = 0;
   float slopes = 0;
   float greatest = 0;
-  ForEachRow(a, b, c, [&](int r, int first, int end) {
-    const float* f = ground_->Row(r);
-    const float z = a.frame + plane.by_row * static_cast<float>(r - a.y);
-    for (int x = first; x < end; ++x) {
+  const auto square = [&](const FacetRow::Gradient& ground) {
+    const float by_column = ground.by_column - plane.by_column;
+    const float by_row = ground.by_row - plane.by_row;
+    return by_column * by_column + by_row * by_row;
+  };
+  ForEachRowUnder(a, b, c, [&](const RowUnderTriangle& under) {
+    const float* f = ground_->Row(under.row);
+    const float z = a.frame + plane.by_row * static_cast<float>(under.row - a.y);
+    for (std::int32_t x = under.posts.first; x < under.posts.end; ++x) {
       const float off = f[x] - (z + plane.by_column * static_cast<float>(x - a.x));
-      const float square = off * off;
-      squares += square;
-      greatest = std::max(greatest, square);
-      // A post that a triangle has, has ground to its right and below: half open rows and columns.
-      const float by_column = f[x + 1] - f[x] - plane.by_column;
-      const float by_row = f[x + columns] - f[x] - plane.by_row;
-      slopes += by_column * by_column + by_row * by_row;
+      squares += off * off;
+      greatest = std::max(greatest, off * off);
     }
+    const FacetRow facets(*ground_, under.row);
+    const ColumnRange& right = under.right_facets;
+    for (std::int32_t x = right.first; x < right.end; ++x) slopes += square(facets.Right(x));
+    const ColumnRange& left = under.left_facets;
+    for (std::int32_t x = left.first; x < left.end; ++x) slopes += square(facets.Left(x));
   });
   if (greatest > most_) return std::numeric_limits<float>::infinity();
-  return squares + slope_weight_ * slopes;
+  return squares + kOfAFacet * slope_weight_ * slopes;
 }
 
-void PostSquares::AddPull(const Place& a, const Place& b, const Place& c, HeightPull& sum) const {
+void PostSquares::AddPull(const Place& a, const Place& b, const Place& c, HeightPull& pull) const {
   const Plane plane(a, b, c);
-  const std::int32_t columns = ground_->columns();
   const float weight_by_column = static_cast<float>(b.y - c.y) * plane.inverse;  // 1 at a
   const float weight_by_row = static_cast<float>(c.x - b.x) * plane.inverse;
-  const float slope_stiffness =
-      slope_weight_ * (weight_by_column * weight_by_column + weight_by_row * weight_by_row);
-  ForEachRow(a, b, c, [&](int r, int first, int end) {
-    const float* f = ground_->Row(r);
-    const auto rows = static_cast<float>(r - a.y);
+  float by_column = 0;
+  float by_row = 0;
+  float slopes = 0;
+  std::int32_t facets = 0;
+  const auto add = [&](const FacetRow::Gradient& ground) {
+    const float off_by_column = ground.by_column - plane.by_column;
+    const float off_by_row = ground.by_row - plane.by_row;
+    by_column += off_by_column;
+    by_row += off_by_row;
+    slopes += off_by_column * off_by_column + off_by_row * off_by_row;
+  };
+  ForEachRowUnder(a, b, c, [&](const RowUnderTriangle& under) {
+    const float* f = ground_->Row(under.row);
+    const auto rows = static_cast<float>(under.row - a.y);
     const float z = a.frame + plane.by_row * rows;
     const float w = 1 + weight_by_row * rows;
-    for (int x = first; x < end; ++x) {
+    for (std::int32_t x = under.posts.first; x < under.posts.end; ++x) {
       const auto steps = static_cast<float>(x - a.x);
       const float weight = w + weight_by_column * steps;
-      const float by_column = f[x + 1] - f[x] - plane.by_column;
-      const float by_row = f[x + columns] - f[x] - plane.by_row;
-      sum.pull += weight * (f[x] - (z + plane.by_column * steps)) +
-                  slope_weight_ * (weight_by_column * by_column + weight_by_row * by_row);
-      sum.stiffness += weight * weight + slope_stiffness;
+      const float off = f[x] - (z + plane.by_column * steps);
+      pull.pull += weight * off;
+      pull.stiffness += weight * weight;
+      pull.sum += off * off;
     }
+    const FacetRow row(*ground_, under.row);
+    const ColumnRange& right = under.right_facets;
+    for (std::int32_t x = right.first; x < right.end; ++x) add(row.Right(x));
+    const ColumnRange& left = under.left_facets;
+    for (std::int32_t x = left.first; x < left.end; ++x) add(row.Left(x));
+    facets += right.end - right.first + left.end - left.first;
   });
+  const float worth = kOfAFacet * slope_weight_;
+  pull.pull += worth * (weight_by_column * by_column + weight_by_row * by_row);
+  pull.stiffness += worth * static_cast<float>(facets) *
+                    (weight_by_column * weight_by_column + weight_by_row * weight_by_row);
+  pull.sum += worth * slopes;
 }
 
 float PostSquares::OfRim(const Place& a, const Place& b) const {

@@ -11,6 +11,8 @@ namespace {
 // Of the mean squares around a vertex a vertex must have to be moved: the others gain little.
 constexpr double kWorth = 0.5;
 constexpr double kTrianglesAround = 6;
+// Of a sum, what it may be off, so that no place is left out for rounding's sake.
+constexpr float kRounding = 1e-5F;
 
 float MeanAround(const HalfEdgeMesh& mesh) {
   double sum = 0;
@@ -37,7 +39,11 @@ Place BestAround(const Workpiece& work, const VertexChange& change) {
       if (change.CarriesNone()) {
         const HeightPull pull = change.PullOfPosts(place);
         if (pull.stiffness > 0) {
-          place = ground.WithHeight(x, y, place.plan + pull.pull / pull.stiffness);
+          const float rise = pull.pull / pull.stiffness;
+          // At the best height the posts' part is known: lines can give back no more than `slack`.
+          const float posts = (1 - kRounding) * pull.sum - rise * pull.pull - change.before();
+          if (posts - change.slack() >= least) continue;
+          place = ground.WithHeight(x, y, place.plan + rise);
         }
       }
       const float cost = change.Cost(place, least);

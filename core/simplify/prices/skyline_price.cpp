@@ -87,8 +87,10 @@ void SkylinePrice::AddPullOfLines(const Ring& ring, const Place& centre, HeightP
     const float t = skyline_->pencils().Distance(lost.line, other);
     if (!Crosses(s, t)) continue;
     const float share = t / (t - s);  // of the height over the line that is the centre's
-    pull.pull += weight_ * share * (skyline_->dem()[lost.line] - skyline_->top(lost.line));
+    const float off = skyline_->dem()[lost.line] - skyline_->top(lost.line);
+    pull.pull += weight_ * share * off;
     pull.stiffness += weight_ * share * share;
+    pull.sum += weight_ * off * off;
   }
 }
 

@@ -73,6 +73,32 @@ TEST(LodChain, EveryLevelCoversTheDomainAndNestsOnAnySmallTerrain) {
   }
 }
 
+TEST(LodChain, ALevelOfAllTrianglesIsTheDem) {
+  std::mt19937 random(7);
+  for (int round = 0; round < Rounds(40); ++round) {
+    const Dem dem = AnySolidLandscape(24, 50, random);
+    LodPlan plan;
+    const std::vector<Triangle> triangles = Terrain::Build(dem)->Triangles();
+    plan.triangles = {std::ssize(triangles)};
+    plan.column_bend = round % 3 * 0.05;
+    const Chain chain(dem, plan);
+    const PostMesh& mesh = chain.levels[0].mesh;
+    ASSERT_EQ(mesh.triangles.size(), triangles.size()) << DrawAscii(dem);
+    for (std::size_t k = 0; k < mesh.posts.size(); ++k) {
+      ASSERT_NEAR(mesh.heights_m[k], dem.HeightM(mesh.posts[k]), 1e-4) << DrawAscii(dem);
+    }
+    const auto corners = [](Triangle t) {
+      std::sort(t.begin(), t.end());
+      return t;
+    };
+    std::set<Triangle> of_terrain;
+    for (const Triangle& t : triangles) of_terrain.insert(corners(t));
+    for (const Triangle& t : mesh.triangles) {
+      ASSERT_TRUE(of_terrain.contains(corners(t))) << DrawAscii(dem);
+    }
+  }
+}
+
 TEST(LodChain, EveryLevelCoversTheDomainAndNestsOnLandscapes) {
   std::mt19937 random(2);
   for (int round = 0; round < Rounds(25); ++round) {

@@ -27,14 +27,15 @@ TEST(Ground, HasHeightsAboveTheMiddleOfTheDemsLessTheEarthsDrop) {
   EXPECT_FALSE(ground.OnSide(ground.At(1, 1)));
 }
 
-TEST(Ground, GoesOnAcrossItsOutlineAsTheTriangleAboveHasIt) {
-  const Dem dem = AsciiDem("10 20 30\n. 26 39\n10 20 30");
+TEST(Ground, GoesOnAcrossItsOutlineAsTheTriangleRightAndBelowHasIt) {
+  const Dem dem = AsciiDem("10 20 30\n. 26 39\n17 20 .");
   const Terrain terrain = *Terrain::Build(dem);
   const Ground ground(terrain, {});
   const float base = static_cast<float>(ground.base_m());
-  // 10 at the post above, and 6 more a row, as a column to the right.
-  EXPECT_EQ(ground.Row(1)[0] + base, 16);
+  // 26 one column on, and 3 less, as the row below has it.
+  EXPECT_EQ(ground.Row(1)[0] + base, 26 + 17 - 20);
   EXPECT_EQ(ground.Row(1)[1] + base, 26);
+  EXPECT_EQ(ground.Row(2)[2], 0);
 }
 
 }  // namespace

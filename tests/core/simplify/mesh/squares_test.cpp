@@ -48,6 +48,37 @@ TEST(PostSquares, OfAllTrianglesAndTheRimHaveEveryPostOfTheDomainOnce) {
   }
 }
 
+TEST(PostSquares, OfAMeshOfAllTrianglesAreZero) {
+  std::mt19937 random(5);
+  for (int round = 0; round < Rounds(1000); ++round) {
+    const Dem dem = AnySmallDem(12, random);
+    const Terrain terrain = *Terrain::Build(dem);
+    const Ground ground(terrain, {});
+    HalfEdgeMesh mesh(ground);
+    mesh.measure().SetSlopeWeight(1);
+    mesh.measure().SetMost(0);
+    ASSERT_EQ(SquaresOf(mesh), 0) << DrawAscii(dem);
+  }
+}
+
+TEST(PostSquares, KnowTheDemsDiagonalFromTheOther) {
+  const Dem dem = AsciiDem("0 0\n0 6");
+  const Terrain terrain = *Terrain::Build(dem);
+  const Ground ground(terrain, {});
+  PostSquares measure(ground);
+  measure.SetSlopeWeight(0.5F);
+  const Place nw = ground.At(0, 0);
+  const Place ne = ground.At(1, 0);
+  const Place sw = ground.At(0, 1);
+  const Place se = ground.At(1, 1);
+  EXPECT_EQ(measure.Of(nw, ne, se), 0);
+  EXPECT_EQ(measure.Of(nw, se, sw), 0);
+  // Centroids lie on the other diagonal, so the triangle right of it has both: it rises by 6 along
+  // both axes, where each facet rises along one.
+  EXPECT_EQ(measure.Of(nw, ne, sw), 0);
+  EXPECT_EQ(measure.Of(ne, se, sw), 0.5F * 0.5F * (36 + 36));
+}
+
 TEST(PostSquares, OfALevelSeaAreTheEarthsDrop) {
   const Dem dem = MakeDem(9, 9, [](std::int32_t, std::int32_t) { return 0; });
   const Terrain terrain = *Terrain::Build(dem);
@@ -106,7 +137,7 @@ TEST(PostSquares, AreChangedByOneHeightAsItsPullSays) {
     const Place c = any();
     if (Turn(a, b, c) <= 0) continue;
     ++rounds;
-    HeightPull sum = {3, 5};
+    HeightPull sum = {3, 5, 7};
     measure.SetSlopeWeight(static_cast<float>(rounds % 3));
     measure.AddPull(a, b, c, sum);
     const double pull = static_cast<double>(sum.pull) - 3;
@@ -114,6 +145,7 @@ TEST(PostSquares, AreChangedByOneHeightAsItsPullSays) {
     const auto change = static_cast<double>(AnyHeight(random));
     const Place to = ground.WithHeight(a.x, a.y, a.plan + static_cast<float>(change));
     const double before = measure.Of(a, b, c);
+    ASSERT_NEAR(static_cast<double>(sum.sum) - 7, before, kFloat * (1 + before));
     const double after = measure.Of(to, b, c);
     ASSERT_NEAR(after - before, -2 * change * pull + change * change * stiffness,
                 1e-4 * (1 + before + after));

@@ -69,6 +69,29 @@ TEST_P(Polish, LowersTheSumAndKeepsTheMeshSound) {
   EXPECT_LE(higher, Rounds(6));  // where too low a height was taken for what is left on a line
 }
 
+TEST_P(Polish, LeavesAMeshOfAllTrianglesAlone) {
+  std::mt19937 random(5);
+  for (int round = 0; round < Rounds(200); ++round) {
+    Workbench bench(AnySmallDem(14, random));
+    Workpiece& work = bench.work;
+    work.rules.BeginSoft(work.mesh);
+    work.price.AllowRises(true);
+    work.price.SetWeight(static_cast<float>(30 * work.skyline.PostsPerLine()));
+    work.mesh.measure().SetSlopeWeight(kSlopeWeight);
+    work.mesh.MeasureAll();
+    const HalfEdgeMesh before = work.mesh;
+    ASSERT_TRUE(GetParam()(work, {}));
+    for (std::int32_t v = 0; v < before.vertices(); ++v) {
+      ASSERT_EQ(work.mesh.at(v).x, before.at(v).x);
+      ASSERT_EQ(work.mesh.at(v).y, before.at(v).y);
+      ASSERT_EQ(work.mesh.at(v).plan, before.at(v).plan) << DrawAscii(bench.dem);
+    }
+    for (std::int32_t h = 0; h < before.half_edges(); ++h) {
+      ASSERT_EQ(work.mesh.origin(h), before.origin(h)) << DrawAscii(bench.dem);
+    }
+  }
+}
+
 TEST_P(Polish, StopsWhenAStopIsRequested) {
   std::mt19937 random(2);
   Workbench bench(AnySmallDem(14, random));
