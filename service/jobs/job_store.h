@@ -87,7 +87,7 @@ struct StoreIdentity {
 ///     run; otherwise the call returns false.
 /// (3) One idempotency key makes at most one job.
 /// (4) No time of a job is before one that the store had already, even where the clock goes back;
-///     of two jobs, the one that was inserted later has the greater id.
+///     of two jobs that it has, the one that was inserted later has the greater id.
 /// Errors, of every call: kIo where the store cannot be read or written, kResourceExhausted where
 /// the disk is full.
 /// Threads: safe.

@@ -43,9 +43,9 @@ void QueueModel::Inserted(const NewJob& sent, const QueueBounds& bounds,
     return;
   }
   if (!answer) return Fault("the queue has room and refuses: " + answer.error().message);
-  if (answer->id <= last_id_) Fault("ids do not have the order of the jobs");
-  last_id_ = answer->id;
-  if (jobs_.contains(answer->id)) return Fault("an id was given twice");
+  if (!jobs_.empty() && answer->id <= jobs_.rbegin()->first) {
+    return Fault("ids do not have the order of the jobs");
+  }
   if (answer->state != JobState::kAccepted) Fault("a new job is not accepted");
   jobs_[answer->id] = {sent, *answer, 0, {}};
   if (sent.idempotency_key) keys_[*sent.idempotency_key] = answer->id;
@@ -109,8 +109,6 @@ void QueueModel::Gone(const std::string& id) {
 
 void QueueModel::Recovered(PreviousEnd end, std::int64_t count) {
   constexpr std::int64_t kMostCrashes = 3;
-  // What a process knew of jobs that were removed is gone with it.
-  last_id_ = jobs_.empty() ? "" : jobs_.rbegin()->first;
   std::int64_t again = 0;
   for (auto& [id, job] : jobs_) {
     if (job.last.state != JobState::kRunning) continue;

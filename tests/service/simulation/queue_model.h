@@ -51,7 +51,6 @@ class QueueModel {
   std::map<std::string, ModelJob> jobs_;
   std::map<std::string, std::string> keys_;  // to the id of their job
   std::set<std::string> garbage_;            // objects of removed jobs
-  std::string last_id_;
   std::vector<std::string> faults_;
 };
 
