@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -71,10 +70,33 @@ UploadProbe::UploadProbe(fs::path folder, const ProbeOptions& options, RunnerOpt
       runner_(std::move(runner)),
       free_(options.at_once) {}
 
+WorkerOutcome UploadProbe::Run(const fs::path& directory, const WorkerTask& task,
+                               Assumptions& assumptions) {
+  assumptions.clear();
+  WorkerOutcome outcome;
+  if (Status written = WriteTaskFile(directory, task); !written) {
+    outcome.error = std::move(written.error());
+    return outcome;
+  }
+  free_.acquire();
+  outcome =
+      RunWorker({runner_.worker_program, true, directory, LimitsOf(options_), runner_.spawner},
+                {.on_assumption = [&](const Assumption& met) { assumptions.push_back(met); }});
+  free_.release();
+  if (outcome.end == WorkerEnd::kCrashed) {
+    Log(LogLevel::kWarning, "probe crashed",
+        {{"code", outcome.error.kind}, {"last_words", outcome.stderr_tail}});
+  }
+  return outcome;
+}
+
 Result<ProbeReport> UploadProbe::Look(const SpoolFile& upload, const std::string& filename,
                                       const Parameters& parameters) {
   ProbeReport report;
   if (upload.bytes() > options_.max_bytes) return report;
+  Result<BuildOptions> options = ParseOptions(parameters);
+  if (!options) return std::move(options.error());
+  options->threads = runner_.threads;
   const fs::path directory = folder_ / ("probe-" + std::to_string(next_++));
   const fs::path input = fs::path("in") / filename;
   std::error_code failure;
@@ -82,31 +104,36 @@ Result<ProbeReport> UploadProbe::Look(const SpoolFile& upload, const std::string
   // The upload is not an object of the store yet. So a hard link suffices: by writing to it, a
   // worker could damage only its own input.
   if (!failure) fs::create_hard_link(upload.path(), directory / input, failure);
-  const WorkerTask task{input.string(), "", parameters, runner_.max_posts, 1};
-  std::optional<Error> refusal;
-  std::optional<std::int64_t> posts;
-  if (!failure && WriteTaskFile(directory, task)) {
-    free_.acquire();
-    WorkerOutcome outcome = RunWorker(
-        {runner_.worker_program, true, directory, LimitsOf(options_), runner_.spawner},
-        {.on_assumption = [&](const Assumption& met) { report.assumptions.push_back(met); }});
-    free_.release();
-    posts = outcome.posts;
-    // A worker that runs out of the probe's memory says so itself; a job may have more.
-    if (outcome.end == WorkerEnd::kFailed && outcome.error.kind != "memory-limit") {
-      refusal = std::move(outcome.error);
-    } else if (outcome.end == WorkerEnd::kCrashed) {
-      Log(LogLevel::kWarning, "probe crashed",
-          {{"code", outcome.error.kind}, {"last_words", outcome.stderr_tail}});
-    }
+  if (failure) {
+    fs::remove_all(directory, failure);
+    return report;
+  }
+  WorkerTask task{input.string(), "", parameters, runner_.max_posts, 1};
+  WorkerOutcome outcome = Run(directory, task, report.assumptions);
+  // The cells of a text grid are read with its header. Where there are too many for a probe, a
+  // second one, which may have no more than a job has memory for, ends at the header.
+  const bool short_of_memory =
+      outcome.end == WorkerEnd::kFailed && outcome.error.kind == "memory-limit";
+  const std::int64_t most = PostsWithin(runner_.limits.memory_bytes, *options);
+  bool too_many = false;
+  if (short_of_memory && !outcome.posts && most < task.max_posts) {
+    task.max_posts = most;
+    Assumptions ignored;
+    WorkerOutcome second = Run(directory, task, ignored);
+    too_many = second.end == WorkerEnd::kFailed && second.error.kind == "raster-too-large";
+    if (too_many) outcome = std::move(second);
   }
   fs::remove_all(directory, failure);
-  if (refusal) return *std::move(refusal);
-  if (!posts) return report;
-  Result<BuildOptions> options = ParseOptions(parameters);
-  if (!options) return std::move(options.error());
-  options->threads = runner_.threads;
-  Result<JobCost> cost = Judge(*posts, *options, runner_);
+  if (too_many) {
+    return Error{ErrorCode::kResourceExhausted,
+                 outcome.error.message + "; more needs more than the " +
+                     Mebibytes(runner_.limits.memory_bytes) + " that a job may have here",
+                 "memory-limit"};
+  }
+  // A worker that runs out of the probe's memory says so itself; a job may have more.
+  if (outcome.end == WorkerEnd::kFailed && !short_of_memory) return std::move(outcome.error);
+  if (!outcome.posts) return report;
+  Result<JobCost> cost = Judge(*outcome.posts, *options, runner_);
   if (!cost) return std::move(cost.error());
   report.cost = *cost;
   return report;

@@ -9,6 +9,8 @@
 #include "service/jobs/job.h"
 #include "service/jobs/job_runner.h"
 #include "service/jobs/spool_file.h"
+#include "service/worker/supervisor.h"
+#include "service/worker/worker_protocol.h"
 
 namespace farhorizon {
 
@@ -44,6 +46,10 @@ class UploadProbe {
                            const Parameters& parameters);
 
  private:
+  /// Runs one probe. assumptions: those that it tells.
+  WorkerOutcome Run(const std::filesystem::path& directory, const WorkerTask& task,
+                    Assumptions& assumptions);
+
   std::filesystem::path folder_;
   ProbeOptions options_;
   RunnerOptions runner_;

@@ -51,6 +51,9 @@ class CostE2e : public ServiceE2e {
     EXPECT_EQ(answer.status, 201) << answer.body;
     return "/jobs/" + json::parse(answer.body).value("jobID", "");
   }
+  static std::string CodeOf(const RawAnswer& answer) {
+    return json::parse(answer.body).value("code", "");
+  }
   // The number `field` of the log's line `message` about a job.
   std::int64_t Logged(const std::string& path, const std::string& message,
                       const std::string& field) {
@@ -82,7 +85,8 @@ TEST_F(CostE2e, EstimatesHoldForWhatJobsTake) {
 }
 
 TEST_F(CostE2e, RefusesWithFiguresWhatNoWorkerMayHave) {
-  Start({"FARHORIZON_WORKER_MEMORY_BYTES=134217728", "FARHORIZON_WORKERS=1"});
+  Start({"FARHORIZON_WORKER_MEMORY_BYTES=134217728", "FARHORIZON_PROBE_MEMORY_BYTES=134217728",
+         "FARHORIZON_PROBE_WALL_SECONDS=60", "FARHORIZON_WORKERS=1"});
   const RawAnswer answer = Post("filename=a.asc", Hills(450));
   EXPECT_EQ(answer.status, 422);
   const json problem = json::parse(answer.body);
@@ -92,6 +96,14 @@ TEST_F(CostE2e, RefusesWithFiguresWhatNoWorkerMayHave) {
   EXPECT_EQ(json::parse(Ask(port_, "GET", "/jobs").body)["jobs"].size(), 0U);
   EXPECT_EQ(LeftOver("spool"), 0U);
   Accepted("filename=a.asc", Hills(50));
+  if (!kLimitsMemory) return;
+  // So many that a probe cannot read them: its memory does not suffice for the cells.
+  std::string text = "ncols 4000\nnrows 4000\nxllcorner 7\nyllcorner 46\ncellsize 0.0001\n";
+  for (int i = 0; i < 4000 * 4000; ++i) text += i % 2 == 0 ? "1 " : "2 ";
+  const RawAnswer large = Post("filename=a.asc", text);
+  EXPECT_EQ(large.status, 422);
+  EXPECT_EQ(CodeOf(large), "memory-limit");
+  EXPECT_THAT(large.body, HasSubstr("4000 x 4000"));
 }
 
 TEST_F(CostE2e, WhatHasNoRoomBesideAnotherWaits) {
