@@ -23,10 +23,10 @@ struct RowUnderTriangle {
   ColumnRange left_facets;
 };
 
-/// An edge from row to row, from its upper end, whichever triangle asks: the triangles on both sides
-/// of it compute the same whole numbers. A column is in steps of 2^-40. A slope is off by a step, and
-/// a column after 2^15 rows by less than 2^-24; posts and centroids beside an edge of n rows are
-/// 1 / 3n, so 2^-17, away from it or more. What is within 2^-19 is on it.
+/// An edge from row to row, from its upper end, whichever triangle asks: the triangles on both
+/// sides of it compute the same whole numbers. A column is in steps of 2^-40. A slope is off by a
+/// step, and a column after 2^15 rows by less than 2^-24; posts and centroids beside an edge of n
+/// rows are 1 / 3n, so 2^-17, away from it or more. What is within 2^-19 is on it.
 class EdgeByRows {
  public:
   /// Requires: `from` is not below `to`.
