@@ -30,7 +30,7 @@ bool IsFinished(const Job& job) { return IsTerminal(job.state); }
 
 }  // namespace
 
-Simulation::Simulation(std::uint32_t seed) : random_(seed) { Open(); }
+Simulation::Simulation(std::uint32_t seed) : random_(seed), unstable_(Draw(4) == 0) { Open(); }
 
 void Simulation::Open() {
   jobs_.reset();
@@ -58,6 +58,7 @@ std::string Simulation::Run(int steps) {
 
 void Simulation::Step() {
   now_ms_ += Draw(20'000);
+  if (unstable_ && Draw(8) == 0) return Restart();
   switch (Draw(20)) {
     case 0:
     case 1:
@@ -298,7 +299,8 @@ void Simulation::Collect() {
 }
 
 void Simulation::Restart() {
-  const auto end = static_cast<PreviousEnd>(Draw(3));
+  auto end = static_cast<PreviousEnd>(Draw(3));
+  if (unstable_ && Draw(2) == 0) end = PreviousEnd::kCrashed;
   Note("restart after end " + std::to_string(static_cast<int>(end)));
   Open();
   if (!broken_.empty()) return;

@@ -75,6 +75,7 @@ class Simulation {
   void Demand(bool holds, const std::string& what);
 
   std::mt19937 random_;
+  bool unstable_;  // the service crashes again and again
   TempDir folder_;
   MemoryObjects objects_;
   std::unique_ptr<JobStore> jobs_;

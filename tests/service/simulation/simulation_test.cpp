@@ -27,7 +27,7 @@ TEST(Simulation, KeepsTheInvariantsAfterEveryStep) {
   const int end = one >= 0 ? one + 1 : NumberOf("SIMULATION_SEEDS", Rounds(100));
   for (int seed = first; seed < end; ++seed) {
     const std::string broken = Simulation(static_cast<std::uint32_t>(seed)).Run(kSteps);
-    ASSERT_EQ(broken, "") << "SIMULATION_SEED=" << seed;
+    ASSERT_TRUE(broken.empty()) << "SIMULATION_SEED=" << seed << ", " << broken;
   }
 }
 
