@@ -29,6 +29,9 @@ constexpr std::int64_t kMebibyte = std::int64_t{1} << 20U;
 constexpr std::int64_t kBytesOfAny = 72 * kMebibyte;
 constexpr std::int64_t kBytesOfThread = 10 * kMebibyte;
 constexpr std::int64_t kBytesOfPost = 280;
+// Of each post beyond the first million: so that a DEM which fits is not refused.
+constexpr std::int64_t kManyPosts = 1'000'000;
+constexpr std::int64_t kBytesOfFurtherPost = 200;
 constexpr double kSecondsOfAny = 0.5;
 constexpr double kSecondsOfPost = 40e-6;
 constexpr double kShareOfApproximate = 3;
@@ -41,12 +44,16 @@ std::int64_t BytesBesidePosts(const BuildOptions& options) {
 
 BuildCost EstimateBuild(std::int64_t posts, const BuildOptions& options) {
   const double seconds = kSecondsOfAny + kSecondsOfPost * static_cast<double>(posts);
-  return {BytesBesidePosts(options) + kBytesOfPost * posts,
-          options.approximate ? kShareOfApproximate * seconds : seconds};
+  const std::int64_t further = std::max<std::int64_t>(0, posts - kManyPosts);
+  return {
+      BytesBesidePosts(options) + kBytesOfPost * (posts - further) + kBytesOfFurtherPost * further,
+      options.approximate ? kShareOfApproximate * seconds : seconds};
 }
 
 std::int64_t PostsWithin(std::int64_t memory_bytes, const BuildOptions& options) {
-  return std::max<std::int64_t>(0, (memory_bytes - BytesBesidePosts(options)) / kBytesOfPost);
+  const std::int64_t bytes = std::max<std::int64_t>(0, memory_bytes - BytesBesidePosts(options));
+  const std::int64_t further = bytes - kBytesOfPost * kManyPosts;
+  return further < 0 ? bytes / kBytesOfPost : kManyPosts + further / kBytesOfFurtherPost;
 }
 
 }  // namespace farhorizon

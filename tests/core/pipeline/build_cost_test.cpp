@@ -37,11 +37,14 @@ TEST(BuildCost, AThreadAndApproximationCostMore) {
 
 TEST(BuildCost, PostsWithinIsTheInverse) {
   const BuildOptions options;
-  const std::int64_t memory = std::int64_t{1} << 32U;
-  const std::int64_t most = PostsWithin(memory, options);
-  EXPECT_LE(EstimateBuild(most, options).memory_bytes, memory);
-  EXPECT_GT(EstimateBuild(most + 1, options).memory_bytes, memory);
-  EXPECT_GE(most, 3601 * 3601) << "a tile of a degree and an arc second fits in the default";
+  for (const unsigned bits : {27U, 28U, 29U, 32U, 36U}) {
+    const std::int64_t memory = std::int64_t{1} << bits;
+    const std::int64_t most = PostsWithin(memory, options);
+    EXPECT_LE(EstimateBuild(most, options).memory_bytes, memory) << bits;
+    EXPECT_GT(EstimateBuild(most + 1, options).memory_bytes, memory) << bits;
+  }
+  EXPECT_GE(PostsWithin(std::int64_t{1} << 32U, options), 4400 * 4400)
+      << "more than a tile of a degree and an arc second fits in the default";
   EXPECT_EQ(PostsWithin(1, options), 0);
 }
 
