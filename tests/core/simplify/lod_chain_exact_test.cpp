@@ -124,7 +124,7 @@ TEST(LodChainExact, LevelZeroHasTheSkylineOfTheDemOnLandscapes) {
   }
   // Some landscapes have many vertices with a fitted height, some none: a tenth of them has too few
   // to ask for any.
-  if (Rounds(60) == 60) EXPECT_GT(figures.fitted, 150);
+  EXPECT_GT(figures.fitted, Rounds(60) == 60 ? 150 : -1);
   EXPECT_GT(figures.removed, Rounds(7000));
 }
 
