@@ -109,7 +109,7 @@ TEST(LodChainExact, AsFarAsTheRulesLetItOnAnySmallTerrain) {
 }
 
 TEST(LodChainExact, LevelZeroHasTheSkylineOfTheDemOnLandscapes) {
-  std::mt19937 random(2);
+  std::mt19937 random(4);  // of whose first landscapes some are fitted, too
   Figures figures;
   for (int round = 0; round < Rounds(60); ++round) {
     const Dem dem = AnySolidLandscape(20, 48, random);
@@ -122,9 +122,7 @@ TEST(LodChainExact, LevelZeroHasTheSkylineOfTheDemOnLandscapes) {
     ExpectExact(terrain, horizon, levels[0], 300, random, figures);
     if (HasFatalFailure()) return;
   }
-  // Some landscapes have many vertices with a fitted height, some none: a tenth of them has too few
-  // to ask for any.
-  EXPECT_GT(figures.fitted, Rounds(60) == 60 ? 150 : -1);
+  EXPECT_GT(figures.fitted, Rounds(150));
   EXPECT_GT(figures.removed, Rounds(7000));
 }
 
