@@ -17,7 +17,6 @@
 
 #include "core/horizon/kinetic/bitangents/bitangent_scene.h"
 #include "core/horizon/kinetic/horizontal_edge_visibility.h"
-#include "core/horizon/kinetic/hulls/hull_location.h"
 #include "core/horizon/kinetic/neighbours/neighbour_scene.h"
 
 namespace farhorizon::kinetic {
@@ -41,10 +40,10 @@ KineticSweep<Scene>::KineticSweep(const Terrain& terrain, const RunControl& cont
       work_budget_(options.work_budget.value_or(DefaultKineticWorkBudget(terrain.CountEdges()))),
       hull_certificates_(options.hull),
       checks_(checks),
-      scene_(options.hull, work_budget_) {
+      scene_(options.hull, work_budget_),
+      inside_(terrain, scene_) {
   const auto posts = static_cast<std::size_t>(terrain.post_count());
   cluster_.assign(posts, -1);
-  inside_.assign(posts, -1);
   arriving_.assign(posts, -1);
   for (VertexId v = 0; v < terrain.post_count(); ++v) {
     if (terrain.IsVertex(v)) order_.push_back(v);
@@ -193,8 +192,8 @@ void KineticSweep<Scene>::FindHorizontalEdges(std::size_t next, std::size_t end,
     const VertexId v = order_[i];
     for (const VertexId n : terrain_.NeighboursOf(v)) {
       if (n < v || Height(n) != Height(v) || !terrain_.IsRidgeOrBorder({v, n})) continue;
-      const ClusterId around = ClusterAround(v, s);
-      if (around >= 0 && IsInside(n, around, s)) continue;
+      const ClusterId around = inside_.ClusterAround(v, s, events_.work);
+      if (around >= 0 && inside_.IsInside(n, around, s)) continue;
       if (!visibility) visibility.emplace(scene_, s);
       if (visibility->IsVisible(terrain_.Point(v), terrain_.Point(n))) {
         result_.edges.push_back({v, n});
@@ -209,7 +208,8 @@ void KineticSweep<Scene>::PassPosts(std::size_t next, std::size_t end, std::int6
   containing_.clear();  // before anything is changed at this depth
   for (std::size_t i = next; i < end; ++i) {
     if (MustStop()) return;
-    containing_.push_back(HasHigherNeighbour(order_[i]) ? -1 : ClusterAround(order_[i], s));
+    containing_.push_back(
+        HasHigherNeighbour(order_[i]) ? -1 : inside_.ClusterAround(order_[i], s, events_.work));
   }
   for (std::size_t i = next; i < end; ++i) {
     for (PointId p = arriving_[static_cast<std::size_t>(order_[i])]; p >= 0;
@@ -219,34 +219,6 @@ void KineticSweep<Scene>::PassPosts(std::size_t next, std::size_t end, std::int6
     Connect(order_[i], containing_[i - next]);
   }
   for (std::size_t i = next; i < end; ++i) Continue(order_[i], s);
-}
-
-// Whether the hull of c surely has the post inside at depth s. Hulls only grow, so what was found
-// once stays.
-template <typename Scene>
-bool KineticSweep<Scene>::IsInside(VertexId v, ClusterId c, std::int64_t s) {
-  ClusterId& inside = inside_[static_cast<std::size_t>(v)];
-  if (inside >= 0 && scene_.Find(inside) == scene_.Find(c)) return true;
-  const Point3i post = terrain_.Point(v);
-  if (!SurelyInsideAt(scene_.hulls(), c, post.x, post.y, s)) return false;
-  inside = c;
-  return true;
-}
-
-// The cluster whose hull surely has the post inside; -1: none is sure to.
-template <typename Scene>
-ClusterId KineticSweep<Scene>::ClusterAround(VertexId v, std::int64_t s) {
-  ClusterId& inside = inside_[static_cast<std::size_t>(v)];
-  if (inside >= 0) return scene_.Find(inside);
-  const Point3i post = terrain_.Point(v);
-  events_.work += static_cast<std::int64_t>(scene_.hulls().clusters().size());
-  for (const ClusterId c : scene_.hulls().clusters()) {
-    if (scene_.box(c).Contains(post.x, post.y) &&
-        SurelyInsideAt(scene_.hulls(), c, post.x, post.y, s)) {
-      return inside = c;
-    }
-  }
-  return -1;
 }
 
 template <typename Scene>
@@ -289,7 +261,7 @@ void KineticSweep<Scene>::Continue(VertexId v, std::int64_t s) {
     const Terrain::Faces faces = terrain_.FacesOf(edge);
     border = border || !faces.left || !faces.right;
     if (DepthOf(n) <= s || !terrain_.IsRidgeOrBorder(edge, faces)) continue;
-    if (has_hull && IsInside(n, c, s)) continue;
+    if (has_hull && inside_.IsInside(n, c, s)) continue;
     const auto tag = static_cast<std::int32_t>(edges_.size());
     edges_.push_back(edge);
     const PointId p = scene_.Add(
@@ -297,7 +269,7 @@ void KineticSweep<Scene>::Continue(VertexId v, std::int64_t s) {
     PointId& last = arriving_[static_cast<std::size_t>(n)];
     arriving_too_.push_back(std::exchange(last, p));
   }
-  if (border && !(has_hull && IsInside(v, c, s))) {
+  if (border && !(has_hull && inside_.IsInside(v, c, s))) {
     scene_.Add(c, MovingPoint::Standing(terrain_.Point(v).x, terrain_.Point(v).y), kNever, -1);
     arriving_too_.push_back(-1);
   }

@@ -8,6 +8,7 @@
 #include "core/base/run_control.h"
 #include "core/horizon/kinetic/hulls/step_marks.h"
 #include "core/horizon/kinetic/hulls/sweep_depth.h"
+#include "core/horizon/kinetic/inside_posts.h"
 #include "core/horizon/kinetic/kinetic_horizon.h"
 #include "core/terrain/terrain.h"
 
@@ -52,8 +53,6 @@ class KineticSweep {
   void FindHorizontalEdges(std::size_t next, std::size_t end, std::int64_t s);
   void PassPosts(std::size_t next, std::size_t end, std::int64_t s);
   [[nodiscard]] bool HasHigherNeighbour(VertexId v) const;
-  [[nodiscard]] bool IsInside(VertexId v, ClusterId c, std::int64_t s);
-  [[nodiscard]] ClusterId ClusterAround(VertexId v, std::int64_t s);
   void Connect(VertexId v, ClusterId containing);
   void Continue(VertexId v, std::int64_t s);
 
@@ -64,10 +63,10 @@ class KineticSweep {
   HullCertificates hull_certificates_;
   bool checks_;
   Scene scene_;
+  InsidePosts<Scene> inside_;
   std::int32_t summit_ = 0;
   std::vector<VertexId> order_;        // from the summit down
   std::vector<ClusterId> cluster_;     // per post; -1 below the plane
-  std::vector<ClusterId> inside_;      // per post: a cluster whose hull has it inside; -1
   std::vector<PointId> arriving_;      // per post: the last point whose edge ends there
   std::vector<PointId> arriving_too_;  // per point: the one before it; -1
   std::vector<ClusterId> containing_;  // of PassPosts()
