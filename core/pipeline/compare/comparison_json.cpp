@@ -1,3 +1,5 @@
+// For programs: each name says its unit, each figure is rounded to what does not differ between
+// machines, and a mesh that could not be measured has its fault in place of figures.
 #include "core/pipeline/compare/comparison_json.h"
 
 #include <cmath>

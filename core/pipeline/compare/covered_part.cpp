@@ -1,3 +1,6 @@
+// A tile is held to the part of the DEM that it is of, and a mesh of the whole to the whole: posts
+// that it leaves out beside covered ones are its error. Regions are followed by a list, not by
+// calls, which could be as deep as a DEM has posts.
 #include "core/pipeline/compare/covered_part.h"
 
 #include <algorithm>

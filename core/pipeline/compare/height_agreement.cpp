@@ -1,3 +1,6 @@
+// A mesh in feet, upside down or above another datum has errors of its own size everywhere, and no
+// figure of them would say why. So slope and offset are looked at first, against what simplifying
+// can do, and the refusal names the cause that fits and the option that settles it.
 #include "core/pipeline/compare/height_agreement.h"
 
 #include <algorithm>

@@ -1,3 +1,6 @@
+// There are two kinds of frames: stretched and moved grids, which take a few sums, and those on the
+// globe, which go by way of the tile's frame and back onto the grid. In these, a height is added
+// along the ellipsoid's normal and not along an axis.
 #include "core/pipeline/compare/mesh_placing.h"
 
 #include <cmath>

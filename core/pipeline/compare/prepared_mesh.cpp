@@ -1,3 +1,6 @@
+// The order matters: skirts go before triangles are turned, for they have no side in plan; heights
+// are looked up before anything is measured, so that a mesh that lies elsewhere is refused with its
+// cause and not measured.
 #include "core/pipeline/compare/prepared_mesh.h"
 
 #include <algorithm>
