@@ -154,7 +154,7 @@ std::string StderrTail(const std::filesystem::path& directory) {
 }
 
 WorkerOutcome Crashed(ErrorCode code, ErrorKind kind, std::string message) {
-  return {WorkerEnd::kCrashed, {code, std::move(message), kind}, {}, {}, {}, {}};
+  return {WorkerEnd::kCrashed, {code, std::move(message), kind}};
 }
 
 WorkerOutcome TimedOut(const std::string& what) {
@@ -168,10 +168,10 @@ WorkerOutcome OutcomeOfExit(int status, const std::optional<WorkerMessage>& fina
   if (WIFEXITED(status) && final_message) {
     if (const auto* done = std::get_if<WorkerDone>(&*final_message)) {
       if (WEXITSTATUS(status) == 0) {
-        return {WorkerEnd::kDone, {ErrorCode::kIo, ""}, done->timings, done->peak_bytes, {}, {}};
+        return {WorkerEnd::kDone, {ErrorCode::kIo, ""}, done->timings, done->peak_bytes};
       }
     } else if (const auto* error = std::get_if<Error>(&*final_message)) {
-      if (WEXITSTATUS(status) == 1) return {WorkerEnd::kFailed, *error, {}, {}, {}, {}};
+      if (WEXITSTATUS(status) == 1) return {WorkerEnd::kFailed, *error};
     }
   }
   if (WIFSIGNALED(status)) {
@@ -203,7 +203,7 @@ WorkerOutcome Supervise(const WorkerCall& call, const RunControl& control) {
   }
   Result<ChildProcess> child =
       call.spawner->StartWorker({call.program, call.probe_only, call.directory, call.limits});
-  if (!child) return {WorkerEnd::kCrashed, std::move(child.error()), {}, {}, {}, {}};
+  if (!child) return {WorkerEnd::kCrashed, std::move(child.error())};
   MessageReader reader(control);
   const Clock::time_point deadline = Clock::now() + std::chrono::seconds(call.limits.wall_seconds);
   const WaitResult waited = WaitForChild(*child, reader, stop_event.get(), deadline,
@@ -216,7 +216,7 @@ WorkerOutcome Supervise(const WorkerCall& call, const RunControl& control) {
       outcome = OutcomeOfExit(status, reader.final_message());
       break;
     case WaitResult::kStopped:
-      outcome = {WorkerEnd::kStopped, {ErrorCode::kCancelled, "stopped", ""}, {}, {}, {}, {}};
+      outcome = {WorkerEnd::kStopped, {ErrorCode::kCancelled, "stopped", ""}};
       break;
     case WaitResult::kTimedOut:
       outcome =

@@ -26,10 +26,10 @@ struct WorkerOutcome {
   /// Set unless `end` is kDone. Of a crash, the kind is "worker-crashed", "worker-not-started",
   /// "worker-stuck", "memory-limit", "file-limit" or "timeout".
   Error error = {ErrorCode::kIo, "", ""};
-  std::map<std::string, double> timings;
+  std::map<std::string, double> timings = {};
   std::int64_t peak_bytes = 0;  ///< resident memory at its peak, as a worker that is done says
-  std::optional<std::int64_t> posts;  ///< of the DEM, where the worker has said so
-  std::string stderr_tail = {};       ///< the end of the worker's standard error, for the log
+  std::optional<std::int64_t> posts = {};  ///< of the DEM, where the worker has said so
+  std::string stderr_tail = {};            ///< the end of the worker's standard error, for the log
 };
 
 /// How to start one worker process.
