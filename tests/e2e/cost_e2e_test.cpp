@@ -46,11 +46,6 @@ class CostE2e : public ServiceE2e {
   RawAnswer Post(const std::string& query, const std::string& body = SmallGrid()) {
     return Ask(port_, "POST", "/jobs?crs=EPSG:4326&" + query, kBinary, body);
   }
-  std::string Accepted(const std::string& query, const std::string& body = SmallGrid()) {
-    const RawAnswer answer = Post(query, body);
-    EXPECT_EQ(answer.status, 201) << answer.body;
-    return "/jobs/" + json::parse(answer.body).value("jobID", "");
-  }
   static std::string CodeOf(const RawAnswer& answer) {
     return json::parse(answer.body).value("code", "");
   }
@@ -71,7 +66,7 @@ TEST_F(CostE2e, EstimatesHoldForWhatJobsTake) {
   if (!kLimitsMemory) GTEST_SKIP() << "a sanitizer takes memory of its own";
   Start({"FARHORIZON_WORKERS=1"});
   for (const int side : {33, 100, 200}) {
-    const std::string job = Accepted("levels=2&filename=a.asc", Hills(side));
+    const std::string job = Submit("a.asc&levels=2", "", Hills(side));
     ASSERT_EQ(WaitForEnd(job), "successful");
     const json info = StatusOf(job);
     EXPECT_EQ(info["attempt"], 1) << "it had memory enough";
@@ -95,7 +90,7 @@ TEST_F(CostE2e, RefusesWithFiguresWhatNoWorkerMayHave) {
   EXPECT_THAT(problem.value("detail", ""), HasSubstr("128 MiB"));
   EXPECT_EQ(json::parse(Ask(port_, "GET", "/jobs").body)["jobs"].size(), 0U);
   EXPECT_EQ(LeftOver("spool"), 0U);
-  Accepted("filename=a.asc", Hills(50));
+  Submit("a.asc", "", Hills(50));
   if (!kLimitsMemory) return;
   // So many that a probe cannot read them: its memory does not suffice for the cells.
   std::string text = "ncols 4000\nnrows 4000\nxllcorner 7\nyllcorner 46\ncellsize 0.0001\n";
@@ -109,8 +104,8 @@ TEST_F(CostE2e, RefusesWithFiguresWhatNoWorkerMayHave) {
 TEST_F(CostE2e, WhatHasNoRoomBesideAnotherWaits) {
   // Nobody knows what these two cost: each has all that there is.
   StartStandIn({"FARHORIZON_WORKERS=2", "FARHORIZON_JOBS_MEMORY_BYTES=600000000"});
-  const std::string first = Accepted("filename=slow1.asc");
-  const std::string second = Accepted("filename=slow2.asc");
+  const std::string first = Submit("slow1.asc");
+  const std::string second = Submit("slow2.asc");
   for (bool ended = false; !ended;) {
     const std::string of_second = StatusOf(second).value("status", "");
     const std::string of_first = StatusOf(first).value("status", "");
@@ -123,7 +118,7 @@ TEST_F(CostE2e, WhatHasNoRoomBesideAnotherWaits) {
 
 TEST_F(CostE2e, AJobThatNeedsMoreThanWasExpectedRunsAgainWithMore) {
   StartStandIn({"FARHORIZON_WORKERS=1"});
-  const std::string job = Accepted("filename=hungry.asc");
+  const std::string job = Submit("hungry.asc");
   const auto expected = StatusOf(job)["estimate"].value("memoryBytes", std::int64_t{0});
   ASSERT_EQ(WaitForEnd(job), "successful");
   if (!kLimitsMemory) GTEST_SKIP() << "a sanitizer takes memory of its own";
@@ -139,11 +134,11 @@ TEST_F(CostE2e, AMachineThatIsTooSmallIsSaidAtTheStart) {
 
 TEST_F(CostE2e, PrioritiesDeadlinesAndTimeouts) {
   StartStandIn({"FARHORIZON_WORKERS=1"});
-  const std::string holds = Accepted("filename=hang.asc");
+  const std::string holds = Submit("hang.asc");
   ASSERT_EQ(WaitFor(holds, {"running"}), "running");
-  const std::string low = Accepted("filename=a.asc&priority=low");
-  const std::string late = Accepted("filename=b.asc&deadline=1");
-  const std::string high = Accepted("filename=c.asc&priority=high");
+  const std::string low = Submit("a.asc&priority=low");
+  const std::string late = Submit("b.asc&deadline=1");
+  const std::string high = Submit("c.asc&priority=high");
   EXPECT_EQ(WaitForEnd(late), "failed");
   const json missed = StatusOf(late);
   EXPECT_EQ(missed["exception"]["code"], "timeout");
@@ -154,7 +149,7 @@ TEST_F(CostE2e, PrioritiesDeadlinesAndTimeouts) {
   EXPECT_EQ(WaitForEnd(low), "successful");
   EXPECT_LT(StatusOf(high).value("started", ""), StatusOf(low).value("started", ""));
 
-  const std::string endless = Accepted("filename=hang.asc&timeout=1");
+  const std::string endless = Submit("hang.asc&timeout=1");
   EXPECT_EQ(WaitForEnd(endless), "failed");
   EXPECT_THAT(StatusOf(endless).value("message", ""), HasSubstr("the timeout that came with it"));
   EXPECT_EQ(Post("priority=urgent").status, 400);
@@ -162,20 +157,20 @@ TEST_F(CostE2e, PrioritiesDeadlinesAndTimeouts) {
 
 TEST_F(CostE2e, AWorkersFilesTogetherHaveALimit) {
   StartStandIn({"FARHORIZON_WORKER_FOLDER_BYTES=8388608"});
-  const std::string job = Accepted("filename=folder.asc");
+  const std::string job = Submit("folder.asc");
   EXPECT_EQ(WaitForEnd(job), "failed");
   EXPECT_EQ(FailureOf(job), "file-limit");
   EXPECT_THAT(StatusOf(job).value("message", ""), HasSubstr("8 MiB"));
   EXPECT_EQ(LeftOver("work"), 0U);
   const std::string blanks(9 << 20, ' ');
-  EXPECT_EQ(WaitForEnd(Accepted("filename=slow.asc", SmallGrid() + blanks)), "successful")
+  EXPECT_EQ(WaitForEnd(Submit("slow.asc", "", SmallGrid() + blanks)), "successful")
       << "its input is no file of its own";
 }
 
 TEST_F(CostE2e, AProbeThatHangsEndsAtItsTimeAndOthersPassIt) {
   StartStandIn(
       {"FARHORIZON_WORKERS=1", "FARHORIZON_PROBE_AT_ONCE=2", "FARHORIZON_PROBE_WALL_SECONDS=3"});
-  const std::string holds = Accepted("filename=hang.asc");
+  const std::string holds = Submit("hang.asc");
   std::atomic<bool> answered = false;
   std::thread hanging([&] {
     EXPECT_EQ(Post("filename=probe-hang.asc").status, 201) << "its job has more time";

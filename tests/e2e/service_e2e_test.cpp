@@ -94,9 +94,7 @@ TEST_F(ServiceE2e, BadInputIsRefusedBeforeTheJobAndLeavesNothing) {
 
 TEST_F(ServiceE2e, ShowsAPageUnderAPolicyThatShutsItIn) {
   Start();
-  const RawAnswer answer = Ask(port_, "POST", "/jobs?crs=EPSG:4326&levels=1&filename=a.asc",
-                               "Content-Type: application/octet-stream\r\n", SmallGrid());
-  const std::string job = "/jobs/" + json::parse(answer.body).value("jobID", "");
+  const std::string job = Submit("a.asc&levels=1");
   ASSERT_EQ(WaitForEnd(job), "successful");
   const json links = json::parse(Ask(port_, "GET", job + "/results").body);
   EXPECT_EQ(links["report.html"]["type"], "text/html");
@@ -114,9 +112,7 @@ TEST_F(ServiceE2e, ShowsAPageUnderAPolicyThatShutsItIn) {
 
 TEST_F(ServiceE2e, SendsInGzipWhatThatMakesSmaller) {
   Start();
-  const RawAnswer answer = Ask(port_, "POST", "/jobs?crs=EPSG:4326&levels=1&filename=a.asc",
-                               "Content-Type: application/octet-stream\r\n", SmallGrid());
-  const std::string job = "/jobs/" + json::parse(answer.body).value("jobID", "");
+  const std::string job = Submit("a.asc&levels=1");
   ASSERT_EQ(WaitForEnd(job), "successful");
   const std::string page = job + "/results/report.html";
   const RawAnswer plain = Ask(port_, "GET", page);

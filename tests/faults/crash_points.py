@@ -1,6 +1,6 @@
 """The service dies at the N-th call of a kind, for each N of one job's life: strace does that.
 
-Calls are counted by thread: strace follows those of one role. After a new start the job that was acknowledged must
+strace counts the calls of each thread by themselves: the N-th is that of the thread that comes to it first. After a new start the job that was acknowledged must
 end successful with the right bytes, and no object may lack or be too many.
 """
 import os

@@ -5,6 +5,7 @@ import random
 import threading
 import time
 
+from closed_loop import closed_loop
 from service import Service, small_dem
 from verdict import Verdict, milliseconds
 
@@ -29,28 +30,17 @@ def upload(service: Service, mib: int) -> tuple[float, int]:
 
 def ranges(service: Service, path: str, whole: bytes, seconds: float) -> tuple[list[float], int]:
     """(latencies, wrong answers) of 16 clients that ask for pieces of `whole`."""
-    latencies: list[float] = []
-    wrong = [0]
-    end = time.monotonic() + seconds
+    clients = 16
+    randoms = [random.Random(seed) for seed in range(clients)]
 
-    def loop(seed: int) -> None:
-        rng = random.Random(seed)
-        connection = http.client.HTTPConnection("127.0.0.1", service.port, timeout=30)
-        while time.monotonic() < end:
-            first = rng.randrange(len(whole))
-            last = min(len(whole) - 1, first + rng.randrange(1 << 18))
-            begun = time.monotonic()
-            connection.request("GET", path, headers={"Range": f"bytes={first}-{last}"})
-            response = connection.getresponse()
-            body = response.read()
-            latencies.append(time.monotonic() - begun)
-            wrong[0] += response.status != 206 or body != whole[first:last + 1]
-    threads = [threading.Thread(target=loop, args=(seed,)) for seed in range(16)]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
-    return latencies, wrong[0]
+    def ask(connection: http.client.HTTPConnection, number: int) -> bool:
+        first = randoms[number].randrange(len(whole))
+        last = min(len(whole) - 1, first + randoms[number].randrange(1 << 18))
+        connection.request("GET", path, headers={"Range": f"bytes={first}-{last}"})
+        response = connection.getresponse()
+        body = response.read()
+        return response.status == 206 and body == whole[first:last + 1]
+    return closed_loop(service, clients, seconds, ask)
 
 
 def run(folder: str, verdict: Verdict, options) -> None:

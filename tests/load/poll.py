@@ -1,35 +1,11 @@
 """Statuses: many connections at once, then beside busy workers."""
 import http.client
-import threading
 import time
 
+from closed_loop import closed_loop
 from open_loop import OpenLoop
 from service import Service, small_dem
 from verdict import Verdict, milliseconds
-
-
-def keep_alive(service: Service, path: str, connections: int, seconds: float) -> tuple[list[float], int]:
-    """(latencies, answers that were not 200) of closed loops, one a connection."""
-    latencies: list[float] = []
-    wrong = [0]
-    end = time.monotonic() + seconds
-
-    def loop() -> None:
-        connection = http.client.HTTPConnection("127.0.0.1", service.port, timeout=10)
-        while time.monotonic() < end:
-            begun = time.monotonic()
-            connection.request("GET", path)
-            response = connection.getresponse()
-            response.read()
-            latencies.append(time.monotonic() - begun)
-            wrong[0] += response.status != 200
-        connection.close()
-    threads = [threading.Thread(target=loop) for _ in range(connections)]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
-    return latencies, wrong[0]
 
 
 def run(folder: str, verdict: Verdict, options) -> None:
@@ -37,8 +13,14 @@ def run(folder: str, verdict: Verdict, options) -> None:
     with Service(folder) as service:
         job = service.submit(small_dem(1))[1]["jobID"]
         service.wait(job)
+
+        def ask(connection: http.client.HTTPConnection, _: int) -> bool:
+            connection.request("GET", f"/jobs/{job}")
+            response = connection.getresponse()
+            response.read()
+            return response.status == 200
         for connections in (1, 16):
-            latencies, wrong = keep_alive(service, f"/jobs/{job}", connections, seconds)
+            latencies, wrong = closed_loop(service, connections, seconds, ask)
             # The client is Python, on the same cores: a floor of the rate, no measure of the service.
             verdict.say(f"{connections} connections", rate=f"{len(latencies) / seconds:.0f}/s",
                         latency=milliseconds(latencies), memory_KiB=service.figure("VmRSS"))

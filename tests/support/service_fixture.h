@@ -48,11 +48,11 @@ class ServiceE2e : public testing::Test {
     settings.push_back(std::string("FARHORIZON_WORKER_PROGRAM=") + STAND_IN_WORKER);
     Start(std::move(settings));
   }
-  /// The path of a new job.
-  std::string Submit(const std::string& name, const std::string& headers = "") {
-    const RawAnswer answer =
-        Ask(port_, "POST", "/jobs?crs=EPSG:4326&filename=" + name,
-            "Content-Type: application/octet-stream\r\n" + headers, SmallGrid());
+  /// The path of a new job. name: of its file; further parameters may follow it, "a.asc&levels=1".
+  std::string Submit(const std::string& name, const std::string& headers = "",
+                     const std::string& body = SmallGrid()) {
+    const RawAnswer answer = Ask(port_, "POST", "/jobs?crs=EPSG:4326&filename=" + name,
+                                 "Content-Type: application/octet-stream\r\n" + headers, body);
     EXPECT_EQ(answer.status, 201) << answer.head << answer.body;
     return answer.status == 201 ? "/jobs/" + nlohmann::json::parse(answer.body).value("jobID", "")
                                 : "";

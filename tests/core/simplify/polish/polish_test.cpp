@@ -23,13 +23,18 @@ constexpr float kSlopeWeight = 0.1F;
 
 using Step = Status (*)(Workpiece&, const RunControl&);
 
-void Coarsen(Workbench& bench, int part) {
-  Workpiece& work = bench.work;
+// Sets the prices and the rules of levels that are not exact.
+void BeginLevels(Workpiece& work) {
   work.rules.BeginSoft(work.mesh);
   work.price.AllowRises(true);
   work.price.SetWeight(static_cast<float>(30 * work.skyline.PostsPerLine()));
   work.mesh.measure().SetSlopeWeight(kSlopeWeight);
   work.mesh.MeasureAll();
+}
+
+void Coarsen(Workbench& bench, int part) {
+  Workpiece& work = bench.work;
+  BeginLevels(work);
   Collapser collapser(work);
   for (std::int32_t v = 0; v < work.mesh.vertices(); ++v) collapser.Consider(v);
   ASSERT_TRUE(collapser.Run(work.mesh.triangles() / part, {}, [] {}));
@@ -74,11 +79,7 @@ TEST_P(Polish, LeavesAMeshOfAllTrianglesAlone) {
   for (int round = 0; round < Rounds(200); ++round) {
     Workbench bench(AnySmallDem(14, random));
     Workpiece& work = bench.work;
-    work.rules.BeginSoft(work.mesh);
-    work.price.AllowRises(true);
-    work.price.SetWeight(static_cast<float>(30 * work.skyline.PostsPerLine()));
-    work.mesh.measure().SetSlopeWeight(kSlopeWeight);
-    work.mesh.MeasureAll();
+    BeginLevels(work);
     const HalfEdgeMesh before = work.mesh;
     ASSERT_TRUE(GetParam()(work, {}));
     for (std::int32_t v = 0; v < before.vertices(); ++v) {
