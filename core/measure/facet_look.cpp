@@ -1,6 +1,6 @@
-// Each triangle of the DEM is compared with the triangle of the mesh over its middle, weighed alike:
-// so the angle is what a light shows, whatever the mesh's triangles are like. The middles form two
-// lattices, a third of a cell off the posts, along whose rows the mesh's triangles are scanned.
+// Each triangle of the DEM is compared with the triangle of the mesh over its middle, and all weigh
+// alike: so the angle is what a light shows, whatever the mesh's triangles are like. The middles
+// form two lattices, a third of a cell off the posts, along whose rows the mesh is scanned.
 #include "core/measure/facet_look.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // Segments are tried one by one, by the corners of the box alone: one that occludes these occludes
 // all of its lines. What is left of a box is halved, and the halves inherit the segments that may
-// still help them. Halvings and looks are counted, so that depth and time of a question have a bound
-// on any ground.
+// still help them. Halvings and looks are counted, so that the depth and the time of a question
+// have a bound on any ground.
 #include "core/measure/occluded_lines.h"
 
 #include <algorithm>

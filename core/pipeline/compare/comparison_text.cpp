@@ -1,5 +1,5 @@
-// For people: three digits a figure, a table that fits a terminal, and notes only for what is not as
-// it should be. What makes a mesh unsound is told from what is merely unusual by a word in front.
+// For people: three digits a figure, a table that fits a terminal, and notes only for what is not
+// as usual. What makes a mesh unsound has a word of its own in front.
 #include "core/pipeline/compare/comparison_text.h"
 
 #include <algorithm>
