@@ -73,15 +73,18 @@ def frozen_worker(folder: str, verdict: Verdict) -> None:
 def drain(folder: str, verdict: Verdict) -> None:
     service = Service(folder, workers=1)
     service.start()
-    job = service.submit(small_dem(1, 240, 200))[1]["jobID"]
+    dem = small_dem(1, 240, 200)
+    # So rough that it may need more memory than was expected, and with that a second attempt.
+    usual = service.wait(service.submit(dem)[1]["jobID"], 180)["attempt"]
+    job = service.submit(dem)[1]["jobID"]
     worker_of(service, job)
     took = service.stop(30)
     verdict.ask("SIGTERM beside a long job: exit 0 within 10 s", took < 10 and service.process.returncode == 0,
                 f"{took:.1f} s, {service.process.returncode}")
     service.start()
     info = service.wait(job, 180)
-    verdict.ask("the job that was cut off is done, at its first attempt",
-                info["status"] == "successful" and info["attempt"] == 1, (info["status"], info.get("attempt"), info.get("exception")))
+    verdict.ask("the job that was cut off is done, and has spent no attempt for that",
+                info["status"] == "successful" and info["attempt"] == usual, (info["status"], info.get("attempt"), info.get("exception")))
     service.stop()
 
 
