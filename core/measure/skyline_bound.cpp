@@ -46,7 +46,6 @@ class RaisedSearch {
         bounds_(bounds),
         lines_(surface.net, surface.hull),
         blocks_(surface.net) {
-    least_room_ = kLeastRoom * (1 + surface.relief_m);
     most_looks_ = kLeastLooks + kMostLooks * static_cast<std::int64_t>(surface.net.segments.size() +
                                                                        pieces.size());
   }
@@ -143,7 +142,6 @@ class RaisedSearch {
   const SkylineFloor& floor_;
   const std::vector<RaisedPiece>& pieces_;
   RaisedBounds bounds_;
-  double least_room_ = 0;
   std::int64_t most_looks_ = 0;
   OccludedLines lines_;
   SegmentBlocks blocks_;
