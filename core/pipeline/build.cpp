@@ -21,6 +21,7 @@
 #include "core/pipeline/report.h"
 #include "core/pipeline/report_page/report_page.h"
 #include "core/pipeline/terrain_input.h"
+#include "core/pipeline/terrain_tiles/terrain_tiles.h"
 #include "core/pipeline/version.h"
 
 namespace farhorizon {
@@ -48,10 +49,12 @@ std::vector<int> LevelsKept(const Horizon& horizon, const std::vector<Lod>& chai
   return level_kept;
 }
 
-// The levels as they were written, and what they cover.
+// The levels as they were written, and what they cover. globe: for the tiles of quantized-mesh, if
+// these are asked for.
 struct WrittenLevels {
   std::vector<LevelReport> reports;
   MeshRegion region;
+  std::vector<TiledLevel> globe;
 };
 
 // The levels' region, with the terrain's heights and room for what the coarsest level may add.
@@ -108,7 +111,7 @@ LevelAsked AskedOf(const LevelPlan& plan, const std::vector<Lod>& chain, std::si
 Result<WrittenLevels> WriteLevels(const LevelContext& context, const LevelPlan& plan,
                                   const std::vector<Lod>& chain, const BuildOptions& options,
                                   ArtifactWriter& writer, ReportPage& page) {
-  WrittenLevels written = {{}, MeshRegion(context.georeference)};
+  WrittenLevels written = {{}, MeshRegion(context.georeference), {}};
   std::vector<LevelReport>& reports = written.reports;
   std::vector<PlacedMesh> decoded;
   for (std::size_t i = 0; i < chain.size(); ++i) {
@@ -134,6 +137,10 @@ Result<WrittenLevels> WriteLevels(const LevelContext& context, const LevelPlan& 
     reports.push_back(level->report);
     if (Status added = written.region.Add(level->mesh); !added) return std::move(added.error());
     if (Status drawn = page.AddLevel(level->mesh); !drawn) return std::move(drawn.error());
+    if (!Asks(options, "quantized-mesh")) continue;
+    Result<GlobeMesh> on_globe = PlaceOnGlobe(context.georeference, level->mesh);
+    if (!on_globe) return std::move(on_globe.error());
+    written.globe.push_back({*std::move(on_globe), 0});
   }
   Result<std::vector<MeshError>> errors =
       context.measurer.MeasureAll(decoded, options.threads, context.control);
@@ -145,6 +152,7 @@ Result<WrittenLevels> WriteLevels(const LevelContext& context, const LevelPlan& 
       reports[i].geometric_error_m =
           std::max(reports[i].geometric_error_m, reports[i - 1].geometric_error_m);
     }
+    if (!written.globe.empty()) written.globe[i].geometric_error_m = reports[i].geometric_error_m;
   }
   return written;
 }
@@ -158,6 +166,10 @@ Status BuildArtifacts(const fs::path& dem, const fs::path& directory, const Buil
   control.Report(Stage::kRead, 0);
   Result<std::unique_ptr<TerrainInput>> input = TerrainInput::Open(dem, options, control);
   if (!input) return std::move(input.error());
+  if (Asks(options, "quantized-mesh")) {
+    Status off_poles = CheckOffPoles((*input)->georeference(), (*input)->dem());
+    if (!off_poles) return off_poles;
+  }
   Result<LevelPlan> plan = PlanLevels(**input, options);
   if (!plan) return std::move(plan.error());
   control.Report(Stage::kRead, 1);
@@ -190,6 +202,13 @@ Status BuildArtifacts(const fs::path& dem, const fs::path& directory, const Buil
   if (Asks(options, "3dtiles")) {
     Status tileset = WriteTilesetFor(**input, *levels, writer);
     if (!tileset) return tileset;
+  }
+  if (!levels->globe.empty()) {
+    Status tiles = WriteTerrainTiles(std::exchange(levels->globe, {}), control,
+                                     [&writer](const std::string& name, const std::string& bytes) {
+                                       return writer.Add(name, bytes);
+                                     });
+    if (!tiles) return tiles;
   }
   Result<std::vector<HorizonFeature>> features =
       BuildFeatures(**input, *horizon, LevelsKept(*horizon, *chain),

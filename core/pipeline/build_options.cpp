@@ -225,10 +225,11 @@ Status CheckOptions(const BuildOptions& options) {
     return Given{"heightUnit", unit}.Expected("m, ft or us-ft");
   }
   if (options.formats.empty()) return Given{"formats", ""}.Expected("at least one format");
-  constexpr std::array kKnown = {"3dtiles", "drc", "geojson", "flatgeobuf"};
+  constexpr std::array kKnown = {"3dtiles", "drc", "geojson", "flatgeobuf", "quantized-mesh"};
   for (const std::string& format : options.formats) {
     if (std::find(kKnown.begin(), kKnown.end(), format) == kKnown.end()) {
-      return Given{"formats", format}.Expected("of 3dtiles, drc, geojson and flatgeobuf");
+      return Given{"formats", format}.Expected(
+          "of 3dtiles, drc, geojson, flatgeobuf and quantized-mesh");
     }
   }
   if (options.threads < 1 || options.threads > 1024) {

@@ -55,7 +55,7 @@ void AddBuildFlags(Command& command, BuildFlags& flags) {
       "instead of the three above: a level for each number, with at most that many triangles, in "
       "any order; exact where every horizon edge fits in");
   Add(command, flags, "formats", "a,b,...",
-      "of 3dtiles, drc, geojson, flatgeobuf (3dtiles,drc,geojson)");
+      "of 3dtiles, drc, geojson, flatgeobuf, quantized-mesh (3dtiles,drc,geojson)");
   AddReadFlags(command, flags);
   AddWorkFlags(command, flags);
 }
