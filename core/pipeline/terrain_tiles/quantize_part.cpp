@@ -125,18 +125,19 @@ class Quantizer {
     }
     double rise_m = 0;
     double lift_m = 0;
+    bool has_ground = false;
     for (const auto& [vertex, number] : numbers_) {
       const GlobeVertex& v = (*vertices_)[vertex];
       const double decoded_m = scale.least_m + result_.tile.vertices[number].height * scale.step_m;
       rise_m = std::max(rise_m, std::abs(decoded_m - v.height_m));
       lift_m = std::max(lift_m, double{v.lift_m});
-      if (!v.is_ground) result_.has_fill = true;
+      (v.is_ground ? has_ground : result_.has_fill) = true;
     }
-    // In plan a vertex moves by half a step along both coordinates at most, a whole one where it
+    // In plan a vertex of the ground moves by half a step along both coordinates at most, a whole one where it
     // lies so close to a side that it would have been put on it.
     const double step_m = std::numbers::pi * kEquatorialRadiusM * static_cast<double>(side_) /
                           static_cast<double>(kHalfTurn) / kMostQuantized;
-    result_.moved_m = rise_m + lift_m + std::numbers::sqrt2 * step_m;
+    result_.moved_m = rise_m + lift_m + (has_ground ? std::numbers::sqrt2 * step_m : 0);
   }
 
   void Add(const std::array<std::uint32_t, 3>& triangle) {
