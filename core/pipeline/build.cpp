@@ -204,6 +204,7 @@ Status BuildArtifacts(const fs::path& dem, const fs::path& directory, const Buil
     if (!tileset) return tileset;
   }
   if (!levels->globe.empty()) {
+    control.Report(Stage::kWrite, 0);
     Status tiles = WriteTerrainTiles(std::exchange(levels->globe, {}), control,
                                      [&writer](const std::string& name, const std::string& bytes) {
                                        return writer.Add(name, bytes);

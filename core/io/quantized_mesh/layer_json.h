@@ -6,8 +6,8 @@
 
 namespace farhorizon {
 
-/// A tile of the globe's quadtree in longitude and latitude: 2 x 1 tiles at zoom 0, y from the south
-/// (EPSG:4326, TMS).
+/// A tile of the globe's quadtree in longitude and latitude: 2 x 1 tiles at zoom 0, y from the
+/// south (EPSG:4326, TMS).
 struct TileAddress {
   int zoom = 0;
   std::int64_t x = 0;

@@ -118,8 +118,8 @@ void AddIndex(std::uint32_t index, bool is_short, Bytes& bytes) {
   }
 }
 
-// The vertices of one side: those whose `across` has the value `at`, in the order of `along`, rising
-// or falling, as a client that does not sort them needs it.
+// The vertices of one side: those whose `across` has the value `at`, in the order in which they
+// come along it.
 void AddSide(const std::vector<QuantizedVertex>& vertices, std::uint16_t QuantizedVertex::*across,
              int at, Bytes& bytes) {
   std::vector<std::uint32_t> side;

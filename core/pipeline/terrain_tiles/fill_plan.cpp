@@ -11,9 +11,9 @@
 //       \                           |
 //        l------- lower edge -------|
 //
-// The chain turns away from the line at each point between its ends except the newest, or a triangle
-// would have been cut off there. Points on one meridian are met from south to north, as if the plane
-// were sheared by less than anything.
+// The chain turns away from the line at each point between its ends except the newest, or a
+// triangle would have been cut off there. Points on one meridian are met from south to north, as
+// if the plane were sheared by less than anything.
 #include "core/pipeline/terrain_tiles/fill_plan.h"
 
 #include <algorithm>

@@ -133,8 +133,8 @@ class Quantizer {
       lift_m = std::max(lift_m, double{v.lift_m});
       (v.is_ground ? has_ground : result_.has_fill) = true;
     }
-    // In plan a vertex of the ground moves by half a step along both coordinates at most, a whole one where it
-    // lies so close to a side that it would have been put on it.
+    // In plan a vertex of the ground moves by half a step along both coordinates at most, a whole
+    // one where it lies so close to a side that it would have been put on it.
     const double step_m = std::numbers::pi * kEquatorialRadiusM * static_cast<double>(side_) /
                           static_cast<double>(kHalfTurn) / kMostQuantized;
     result_.moved_m = rise_m + lift_m + (has_ground ? std::numbers::sqrt2 * step_m : 0);

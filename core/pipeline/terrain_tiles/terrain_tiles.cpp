@@ -1,5 +1,5 @@
-// Each level is halved and halved again, along meridians and parallels in turn, down to the tiles of
-// the zooms that it serves. Halves share the vertices of their cut, so that tiles of a zoom meet.
+// Each level is halved and halved again, along meridians and parallels in turn, down to the tiles
+// of the zooms that it serves. Halves share the vertices of their cut: tiles of a zoom meet.
 // A level is never cut as a whole: depth first, with the pieces of one tile at each zoom in memory.
 #include "core/pipeline/terrain_tiles/terrain_tiles.h"
 
@@ -195,7 +195,7 @@ class Cutter {
     vertices.resize(before);
     if (made.has_fill) error_m += SagAt(address.zoom, halvings);
     const TileAddress on_globe = OnGlobe(address);
-    // Of a DEM over the meridian of 180 degrees: as clients compute places, in degrees of the globe.
+    // Of a DEM over the meridian of 180 degrees: in degrees of the globe, as clients have places.
     const double turn_deg =
         std::ldexp(180.0 * static_cast<double>(on_globe.x - address.x), -address.zoom);
     made.tile.rectangle.west += turn_deg;

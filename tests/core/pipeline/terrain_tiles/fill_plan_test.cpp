@@ -80,8 +80,8 @@ TEST(FillPlan, RefusesARingThatDoesNotClose) {
   EXPECT_FALSE(TriangulateInside({{0, 0}, {9, 0}, {9, 9}}, {{0, 1}, {1, 2}}));
 }
 
-// Random squares of a grid, joined to one region with holes and points where corners meet; moved, so
-// that few edges are parallel.
+// Random squares of a grid, joined to one region with holes and points where corners meet; moved,
+// so that few edges are parallel.
 TEST(FillPlan, FillsRandomRegions) {
   std::mt19937 random(7);  // NOLINT(cert-msc51-cpp): the same regions in each run
   constexpr int kSide = 12;
