@@ -108,7 +108,7 @@ def run(folder: str, verdict: Verdict, options) -> None:
         wrong = offences(log, begin, service.data, named)
         with open(log, encoding="utf-8", errors="replace") as lines:
             lines.seek(begin)
-            if "/in/dem.tif" not in lines.read():
+            if status == 201 and "/in/dem.tif" not in lines.read():
                 wrong.append("the upload itself is not in the record")
         verdict.ask(f"{what}: nothing else is opened", not wrong and (status == 201) == (what != "a VRT"),
                     wrong[:2] or f"{status} {ended}")
