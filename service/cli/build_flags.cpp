@@ -56,6 +56,9 @@ void AddBuildFlags(Command& command, BuildFlags& flags) {
       "any order; exact where every horizon edge fits in");
   Add(command, flags, "formats", "a,b,...",
       "of 3dtiles, drc, geojson, flatgeobuf, quantized-mesh (3dtiles,drc,geojson)");
+  Add(command, flags, "skirt", "auto|M",
+      "depth of the walls at the tile's sides and around holes, metres; 0: none (auto: as deep as "
+      "the errors of the level and of the coarsest one)");
   AddReadFlags(command, flags);
   AddWorkFlags(command, flags);
 }
