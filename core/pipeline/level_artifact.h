@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "core/base/result.h"
 #include "core/base/run_control.h"
 #include "core/horizon/horizon.h"
+#include "core/io/draco_mesh.h"
 #include "core/io/local_mesh.h"
 #include "core/measure/mesh_error.h"
 #include "core/pipeline/georeference.h"
@@ -41,26 +43,37 @@ inline RunControl LevelControl(const RunControl& control, std::size_t i, std::si
 
 /// How a level is to be stored.
 ///
-/// finest_side_m, coarseness: as StepsOfLevel has them. glb, drc: which files are asked for.
+/// finest_side_m, coarseness: as StepsOfLevel has them. skirt_room_m: how deep its skirt may be.
+/// glb, drc: which files are asked for.
 struct LevelStorage {
   double finest_side_m = 0;
   int coarseness = 0;
+  double skirt_room_m = 0;
   bool glb = true;
   bool drc = true;
 };
 
 /// A level as it is stored.
 struct LevelArtifact {
-  std::vector<std::uint8_t> drc;  ///< empty where it is not asked for
-  std::vector<std::uint8_t> glb;  ///< likewise
-  LocalMesh mesh;                 ///< what both decode to
-  LevelReport report;             ///< all but what is measured, and `asked`
+  std::vector<std::uint8_t> drc;         ///< empty where it is not asked for
+  std::vector<std::uint8_t> glb_stream;  ///< likewise: the Draco stream of the GLB's surface
+  DecodedMesh decoded;                   ///< what both decode to, with posts
+  /// The kept horizon edges, by vertices of `decoded`.
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> kept;
+  LevelReport report;  ///< all but what is measured or of the GLB, and `asked`
 };
 
 /// Encodes one level and decodes it again.
 /// Errors: those of Georeference::ToEnu, RoundToLattice and EncodeDraco.
 Result<LevelArtifact> EncodeLevel(const LevelContext& context, const Lod& lod, int level,
                                   const LevelStorage& storage);
+
+/// The GLB of a level and its skirt, which is skirt_m deep; 0: none. `skirt` gets what the skirt
+/// decodes to, level.report what the GLB and its skirt are.
+/// Requires: the level was encoded with a GLB, and room for the skirt.
+/// Errors: those of EncodeDraco.
+Result<std::vector<std::uint8_t>> LevelGlb(const LevelContext& context, double skirt_m,
+                                           LevelArtifact& level, LocalMesh& skirt);
 
 /// A decoded mesh as it is measured.
 /// Errors: kUnsupportedData where a vertex names no post, or the mesh has a hole or a flipped
