@@ -25,10 +25,11 @@ namespace {
 constexpr const char* kIndexPolicy =
     "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; "
     "img-src 'self' data:; base-uri 'none'; form-action 'self'; frame-ancestors 'none'";
-// CesiumJS compiles WebAssembly (the decoder of Draco), runs workers, makes pictures of blobs, and
+// CesiumJS compiles WebAssembly (the decoder of Draco), makes workers and pictures of blobs, and
 // writes the style of its credits into the page.
 constexpr const char* kViewerPolicy =
-    "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self' 'unsafe-inline'; "
+    "default-src 'none'; script-src 'self' blob: 'wasm-unsafe-eval'; "
+    "style-src 'self' 'unsafe-inline'; "
     "connect-src 'self' blob: data:; img-src 'self' blob: data:; worker-src 'self' blob:; "
     "base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 // Of a script that runs as a worker, which has its own policy.
@@ -178,14 +179,12 @@ bool WantsHtml(const HttpRequest& request) {
 std::vector<Route> PageRoutes(const HandlerContext& context) {
   return {
       BodylessRoute(
-          "GET", "/",
-          [context](const HttpRequest& request) { return ShowIndex(context, request); },
+          "GET", "/", [context](const HttpRequest& request) { return ShowIndex(context, request); },
           WaitsFor::kNothing),
       BodylessRoute("GET", "/viewer/{id}",
                     [context](const HttpRequest& request) { return ShowViewer(context, request); }),
-      BodylessRoute("GET", "/assets/{fingerprint}/{path*}", [context](const HttpRequest& request) {
-        return ShowAsset(context, request);
-      })};
+      BodylessRoute("GET", "/assets/{fingerprint}/{path*}",
+                    [context](const HttpRequest& request) { return ShowAsset(context, request); })};
 }
 
 }  // namespace farhorizon

@@ -14,8 +14,7 @@ namespace farhorizon {
 Router BuildRouter(const HandlerContext& context) {
   std::vector<Route> routes = {SubmitRoute(context)};
   for (const std::vector<Route>& group :
-       {JobRoutes(context), ResultRoutes(context), HealthRoutes(context),
-        PageRoutes(context)}) {
+       {JobRoutes(context), ResultRoutes(context), HealthRoutes(context), PageRoutes(context)}) {
     routes.insert(routes.end(), group.begin(), group.end());
   }
   return Router(std::move(routes));

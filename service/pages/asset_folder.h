@@ -18,8 +18,8 @@ struct Asset {
   std::string sha256;
 };
 
-/// The files of a folder that the service hands out as they are: CesiumJS. They are listed once, and
-/// only what is in the list can be asked for, so that no name leads out of the folder.
+/// The files of a folder that the service hands out as they are: CesiumJS. They are listed once,
+/// and only what is in the list can be asked for, so that no name leads out of the folder.
 /// Threads: safe.
 class AssetFolder {
  public:

@@ -61,7 +61,7 @@
       make('div', { className: 'top' }, make('span', { className: 'name' }),
         make('span', { className: 'state' }), make('time')),
       make('p', { className: 'message' }), make('progress', { max: 100 }),
-      make('ul', { className: 'assumed' }),
+      make('details', { className: 'assumed' }, make('summary'), make('ul')),
       make('div', { className: 'actions' },
         make('a', { className: 'button of-result', href: at.viewer }, 'View'),
         make('a', { className: 'button of-result', href: `${at.results}/report.html` }, 'Report'),
@@ -85,8 +85,11 @@
     progress.hidden = job.status !== 'running';
     progress.value = job.progress;
     progress.setAttribute('aria-label', `Progress of ${job.filename}`);
-    find('.assumed').replaceChildren(
-      ...(job.assumptions ?? []).map(({ text }) => make('li', {}, `Assumed: ${text}`)));
+    const assumed = job.assumptions ?? [];
+    find('.assumed').hidden = assumed.length === 0;
+    find('.assumed summary').textContent =
+      assumed.length === 1 ? 'One thing was assumed' : `${assumed.length} things were assumed`;
+    find('.assumed ul').replaceChildren(...assumed.map(({ text }) => make('li', {}, text)));
     for (const element of row.querySelectorAll('.of-result')) {
       element.hidden = job.status !== 'successful';
     }

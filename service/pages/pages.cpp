@@ -42,8 +42,7 @@ Html FilledViewer(const ViewerPlaces& places, Html styles, Html scripts) {
 }  // namespace
 
 std::string IndexPage() {
-  return FillTemplate(kIndexHtml,
-                      {{"assets", Html::Markup("assets/" + PageFingerprint())}});
+  return FillTemplate(kIndexHtml, {{"assets", Html::Markup("assets/" + PageFingerprint())}});
 }
 
 std::string ViewerPage(const ViewerPlaces& places) {

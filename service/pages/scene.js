@@ -56,6 +56,7 @@
     makeWidget(container, credits) {
       const { C } = this;
       C.Ion.defaultAccessToken = undefined;
+      C.CreditDisplay.cesiumCredit = new C.Credit('CesiumJS', true); // in place of its ion's
       this.widget = new C.CesiumWidget(container, {
         baseLayer: false, terrainProvider: new C.EllipsoidTerrainProvider(), scene3DOnly: true,
         skyBox: false, skyAtmosphere: false, creditContainer: credits, requestRenderMode: true,
@@ -155,14 +156,16 @@
       this.draw();
     }
 
-    // From the south, half above.
+    // From the south, half above. On a narrow picture from farther away, for the tile's width.
     fit() {
-      this.orbit = { heading: 0, pitch: -35, range: 2.2 * this.sphere.radius };
+      const { canvas } = this.widget;
+      const narrow = Math.max(1, 0.9 * canvas.clientHeight / canvas.clientWidth);
+      this.orbit = { heading: 0, pitch: -40, range: 1.75 * narrow * this.sphere.radius };
       this.place();
     }
     // From outside the tile, nearly level, as its skyline is seen from afar.
     look(azimuth) {
-      this.orbit = { heading: azimuth, pitch: -1.5, range: 2.6 * this.sphere.radius };
+      this.orbit = { heading: azimuth, pitch: -2, range: 1.3 * this.sphere.radius };
       this.place();
     }
     turn({ heading = 0, pitch = 0, zoom = 1 }) {

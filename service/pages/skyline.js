@@ -1,9 +1,10 @@
 'use strict';
 // The skyline that is seen: of each column of the picture, the first row from above that is not
-// sky; and two of them against each other.
+// sky, in parts of a pixel; and two of them against each other.
 (() => {
-  // What no lit terrain has.
+  // What no lit terrain has, and by how much a pixel differs from it that has some terrain.
   const kSky = [255, 0, 255];
+  const kLeast = 24;
 
   // The rows, NaN where a column has sky alone. draw: puts the picture onto the canvas, at once.
   const read = (canvas, draw) => {
@@ -13,15 +14,17 @@
     context.drawImage(canvas, 0, 0);
     const { data, width, height } = context.getImageData(0, 0, copy.width, copy.height);
     const rows = new Float32Array(width).fill(NaN);
-    // How much of a pixel is sky, from green: the terrain's is about as bright as its red.
+    const distance = (x, y) => {
+      const at = 4 * (Math.min(y, height - 1) * width + x);
+      return Math.abs(data[at] - kSky[0]) + data[at + 1] + Math.abs(data[at + 2] - kSky[2]);
+    };
     for (let x = 0; x < width; ++x) {
-      for (let y = 0; y < height; ++y) {
-        const at = 4 * (y * width + x);
-        const off = Math.abs(data[at] - kSky[0]) + data[at + 1] + Math.abs(data[at + 2] - kSky[2]);
-        if (off < 24) continue;
-        rows[x] = y;
-        break;
-      }
+      let y = 0;
+      while (y < height && distance(x, y) < kLeast) ++y;
+      if (y === height) continue;
+      // A pixel on the edge is a mixture: its share of sky is found by the one below it.
+      const share = Math.min(1, distance(x, y) / Math.max(kLeast, distance(x, y + 1)));
+      rows[x] = y + 1 - share;
     }
     return rows;
   };

@@ -70,7 +70,7 @@
   // ---- The scene.
   const dark = matchMedia('(prefers-color-scheme: dark)');
   const colours = () => ({
-    sky: dark.matches ? '#2b3a44' : '#bcd6e6', ground: dark.matches ? '#39434a' : '#a9b3ac',
+    sky: dark.matches ? '#22303a' : '#c4dcea', ground: dark.matches ? '#14191c' : '#e3e7e1',
     level: colour('--level'), reference: colour('--reference'), quiet: colour('--quiet'),
   });
   let scene;
@@ -144,8 +144,8 @@
     const result = farhorizon.skyline.compare(rows, reference);
     byId('profile').hidden = false;
     byId('difference').textContent = result.count === 0 ? 'There is no terrain in this view.'
-      : `Level ${shown} against level ${finest}, from here: at most ${digits(result.most)} pixels, ` +
-        `root mean square ${digits(result.rms)}.`;
+      : `Level ${shown} against level ${finest}, from here: at most ${digits(result.most)} px, ` +
+        `root mean square ${digits(result.rms)} px.`;
     farhorizon.skyline.drawOver(over, rows, reference, colours());
     farhorizon.skyline.drawProfile(byId('profile'), result, colours());
   };
