@@ -68,15 +68,15 @@ const lookAtIndex = async ({ browser, base, pictures, report }, kind) => {
   await close();
 };
 
-const lookAtViewer = async ({ browser, base, pictures, report, address }, kind) => {
-  const { page, faults, close } = await openPage(browser, base, kind);
-  await page.goto(address);
-  await page.waitForFunction(() => document.body.dataset.ready === 'true');
+// What is done in the viewer, by keys mostly; gives what it says of the skyline.
+const useViewer = async ({ page, faults }, address, kind, pictures) => {
   const shoot = async (name) => {
     const path = join(pictures, `viewer-${name}-${kind.scheme}-${kind.width}.png`);
     writeFileSync(path, await page.screenshot());
   };
-  // By keys alone: level 1, its edges by azimuth, then level 2's skyline from outside.
+  await page.goto(address);
+  await page.waitForFunction(() => document.body.dataset.ready === 'true');
+  // Level 1 and its edges by azimuth.
   await page.keyboard.press('1');
   await page.waitForFunction(() => farhorizon.scene.shown === 1);
   await page.keyboard.press('h');
@@ -86,6 +86,7 @@ const lookAtViewer = async ({ browser, base, pictures, report, address }, kind) 
     && document.getElementById('notice').hidden);
   await page.waitForTimeout(1000);
   await shoot('edges');
+  // The skyline of level 2 from outside.
   await page.keyboard.press('2');
   await page.getByRole('button', { name: 'Look west' }).click();
   await page.keyboard.press('c');
@@ -98,15 +99,20 @@ const lookAtViewer = async ({ browser, base, pictures, report, address }, kind) 
   await page.keyboard.press('w');
   await page.keyboard.press('f');
   await page.waitForTimeout(1000);
-  const view = page.locator('#view');
-  const { colours } = await shareOf(page, await view.screenshot(), [0, 0, 0]);
+  const { colours } = await shareOf(page, await page.locator('#view').screenshot(), [0, 0, 0]);
   if (colours < 20) faults.push('the picture is empty');
   await shoot('wireframe');
   faults.push(...await page.evaluate(() => farhorizon.scene.failures));
   const wide = await page.evaluate(() => document.documentElement.scrollWidth);
   if (wide > kind.width) faults.push(`the page is ${wide} pixels wide`);
-  report(`the viewer, ${kind.scheme}, ${kind.width} wide`, faults, said);
-  await close();
+  return said;
+};
+const lookAtViewer = async ({ browser, base, pictures, report, address }, kind) => {
+  const opened = await openPage(browser, base, kind);
+  const said = await useViewer(opened, address, kind, pictures)
+    .catch((failure) => { opened.faults.push(failure.message.split('\n')[0]); });
+  report(`the viewer, ${kind.scheme}, ${kind.width} wide`, opened.faults, said);
+  await opened.close();
 };
 
 export const checkPages = async ({ browser, farhorizon, dem, cache, pictures, report }) => {

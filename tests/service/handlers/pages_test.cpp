@@ -9,7 +9,6 @@
 
 #include "service/pages/pages.h"
 #include "tests/support/handlers_fixture.h"
-#include "tests/support/service_process.h"
 
 namespace farhorizon {
 namespace {

@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include "core/io/sha256.h"
-#include "tests/support/service_process.h"
 #include "tests/support/temp_dir.h"
 
 namespace farhorizon {
