@@ -7,6 +7,7 @@
 
 #include "core/base/result.h"
 #include "core/io/draco_mesh.h"
+#include "core/io/edge_visibility.h"
 
 namespace farhorizon {
 
@@ -28,7 +29,8 @@ std::vector<std::uint8_t> WriteGlb(
     const std::vector<std::pair<std::uint32_t, std::uint32_t>>& horizon_edges);
 
 /// The Draco bitstream in a GLB of WriteGlb, and what accessors and root node claim of it, for
-/// verification. min, max: lattice numbers.
+/// verification. min, max: lattice numbers. edges: those of the extension, uncounted; empty where
+/// there is none.
 struct GlbContents {
   std::vector<std::uint8_t> draco;
   std::int64_t vertex_count = 0;
@@ -37,6 +39,7 @@ struct GlbContents {
   std::array<double, 3> min = {0, 0, 0};
   std::array<double, 3> max = {0, 0, 0};
   std::array<double, 16> matrix = {};
+  EdgeVisibility edges;
 };
 /// Errors: kUnsupportedData, kind "bad-glb", with the cause.
 Result<GlbContents> ReadGlb(const std::vector<std::uint8_t>& bytes);

@@ -51,6 +51,8 @@ std::vector<int> LevelsKept(const Horizon& horizon, const std::vector<Lod>& chai
 // The levels as they were written, and what they cover.
 struct WrittenLevels {
   std::vector<LevelReport> reports;
+  std::vector<LevelEdges> edges;
+  std::vector<QuantizationLattice> lattices;
   MeshRegion region;
 };
 
@@ -83,6 +85,20 @@ Status WriteTilesetFor(const TerrainInput& input, const WrittenLevels& levels,
                                                  georeference.frame().EnuToEcef()));
 }
 
+// Writes lodN-horizon.glb for each level, with what is known of the DEM's edges by now.
+Status WriteEdges(const std::vector<HorizonFeature>& features, WrittenLevels& levels,
+                  ArtifactWriter& writer) {
+  for (std::size_t i = 0; i < levels.edges.size(); ++i) {
+    AddMeasures(features, levels.edges[i]);
+    const std::vector<std::uint8_t> glb =
+        WriteHorizonGlb(levels.edges[i].lines, levels.lattices[i]);
+    levels.reports[i].skyline_edges.bytes = std::ssize(glb);
+    Status added = writer.Add(HorizonGlbName(static_cast<int>(i)), AsText(glb));
+    if (!added) return added;
+  }
+  return Ok{};
+}
+
 Status WriteFeatures(const std::vector<HorizonFeature>& features, const BuildOptions& options,
                      ArtifactWriter& writer) {
   if (Asks(options, "geojson")) {
@@ -108,13 +124,17 @@ LevelAsked AskedOf(const LevelPlan& plan, const std::vector<Lod>& chain, std::si
 Result<WrittenLevels> WriteLevels(const LevelContext& context, const LevelPlan& plan,
                                   const std::vector<Lod>& chain, const BuildOptions& options,
                                   ArtifactWriter& writer, ReportPage& page) {
-  WrittenLevels written = {{}, MeshRegion(context.georeference)};
+  WrittenLevels written = {{}, {}, {}, MeshRegion(context.georeference)};
   std::vector<LevelReport>& reports = written.reports;
   std::vector<PlacedMesh> decoded;
   for (std::size_t i = 0; i < chain.size(); ++i) {
     const RunControl control = LevelControl(context.control, i, chain.size());
-    const LevelStorage storage = {plan.finest_side_m, CoarsenessOf(plan, context.terrain.dem(), i),
-                                  Asks(options, "3dtiles"), Asks(options, "drc")};
+    const LevelStorage storage = {plan.finest_side_m,
+                                  CoarsenessOf(plan, context.terrain.dem(), i),
+                                  Asks(options, "3dtiles"),
+                                  Asks(options, "drc"),
+                                  options.edges,
+                                  options.threads};
     Result<LevelArtifact> level =
         EncodeLevel(context.With(control), chain[i], static_cast<int>(i), storage);
     if (!level) return std::move(level.error());
@@ -128,9 +148,9 @@ Result<WrittenLevels> WriteLevels(const LevelContext& context, const LevelPlan& 
       Status added = writer.Add(name + ".drc", AsText(level->drc));
       if (!added) return std::move(added.error());
     }
-    Result<PlacedMesh> placed = PlaceLevel(context, level->mesh);
-    if (!placed) return std::move(placed.error()).WithContext("level " + std::to_string(i));
-    decoded.push_back(*std::move(placed));
+    decoded.push_back(std::move(level->placed));
+    written.edges.push_back(std::move(level->edges));
+    written.lattices.push_back(level->lattice);
     reports.push_back(level->report);
     if (Status added = written.region.Add(level->mesh); !added) return std::move(added.error());
     if (Status drawn = page.AddLevel(level->mesh); !drawn) return std::move(drawn.error());
@@ -198,6 +218,10 @@ Status BuildArtifacts(const fs::path& dem, const fs::path& directory, const Buil
   control.Report(Stage::kWrite, 0);
   Status written = WriteFeatures(*features, options, writer);
   if (!written) return written;
+  if (Asks(options, "3dtiles") && HasLines(options.edges)) {
+    Status lines = WriteEdges(*features, *levels, writer);
+    if (!lines) return lines;
+  }
   const Report report{Version(),
                       (*input)->report(),
                       (*input)->assumptions(),

@@ -12,6 +12,16 @@
 
 namespace farhorizon {
 
+/// Where a level's horizon edges are drawn: in a file of lines, lodN-horizon.glb; in the GLB of its
+/// mesh, as EXT_mesh_primitive_edge_visibility; in both; nowhere.
+enum class EdgeFiles { kLines, kInline, kBoth, kNone };
+inline bool HasLines(EdgeFiles edges) {
+  return edges == EdgeFiles::kLines || edges == EdgeFiles::kBoth;
+}
+inline bool IsInline(EdgeFiles edges) {
+  return edges == EdgeFiles::kInline || edges == EdgeFiles::kBoth;
+}
+
 /// Options of `farhorizon build` and of a job. The defaults are those of proto/openapi.yaml.
 struct BuildOptions {
   int levels = 5;                     ///< at most
@@ -31,6 +41,7 @@ struct BuildOptions {
   std::optional<std::int64_t> work_budget;
   bool approximate = false;  ///< as HorizonOptions has it
   int threads = 1;           ///< never changes a byte of the result
+  EdgeFiles edges = EdgeFiles::kLines;
 };
 
 /// Checks options that need no DEM to be checked. Errors: kInvalidArgument, naming the flag, its

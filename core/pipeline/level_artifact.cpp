@@ -16,6 +16,9 @@ namespace farhorizon {
 
 namespace {
 
+// The share of a level's part of Stage::kEncode after which its skyline is looked for.
+constexpr double kEncoded = 0.3;
+
 Result<LocalMesh> ToLocal(const LevelContext& context, const PostMesh& mesh) {
   const std::vector<VertexId>& posts = mesh.posts;
   std::vector<GridPoint> points;
@@ -43,27 +46,6 @@ Result<LocalMesh> ToLocal(const LevelContext& context, const PostMesh& mesh) {
   }
   local.normals = MeanNormals(context.terrain, context.normals, local);
   return local;
-}
-
-// The level's kept horizon edges as pairs of vertices of the decoded mesh; of a post with several
-// vertices the first.
-std::vector<std::pair<std::uint32_t, std::uint32_t>> KeptInDecoded(const Horizon& horizon,
-                                                                   const Lod& lod,
-                                                                   const LocalMesh& decoded) {
-  const std::vector<std::pair<std::uint32_t, std::uint32_t>> by_post = VerticesByPost(decoded);
-  const auto find = [&by_post](VertexId v) {
-    const auto at = std::lower_bound(by_post.begin(), by_post.end(),
-                                     std::pair(static_cast<std::uint32_t>(v), std::uint32_t{0}));
-    Check(at != by_post.end() && at->first == static_cast<std::uint32_t>(v),
-          "the posts of a kept edge are in the mesh");
-    return at->second;
-  };
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
-  for (const std::int32_t i : lod.kept) {
-    const Edge edge = horizon.edges[static_cast<std::size_t>(i)].edge;
-    pairs.emplace_back(find(edge.a), find(edge.b));
-  }
-  return pairs;
 }
 
 // Gives the vertices of `decoded`, whose stream has no posts, those of the vertices of `mesh` at
@@ -166,10 +148,21 @@ Result<LevelArtifact> EncodeLevel(const LevelContext& context, const Lod& lod, i
   if (!lattice) return std::move(lattice.error()).WithContext("level " + std::to_string(level));
   Result<Encoded> encoded = Encode(*local, *lattice, storage);
   if (!encoded) return std::move(encoded.error());
+  Result<PlacedMesh> placed = PlaceLevel(context, encoded->decoded.mesh);
+  if (!placed) return std::move(placed.error()).WithContext("level " + std::to_string(level));
   LevelArtifact artifact;
+  artifact.placed = *std::move(placed);
+  artifact.lattice = *lattice;
   if (storage.glb) {
+    if (storage.edges != EdgeFiles::kNone) {
+      const RunControl search = context.control.Between(kEncoded, 1);
+      Result<LevelEdges> edges = FindLevelEdges(
+          context.With(search), lod.kept, {encoded->decoded, artifact.placed}, storage.threads);
+      if (!edges) return std::move(edges.error());
+      artifact.edges = *std::move(edges);
+    }
     artifact.glb = WriteGlb(encoded->glb_stream, encoded->decoded,
-                            KeptInDecoded(context.horizon, lod, encoded->decoded.mesh));
+                            IsInline(storage.edges) ? artifact.edges.vertices : VertexPairs());
   }
   artifact.drc = std::move(encoded->drc);
   context.control.Report(Stage::kEncode, 1);
@@ -181,6 +174,7 @@ Result<LevelArtifact> EncodeLevel(const LevelContext& context, const Lod& lod, i
   artifact.report.exact = lod.exact;
   artifact.report.side_step_m = steps.sides_m;
   artifact.report.horizon_edges = static_cast<std::int64_t>(lod.kept.size());
+  artifact.report.skyline_edges = artifact.edges.report;
   artifact.report.glb_bytes = static_cast<std::int64_t>(artifact.glb.size());
   artifact.report.drc_bytes = static_cast<std::int64_t>(artifact.drc.size());
   artifact.mesh = std::move(encoded->decoded.mesh);

@@ -8,7 +8,9 @@
 #include "core/horizon/horizon.h"
 #include "core/io/local_mesh.h"
 #include "core/measure/mesh_error.h"
+#include "core/pipeline/build_options.h"
 #include "core/pipeline/georeference.h"
+#include "core/pipeline/level_edges.h"
 #include "core/pipeline/post_normals.h"
 #include "core/pipeline/report.h"
 #include "core/simplify/lod_chain.h"
@@ -41,12 +43,15 @@ inline RunControl LevelControl(const RunControl& control, std::size_t i, std::si
 
 /// How a level is to be stored.
 ///
-/// finest_side_m, coarseness: as StepsOfLevel has them. glb, drc: which files are asked for.
+/// finest_side_m, coarseness: as StepsOfLevel has them. glb, drc: which files are asked for. edges:
+/// what the GLB is asked to say of the level's horizon. threads: never changes the result.
 struct LevelStorage {
   double finest_side_m = 0;
   int coarseness = 0;
   bool glb = true;
   bool drc = true;
+  EdgeFiles edges = EdgeFiles::kNone;
+  int threads = 1;
 };
 
 /// A level as it is stored.
@@ -54,11 +59,15 @@ struct LevelArtifact {
   std::vector<std::uint8_t> drc;  ///< empty where it is not asked for
   std::vector<std::uint8_t> glb;  ///< likewise
   LocalMesh mesh;                 ///< what both decode to
+  PlacedMesh placed;              ///< the same, to be measured
+  QuantizationLattice lattice;    ///< of both
+  LevelEdges edges;               ///< empty where they are not asked for
   LevelReport report;             ///< all but what is measured, and `asked`
 };
 
 /// Encodes one level and decodes it again.
-/// Errors: those of Georeference::ToEnu, RoundToLattice and EncodeDraco.
+/// Errors: those of Georeference::ToEnu, RoundToLattice, EncodeDraco, PlaceLevel and
+///   FindLevelEdges.
 Result<LevelArtifact> EncodeLevel(const LevelContext& context, const Lod& lod, int level,
                                   const LevelStorage& storage);
 

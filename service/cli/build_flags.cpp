@@ -56,6 +56,9 @@ void AddBuildFlags(Command& command, BuildFlags& flags) {
       "any order; exact where every horizon edge fits in");
   Add(command, flags, "formats", "a,b,...",
       "of 3dtiles, drc, geojson, flatgeobuf (3dtiles,drc,geojson)");
+  Add(command, flags, "edges", "WHERE",
+      "where each level's horizon is drawn: lines: a file of its own, lodN-horizon.glb; inline: in "
+      "lodN.glb, as EXT_mesh_primitive_edge_visibility; both; none (lines)");
   AddReadFlags(command, flags);
   AddWorkFlags(command, flags);
 }
