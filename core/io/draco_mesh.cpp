@@ -45,7 +45,6 @@ Status CheckMesh(const LocalMesh& mesh) {
   Check(mesh.positions.size() == mesh.posts.size(), "as many posts as positions");
   Check(mesh.positions.size() == mesh.normals.size(), "as many normals as positions");
   for (const auto& [east, north, up] : mesh.normals) {
-    Check(up >= kLeastNormalUp, "a normal points upwards");
     // Far above what rounding does to a normal, far below what 8 bits can tell.
     Check(std::abs(std::hypot(east, north, up) - 1) < 1e-6, "a normal has length 1");
   }

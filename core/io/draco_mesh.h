@@ -9,8 +9,9 @@
 
 namespace farhorizon {
 
-/// The least `up` of a vertex normal: 1.8 degrees above the horizontal. Draco's octahedron of 8
-/// bits turns a normal by less than a degree, so that decoded normals point upwards, too.
+/// How far upwards the normals of ground point at least, as a cosine: 1.8 degrees above the
+/// horizontal. Draco's octahedron of 8 bits turns a normal by less than a degree, so that decoded
+/// ones point upwards, too.
 inline constexpr double kLeastNormalUp = 1.0 / 32;
 
 /// The greatest number of a post. libdraco 1.5.5 takes time in proportion to the greatest
@@ -41,7 +42,7 @@ enum class DracoPosts { kWritten, kLeftOut };
 /// another order, too; a vertex at which fans of triangles meet without a shared edge comes once
 /// for each fan.
 /// Requires: positions lie on or within the lattice; as many posts and normals as positions;
-///   normals of length 1 with up >= kLeastNormalUp.
+///   normals of length 1.
 /// Errors: kUnsupportedData, kind "bad-mesh", where the mesh is empty, a triangle names a vertex
 ///   twice or one that does not exist, a vertex is in no triangle, a post is beyond kMaxPost, or
 ///   libdraco refuses.

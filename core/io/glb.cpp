@@ -90,6 +90,34 @@ Json Material(const char* name, std::array<double, 4> colour) {
           {"doubleSided", false}};
 }
 
+// A primitive around a Draco bitstream; adds its accessors and view. Accessors of data in the
+// bitstream have neither a view nor an offset.
+Json Primitive(const std::vector<std::uint8_t>& draco, const DecodedMesh& decoded, Json& accessors,
+               Binary& binary) {
+  const LocalMesh& mesh = decoded.mesh;
+  const std::size_t view = binary.Add(draco);
+  const std::size_t first = accessors.size();
+  accessors.push_back(PositionAccessor(decoded));
+  accessors.push_back({{"componentType",
+                        mesh.positions.size() <= kMaxShortVertices ? kUnsignedShort : kUnsignedInt},
+                       {"count", 3 * mesh.triangles.size()},
+                       {"type", "SCALAR"}});
+  accessors.push_back(
+      {{"componentType", kFloat}, {"count", mesh.positions.size()}, {"type", "VEC3"}});
+  Json primitive = {{"attributes", {{"POSITION", first}, {"NORMAL", first + 2}}},
+                    {"indices", first + 1},
+                    {"mode", kTriangles},
+                    {"material", 0}};
+  primitive["extensions"][kDraco] = {
+      {"bufferView", view},
+      {"attributes", {{"POSITION", kDracoPositionId}, {"NORMAL", kDracoNormalId}}}};
+  return primitive;
+}
+
+Error BadGlb(const std::string& message) {
+  return {ErrorCode::kUnsupportedData, "no GLB of ours: " + message, "bad-glb"};
+}
+
 // The part of the buffer that a view names; nullopt where it lies outside.
 std::optional<std::span<const std::uint8_t>> PartOf(std::span<const std::uint8_t> buffer,
                                                     const Json& view) {
@@ -117,8 +145,25 @@ std::optional<EdgeVisibility> ReadEdges(const Json& gltf, const Json& extension,
   return edges;
 }
 
-Error BadGlb(const std::string& message) {
-  return {ErrorCode::kUnsupportedData, "no GLB of ours: " + message, "bad-glb"};
+// Errors: "bad-glb"; those of nlohmann::json are thrown.
+Result<GlbPrimitive> ReadPrimitive(const Json& gltf, const Json& primitive,
+                                   std::span<const std::uint8_t> bin) {
+  const Json& extension = primitive.at("extensions").at(kDraco);
+  const Json& accessors = gltf.at("accessors");
+  const Json& position = accessors.at(primitive.at("attributes").at("POSITION").get<std::size_t>());
+  const Json& normal = accessors.at(primitive.at("attributes").at("NORMAL").get<std::size_t>());
+  const Json& view = gltf.at("bufferViews").at(extension.at("bufferView").get<std::size_t>());
+  GlbPrimitive contents;
+  contents.vertex_count = position.at("count").get<std::int64_t>();
+  contents.normal_count = normal.at("count").get<std::int64_t>();
+  contents.index_count =
+      accessors.at(primitive.at("indices").get<std::size_t>()).at("count").get<std::int64_t>();
+  contents.min = position.at("min").get<std::array<double, 3>>();
+  contents.max = position.at("max").get<std::array<double, 3>>();
+  const auto part = PartOf(bin, view);
+  if (!part) return BadGlb("the Draco bitstream lies outside the buffer");
+  contents.draco.assign(part->begin(), part->end());
+  return contents;
 }
 
 }  // namespace
@@ -131,33 +176,23 @@ std::array<double, 16> GltfMatrix(const QuantizationLattice& lattice) {
 
 std::vector<std::uint8_t> WriteGlb(
     const std::vector<std::uint8_t>& draco, const DecodedMesh& decoded,
-    const std::vector<std::pair<std::uint32_t, std::uint32_t>>& horizon_edges) {
-  const LocalMesh& mesh = decoded.mesh;
+    const std::vector<std::pair<std::uint32_t, std::uint32_t>>& horizon_edges,
+    const EncodedMesh* skirt) {
   Binary binary;
-  const std::size_t draco_view = binary.Add(draco);
-  // Accessors of data in the Draco bitstream have neither a view nor an offset.
   Json accessors = Json::array();
-  accessors.push_back(PositionAccessor(decoded));
-  accessors.push_back({{"componentType",
-                        mesh.positions.size() <= kMaxShortVertices ? kUnsignedShort : kUnsignedInt},
-                       {"count", 3 * mesh.triangles.size()},
-                       {"type", "SCALAR"}});
-  accessors.push_back(
-      {{"componentType", kFloat}, {"count", mesh.positions.size()}, {"type", "VEC3"}});
-  Json primitive = {{"attributes", {{"POSITION", 0}, {"NORMAL", 2}}},
-                    {"indices", 1},
-                    {"mode", kTriangles},
-                    {"material", 0}};
-  primitive["extensions"][kDraco] = {
-      {"bufferView", draco_view},
-      {"attributes", {{"POSITION", kDracoPositionId}, {"NORMAL", kDracoNormalId}}}};
+  Json primitive = Primitive(draco, decoded, accessors, binary);
   Json materials = Json::array({Material("terrain", {0.62, 0.6, 0.55, 1})});
   Json used = Json::array({kDraco});
-  const EdgeVisibility edges = FlagEdges(mesh, horizon_edges);
+  const EdgeVisibility edges = FlagEdges(decoded.mesh, horizon_edges);
   if (edges.edge_count > 0) {
     primitive["extensions"][kEdges] = EdgeExtension(edges, accessors, binary);
     materials.push_back(Material("horizon edge", {1, 0.25, 0, 1}));
     used.push_back(kEdges);
+  }
+  Json primitives = Json::array({primitive});
+  if (skirt != nullptr) {
+    primitives.push_back(Primitive(skirt->draco, skirt->decoded, accessors, binary));
+    primitives.back()["extras"] = {{"skirt", true}};
   }
 
   Json gltf;
@@ -167,7 +202,7 @@ std::vector<std::uint8_t> WriteGlb(
   gltf["scene"] = 0;
   gltf["scenes"] = Json::array({{{"nodes", {0}}}});
   gltf["nodes"] = Json::array({{{"mesh", 0}, {"matrix", GltfMatrix(decoded.lattice)}}});
-  gltf["meshes"] = Json::array({{{"primitives", Json::array({primitive})}}});
+  gltf["meshes"] = Json::array({{{"primitives", primitives}}});
   gltf["materials"] = materials;
   gltf["accessors"] = accessors;
   gltf["bufferViews"] = binary.views;
@@ -184,29 +219,23 @@ Result<GlbContents> ReadGlb(const std::vector<std::uint8_t>& bytes) {
   }
   try {
     const Json gltf = Json::parse(chunks->json.begin(), chunks->json.end());
-    const Json& primitive = gltf.at("meshes").at(0).at("primitives").at(0);
-    const Json& extension = primitive.at("extensions").at(kDraco);
-    const Json& accessors = gltf.at("accessors");
-    const Json& position =
-        accessors.at(primitive.at("attributes").at("POSITION").get<std::size_t>());
-    const Json& normal = accessors.at(primitive.at("attributes").at("NORMAL").get<std::size_t>());
-    const Json& view = gltf.at("bufferViews").at(extension.at("bufferView").get<std::size_t>());
+    const Json& primitives = gltf.at("meshes").at(0).at("primitives");
     GlbContents contents;
-    contents.vertex_count = position.at("count").get<std::int64_t>();
-    contents.normal_count = normal.at("count").get<std::int64_t>();
     contents.matrix = gltf.at("nodes").at(0).at("matrix").get<std::array<double, 16>>();
-    contents.index_count =
-        accessors.at(primitive.at("indices").get<std::size_t>()).at("count").get<std::int64_t>();
-    contents.min = position.at("min").get<std::array<double, 3>>();
-    contents.max = position.at("max").get<std::array<double, 3>>();
-    const auto part = PartOf(chunks->bin, view);
-    if (!part) return BadGlb("the Draco bitstream lies outside the buffer");
-    contents.draco.assign(part->begin(), part->end());
-    if (!primitive.at("extensions").contains(kEdges)) return contents;
-    std::optional<EdgeVisibility> edges =
-        ReadEdges(gltf, primitive.at("extensions").at(kEdges), chunks->bin);
-    if (!edges) return BadGlb("its edges lie outside the buffer");
-    contents.edges = *std::move(edges);
+    Result<GlbPrimitive> surface = ReadPrimitive(gltf, primitives.at(0), chunks->bin);
+    if (!surface) return std::move(surface.error());
+    contents.surface = *std::move(surface);
+    const Json& extensions = primitives.at(0).at("extensions");
+    if (extensions.contains(kEdges)) {
+      std::optional<EdgeVisibility> edges = ReadEdges(gltf, extensions.at(kEdges), chunks->bin);
+      if (!edges) return BadGlb("its edges lie outside the buffer");
+      contents.edges = *std::move(edges);
+    }
+    if (primitives.size() > 1) {
+      Result<GlbPrimitive> skirt = ReadPrimitive(gltf, primitives.at(1), chunks->bin);
+      if (!skirt) return std::move(skirt.error());
+      contents.skirt = *std::move(skirt);
+    }
     return contents;
   } catch (const nlohmann::json::exception& failure) {
     return BadGlb(failure.what());

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -16,6 +17,12 @@ namespace farhorizon {
 /// Exact in float where ExactInFloat holds.
 std::array<double, 16> GltfMatrix(const QuantizationLattice& lattice);
 
+/// A Draco bitstream and what it decodes to.
+struct EncodedMesh {
+  std::vector<std::uint8_t> draco;
+  DecodedMesh decoded;
+};
+
 /// A glTF 2.0 binary around a Draco bitstream of lattice numbers [KHR_draco_mesh_compression], with
 /// GltfMatrix on the root node.
 ///
@@ -23,21 +30,30 @@ std::array<double, 16> GltfMatrix(const QuantizationLattice& lattice);
 ///   positions in lattice numbers.
 /// horizon_edges: pairs of vertices of `decoded`, flagged as FlagEdges says
 ///   [EXT_mesh_primitive_edge_visibility]. The extension is left out where there are none.
-/// Posts are no attribute of the glTF primitive.
+/// skirt: walls on the same lattice, a second primitive of the mesh with the same material, so that
+/// renderers place a post of the rim bit for bit alike in both; its `extras` are {"skirt": true}.
+/// Posts are no attribute of the glTF primitives.
 std::vector<std::uint8_t> WriteGlb(
     const std::vector<std::uint8_t>& draco, const DecodedMesh& decoded,
-    const std::vector<std::pair<std::uint32_t, std::uint32_t>>& horizon_edges);
+    const std::vector<std::pair<std::uint32_t, std::uint32_t>>& horizon_edges,
+    const EncodedMesh* skirt = nullptr);
 
-/// The Draco bitstream in a GLB of WriteGlb, and what accessors and root node claim of it, for
-/// verification. min, max: lattice numbers. edges: those of the extension, uncounted; empty where
-/// there is none.
-struct GlbContents {
+/// The Draco bitstream of a primitive of WriteGlb, and what its accessors claim of it. min, max:
+/// lattice numbers.
+struct GlbPrimitive {
   std::vector<std::uint8_t> draco;
   std::int64_t vertex_count = 0;
   std::int64_t normal_count = 0;
   std::int64_t index_count = 0;
   std::array<double, 3> min = {0, 0, 0};
   std::array<double, 3> max = {0, 0, 0};
+};
+
+/// A GLB of WriteGlb, for verification. matrix: of the root node. edges: those that the surface
+/// flags, uncounted; empty where it flags none.
+struct GlbContents {
+  GlbPrimitive surface;
+  std::optional<GlbPrimitive> skirt;
   std::array<double, 16> matrix = {};
   EdgeVisibility edges;
 };

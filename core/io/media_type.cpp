@@ -10,6 +10,7 @@ std::string MediaTypeOf(const std::string& name) {
   static constexpr std::pair<std::string_view, std::string_view> kTypes[] = {
       {".glb", "model/gltf-binary"},
       {".drc", "application/vnd.google.draco"},
+      {".terrain", "application/vnd.quantized-mesh"},
       {".geojson", "application/geo+json"},
       {".json", "application/json"},
       {".html", "text/html"},

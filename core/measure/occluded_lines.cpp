@@ -33,6 +33,16 @@ double HeightAtCrossing(const GridPoint& a, const GridPoint& b, double of_a, dou
   return a.height_m + (b.height_m - a.height_m) * (of_a / whole);
 }
 
+// Whether a segment that all lines of the box cross occludes them: its ends by their offsets.
+bool IsHighEnough(const BoxQuestion& question, const GridPoint& a, const GridPoint& b,
+                  const Offsets& of_a, const Offsets& of_b) {
+  for (std::size_t c = 0; c < LineBox::kCorners; ++c) {
+    const double height = HeightAtCrossing(a, b, of_a[c], of_b[c]);
+    if (height < question.box.HeightAt(c) - question.allowed_m) return false;
+  }
+  return true;
+}
+
 GridPoint Middle(const GridPoint& p, const GridPoint& q) {
   return {(p.column + q.column) / 2, (p.row + q.row) / 2, (p.height_m + q.height_m) / 2};
 }
@@ -156,6 +166,26 @@ void OccludedLines::Begin(const BoxQuestion& question) {
   line_ = MiddleOf(question.box);
 }
 
+OccludedLines::Side OccludedLines::SideOf(const Offsets& of) {
+  if (std::max(std::max(of[0], of[1]), std::max(of[2], of[3])) <= 0) return Side::kLeft;
+  if (std::min(std::min(of[0], of[1]), std::min(of[2], of[3])) >= 0) return Side::kRight;
+  return Side::kBoth;
+}
+
+bool OccludedLines::ProvenBy(std::int32_t segment) {
+  ++looks_;
+  const SkylineNet::Segment& s = net_->segments[static_cast<std::size_t>(segment)];
+  const GridPoint& a = net_->Point(s.a);
+  const GridPoint& b = net_->Point(s.b);
+  const LineBox& box = question_.box;
+  const Offsets of_a = box.Offsets(a.column, a.row);
+  const Offsets of_b = box.Offsets(b.column, b.row);
+  const Side side_a = SideOf(of_a);
+  const Side side_b = SideOf(of_b);
+  return side_a != side_b && side_a != Side::kBoth && side_b != Side::kBoth &&
+         IsHighEnough(question_, a, b, of_a, of_b);
+}
+
 bool OccludedLines::Offer(std::int32_t segment) {
   const SkylineNet::Segment& s = net_->segments[static_cast<std::size_t>(segment)];
   return Admit(question_, {net_->Point(s.a), net_->Point(s.b), s.a, s.b}, line_);
@@ -182,22 +212,13 @@ BoxVerdict OccludedLines::AskPart(const BoxQuestion& question, std::size_t begin
 bool OccludedLines::Admit(const BoxQuestion& question, const Occluder& o, MiddleLine& line) {
   ++looks_;
   const LineBox& box = question.box;
-  const auto side_of = [](const Offsets& of) {
-    if (std::max(std::max(of[0], of[1]), std::max(of[2], of[3])) <= 0) return Side::kLeft;
-    if (std::min(std::min(of[0], of[1]), std::min(of[2], of[3])) >= 0) return Side::kRight;
-    return Side::kBoth;
-  };
   const Offsets of_a = box.Offsets(o.a.column, o.a.row);
   const Offsets of_b = box.Offsets(o.b.column, o.b.row);
-  const Side a = side_of(of_a);
-  const Side b = side_of(of_b);
+  const Side a = SideOf(of_a);
+  const Side b = SideOf(of_b);
   if (a == b && a != Side::kBoth) return false;
   if (a != Side::kBoth && b != Side::kBoth) {
-    bool proven = true;
-    for (std::size_t c = 0; c < LineBox::kCorners && proven; ++c) {
-      proven = HeightAtCrossing(o.a, o.b, of_a[c], of_b[c]) >= box.HeightAt(c) - question.allowed_m;
-    }
-    if (proven) return true;
+    if (IsHighEnough(question, o.a, o.b, of_a, of_b)) return true;
   } else if (a != Side::kBoth) {
     ends_.push_back({o.b_id, a, candidates_.size()});
   } else if (b != Side::kBoth) {

@@ -57,6 +57,8 @@ class OccludedLines {
 
   /// Begins with a question.
   void Begin(const BoxQuestion& question);
+  /// Whether a segment of the net alone proves the box, without taking it.
+  [[nodiscard]] bool ProvenBy(std::int32_t segment);
   /// Takes a segment of the net; true where it alone proves the box, and there is no more to do.
   bool Offer(std::int32_t segment);
   /// The answer. Requires: every segment that is above question.floor_m anywhere and meets a line
@@ -91,6 +93,8 @@ class OccludedLines {
     std::size_t candidate;
   };
 
+  // Of a point, by its offsets from the corners of the box.
+  [[nodiscard]] static Side SideOf(const std::array<double, LineBox::kCorners>& of);
   [[nodiscard]] MiddleLine MiddleOf(const LineBox& box) const;
   // Of candidates [begin, end), for one half of a box after `depth` halvings.
   BoxVerdict AskPart(const BoxQuestion& question, std::size_t begin, std::size_t end, int depth);

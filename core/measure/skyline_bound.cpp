@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "core/measure/mesh_error.h"
+#include "core/measure/mesh_sides.h"
 #include "core/measure/segment_blocks.h"
 
 namespace farhorizon {
@@ -45,8 +46,8 @@ class RaisedSearch {
         pieces_(pieces),
         bounds_(bounds),
         lines_(surface.net, surface.hull),
-        blocks_(surface.net) {
-    least_room_ = kLeastRoom * (1 + surface.relief_m);
+        blocks_(surface.net),
+        proof_(pieces.size(), kNoneThere) {
     most_looks_ = kLeastLooks + kMostLooks * static_cast<std::int64_t>(surface.net.segments.size() +
                                                                        pieces.size());
   }
@@ -125,10 +126,13 @@ class RaisedSearch {
       question.allowed_m = Allowed(piece.outline);
       question.floor_m = lower_end - kGathered * question.allowed_m;
       lines_.Begin(question);
-      if (blocks_.Visit(question.box, question.floor_m,
-                        [this](std::int32_t segment) { return lines_.Offer(segment); })) {
+      if (ProvenAsBefore(piece)) return true;
+      const auto offer = [this, &piece](std::int32_t segment) {
+        if (!lines_.Offer(segment)) return false;
+        latest_proof_ = ProofOf(piece) = segment;
         return true;
-      }
+      };
+      if (blocks_.Visit(question.box, question.floor_m, offer)) return true;
       const BoxVerdict verdict = lines_.Conclude();
       if (verdict.proven) return true;
       if (verdict.exhausted || lines_.looks() > most_looks_) return false;
@@ -139,14 +143,28 @@ class RaisedSearch {
     }
   }
 
+  [[nodiscard]] std::int32_t& ProofOf(const RaisedPiece& piece) {
+    return proof_[static_cast<std::size_t>(&piece - pieces_.data())];
+  }
+  // By the segment that occludes the piece in the directions before, or its neighbour in these.
+  bool ProvenAsBefore(const RaisedPiece& piece) {
+    for (const std::int32_t segment : {ProofOf(piece), latest_proof_}) {
+      if (segment == kNoneThere || !lines_.ProvenBy(segment)) continue;
+      latest_proof_ = ProofOf(piece) = segment;
+      return true;
+    }
+    return false;
+  }
+
   const OccludingSurface& surface_;
   const SkylineFloor& floor_;
   const std::vector<RaisedPiece>& pieces_;
   RaisedBounds bounds_;
-  double least_room_ = 0;
   std::int64_t most_looks_ = 0;
   OccludedLines lines_;
   SegmentBlocks blocks_;
+  std::vector<std::int32_t> proof_;  // per piece: the segment that proved it last
+  std::int32_t latest_proof_ = kNoneThere;
 };
 
 }  // namespace

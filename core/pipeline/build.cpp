@@ -15,12 +15,15 @@
 #include "core/pipeline/artifact_writer.h"
 #include "core/pipeline/build_features.h"
 #include "core/pipeline/level_artifact.h"
+#include "core/pipeline/level_edges.h"
 #include "core/pipeline/level_plan.h"
 #include "core/pipeline/mesh_region.h"
 #include "core/pipeline/post_places.h"
 #include "core/pipeline/report.h"
 #include "core/pipeline/report_page/report_page.h"
+#include "core/pipeline/skirt.h"
 #include "core/pipeline/terrain_input.h"
+#include "core/pipeline/terrain_tiles/terrain_tiles.h"
 #include "core/pipeline/version.h"
 
 namespace farhorizon {
@@ -28,6 +31,9 @@ namespace farhorizon {
 namespace {
 
 namespace fs = std::filesystem;
+
+// The share of a level's part of Stage::kEncode after which its skyline is looked for.
+constexpr double kEncoded = 0.3;
 
 bool Asks(const BuildOptions& options, std::string_view format) {
   return std::find(options.formats.begin(), options.formats.end(), format) != options.formats.end();
@@ -48,12 +54,13 @@ std::vector<int> LevelsKept(const Horizon& horizon, const std::vector<Lod>& chai
   return level_kept;
 }
 
-// The levels as they were written, and what they cover.
+// The levels as they were written, and what they cover. globe: for the tiles of quantized-mesh, if
+// these are asked for.
 struct WrittenLevels {
   std::vector<LevelReport> reports;
-  std::vector<LevelEdges> edges;
-  std::vector<QuantizationLattice> lattices;
+  std::vector<LevelEdges> edges;  // where they are asked for
   MeshRegion region;
+  std::vector<TiledLevel> globe;
 };
 
 // The levels' region, with the terrain's heights and room for what the coarsest level may add.
@@ -64,7 +71,8 @@ Result<BoundingRegion> RegionOf(const TerrainInput& input, const WrittenLevels& 
   if (!heights) return std::move(heights.error());
   // Flat triangles sink below the curved earth, and vertices are rounded: by no more than this.
   const double margin = coarsest.geometric_error_m + coarsest.side_step_m;
-  region.min_height_m = (*heights)[0] - margin;
+  const double deepest_m = std::ranges::max(levels.reports, {}, &LevelReport::skirt_m).skirt_m;
+  region.min_height_m = (*heights)[0] - margin - deepest_m;
   region.max_height_m = (*heights)[1] + margin;
   return region;
 }
@@ -89,9 +97,9 @@ Status WriteTilesetFor(const TerrainInput& input, const WrittenLevels& levels,
 Status WriteEdges(const std::vector<HorizonFeature>& features, WrittenLevels& levels,
                   ArtifactWriter& writer) {
   for (std::size_t i = 0; i < levels.edges.size(); ++i) {
-    AddMeasures(features, levels.edges[i]);
-    const std::vector<std::uint8_t> glb =
-        WriteHorizonGlb(levels.edges[i].lines, levels.lattices[i]);
+    LevelEdges& edges = levels.edges[i];
+    AddMeasures(features, edges);
+    const std::vector<std::uint8_t> glb = WriteHorizonGlb(edges.lines, edges.lattice);
     levels.reports[i].skyline_edges.bytes = std::ssize(glb);
     Status added = writer.Add(HorizonGlbName(static_cast<int>(i)), AsText(glb));
     if (!added) return added;
@@ -121,39 +129,73 @@ LevelAsked AskedOf(const LevelPlan& plan, const std::vector<Lod>& chain, std::si
   return {.vertical_m = plan.max_error_m, .silhouette_m = plan.lods.silhouette_error_m};
 }
 
-Result<WrittenLevels> WriteLevels(const LevelContext& context, const LevelPlan& plan,
-                                  const std::vector<Lod>& chain, const BuildOptions& options,
-                                  ArtifactWriter& writer, ReportPage& page) {
-  WrittenLevels written = {{}, {}, {}, MeshRegion(context.georeference)};
+// Writes the files of the levels that are asked for; by now all are measured, as skirts need it.
+Status WriteFiles(const LevelContext& context, const TerrainInput& input,
+                  const BuildOptions& options, std::vector<LevelArtifact>& levels,
+                  ArtifactWriter& writer, WrittenLevels& written) {
+  const std::vector<double> depths = SkirtDepths(input, written.reports, options.skirt_m);
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    LevelArtifact& level = levels[i];
+    level.report = written.reports[i];
+    const std::string name = "lod" + std::to_string(i);
+    if (!level.glb_stream.empty()) {
+      LocalMesh skirt;
+      Result<std::vector<std::uint8_t>> glb = LevelGlb(context, depths[i], level, skirt);
+      if (!glb) return std::move(glb.error()).WithContext("level " + std::to_string(i));
+      if (Status added = writer.Add(name + ".glb", AsText(*glb)); !added) return added;
+      if (Status added = written.region.Add(skirt); !added) return added;
+    }
+    if (!level.drc.empty()) {
+      if (Status added = writer.Add(name + ".drc", AsText(level.drc)); !added) return added;
+    }
+    written.reports[i] = level.report;
+    if (Asks(options, "quantized-mesh")) {
+      Result<GlobeMesh> globe = PlaceOnGlobe(context.georeference, level.decoded.mesh);
+      if (!globe) return std::move(globe.error());
+      written.globe.push_back({*std::move(globe), level.report.geometric_error_m});
+    }
+    level = {};
+  }
+  return Ok{};
+}
+
+Result<WrittenLevels> WriteLevels(const LevelContext& context, const TerrainInput& input,
+                                  const LevelPlan& plan, const std::vector<Lod>& chain,
+                                  const BuildOptions& options, ArtifactWriter& writer,
+                                  ReportPage& page) {
+  WrittenLevels written = {{}, {}, MeshRegion(context.georeference), {}};
+  std::vector<LevelArtifact> levels;
   std::vector<LevelReport>& reports = written.reports;
   std::vector<PlacedMesh> decoded;
   for (std::size_t i = 0; i < chain.size(); ++i) {
     const RunControl control = LevelControl(context.control, i, chain.size());
-    const LevelStorage storage = {plan.finest_side_m,
-                                  CoarsenessOf(plan, context.terrain.dem(), i),
-                                  Asks(options, "3dtiles"),
-                                  Asks(options, "drc"),
-                                  options.edges,
-                                  options.threads};
+    const bool glb = Asks(options, "3dtiles");
+    const LevelStorage storage = {plan.finest_side_m, CoarsenessOf(plan, context.terrain.dem(), i),
+                                  glb ? MostSkirtDepth(input, options.skirt_m) : 0, glb,
+                                  Asks(options, "drc")};
+    const RunControl encoding = control.Between(0, kEncoded);
     Result<LevelArtifact> level =
-        EncodeLevel(context.With(control), chain[i], static_cast<int>(i), storage);
+        EncodeLevel(context.With(encoding), chain[i], static_cast<int>(i), storage);
     if (!level) return std::move(level.error());
     level->report.asked = AskedOf(plan, chain, i);
-    const std::string name = "lod" + std::to_string(i);
-    if (storage.glb) {
-      Status added = writer.Add(name + ".glb", AsText(level->glb));
-      if (!added) return std::move(added.error());
+    const LocalMesh& mesh = level->decoded.mesh;
+    Result<PlacedMesh> placed = PlaceLevel(context, mesh);
+    if (!placed) return std::move(placed.error()).WithContext("level " + std::to_string(i));
+    decoded.push_back(*std::move(placed));
+    if (glb && options.edges != EdgeFiles::kNone) {
+      const RunControl searching = control.Between(kEncoded, 1);
+      Result<LevelEdges> edges = FindLevelEdges(context.With(searching), chain[i].kept,
+                                                {level->decoded, decoded.back()}, options.threads);
+      if (!edges) return std::move(edges.error());
+      level->report.skyline_edges = edges->report;
+      if (IsInline(options.edges)) level->flagged = edges->vertices;
+      written.edges.push_back(*std::move(edges));
     }
-    if (storage.drc) {
-      Status added = writer.Add(name + ".drc", AsText(level->drc));
-      if (!added) return std::move(added.error());
-    }
-    decoded.push_back(std::move(level->placed));
-    written.edges.push_back(std::move(level->edges));
-    written.lattices.push_back(level->lattice);
+    control.Report(Stage::kEncode, 1);
     reports.push_back(level->report);
-    if (Status added = written.region.Add(level->mesh); !added) return std::move(added.error());
-    if (Status drawn = page.AddLevel(level->mesh); !drawn) return std::move(drawn.error());
+    if (Status added = written.region.Add(mesh); !added) return std::move(added.error());
+    if (Status drawn = page.AddLevel(mesh); !drawn) return std::move(drawn.error());
+    levels.push_back(*std::move(level));
   }
   Result<std::vector<MeshError>> errors =
       context.measurer.MeasureAll(decoded, options.threads, context.control);
@@ -166,6 +208,8 @@ Result<WrittenLevels> WriteLevels(const LevelContext& context, const LevelPlan& 
           std::max(reports[i].geometric_error_m, reports[i - 1].geometric_error_m);
     }
   }
+  Status files = WriteFiles(context, input, options, levels, writer, written);
+  if (!files) return std::move(files.error());
   return written;
 }
 
@@ -178,6 +222,10 @@ Status BuildArtifacts(const fs::path& dem, const fs::path& directory, const Buil
   control.Report(Stage::kRead, 0);
   Result<std::unique_ptr<TerrainInput>> input = TerrainInput::Open(dem, options, control);
   if (!input) return std::move(input.error());
+  if (Asks(options, "quantized-mesh")) {
+    Status off_poles = CheckOffPoles((*input)->georeference(), (*input)->dem());
+    if (!off_poles) return off_poles;
+  }
   Result<LevelPlan> plan = PlanLevels(**input, options);
   if (!plan) return std::move(plan.error());
   control.Report(Stage::kRead, 1);
@@ -205,11 +253,20 @@ Status BuildArtifacts(const fs::path& dem, const fs::path& directory, const Buil
   Result<ReportPage> page =
       ReportPage::Start((*input)->terrain(), (*input)->georeference(), *horizon);
   if (!page) return std::move(page.error());
-  Result<WrittenLevels> levels = WriteLevels(context, *plan, *chain, options, writer, *page);
+  Result<WrittenLevels> levels =
+      WriteLevels(context, **input, *plan, *chain, options, writer, *page);
   if (!levels) return std::move(levels.error());
   if (Asks(options, "3dtiles")) {
     Status tileset = WriteTilesetFor(**input, *levels, writer);
     if (!tileset) return tileset;
+  }
+  if (!levels->globe.empty()) {
+    control.Report(Stage::kWrite, 0);
+    Status tiles = WriteTerrainTiles(std::exchange(levels->globe, {}), control,
+                                     [&writer](const std::string& name, const std::string& bytes) {
+                                       return writer.Add(name, bytes);
+                                     });
+    if (!tiles) return tiles;
   }
   Result<std::vector<HorizonFeature>> features =
       BuildFeatures(**input, *horizon, LevelsKept(*horizon, *chain),
@@ -218,7 +275,7 @@ Status BuildArtifacts(const fs::path& dem, const fs::path& directory, const Buil
   control.Report(Stage::kWrite, 0);
   Status written = WriteFeatures(*features, options, writer);
   if (!written) return written;
-  if (Asks(options, "3dtiles") && HasLines(options.edges)) {
+  if (HasLines(options.edges)) {
     Status lines = WriteEdges(*features, *levels, writer);
     if (!lines) return lines;
   }

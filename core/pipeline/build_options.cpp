@@ -54,9 +54,9 @@ Status ReadCount(const Given& given, const char* expected, Whole& count) {
   return Ok{};
 }
 
-Status ReadMetres(const Given& given, double& metres) {
+Status ReadMetres(const Given& given, const char* expected, double& metres) {
   const std::optional<double> number = NumberIn(given.value);
-  if (!number) return given.Expected("a number of metres");
+  if (!number) return given.Expected(expected);
   metres = *number;
   return Ok{};
 }
@@ -126,11 +126,11 @@ constexpr std::array kParameters = {
               }},
     Parameter{"maxError",
               [](const Given& given, Options& options) {
-                return ReadMetres(given, options.max_error_m.emplace());
+                return ReadMetres(given, "a number of metres", options.max_error_m.emplace());
               }},
     Parameter{"silhouetteError",
               [](const Given& given, Options& options) {
-                return ReadMetres(given, options.silhouette_error_m);
+                return ReadMetres(given, "a number of metres", options.silhouette_error_m);
               }},
     Parameter{"triangles",
               [](const Given& given, Options& options) {
@@ -171,6 +171,11 @@ constexpr std::array kParameters = {
                                 Options& options) { return ReadFlag(given, options.approximate); }},
     Parameter{"edges", [](const Given& given,
                           Options& options) { return ReadWord(given, kEdgeFiles, options.edges); }},
+    Parameter{"skirt",
+              [](const Given& given, Options& options) -> Status {
+                if (given.value == "auto") return Ok{};
+                return ReadMetres(given, "auto, or a number of metres", options.skirt_m.emplace());
+              }},
 };
 
 Error NoSuchParameter(const std::string& name) {
@@ -246,11 +251,15 @@ Status CheckOptions(const BuildOptions& options) {
   if (unit != "m" && unit != "ft" && unit != "us-ft") {
     return Given{"heightUnit", unit}.Expected("m, ft or us-ft");
   }
+  if (options.skirt_m && !(*options.skirt_m >= 0 && *options.skirt_m <= 1e5)) {
+    return Given{"skirt", Text(*options.skirt_m)}.Expected("auto, or 0 to 100000 metres");
+  }
   if (options.formats.empty()) return Given{"formats", ""}.Expected("at least one format");
-  constexpr std::array kKnown = {"3dtiles", "drc", "geojson", "flatgeobuf"};
+  constexpr std::array kKnown = {"3dtiles", "drc", "geojson", "flatgeobuf", "quantized-mesh"};
   for (const std::string& format : options.formats) {
     if (std::find(kKnown.begin(), kKnown.end(), format) == kKnown.end()) {
-      return Given{"formats", format}.Expected("of 3dtiles, drc, geojson and flatgeobuf");
+      return Given{"formats", format}.Expected(
+          "of 3dtiles, drc, geojson, flatgeobuf and quantized-mesh");
     }
   }
   if (options.threads < 1 || options.threads > 1024) {

@@ -40,8 +40,10 @@ struct BuildOptions {
   /// As HorizonOptions has it: decisions about candidates.
   std::optional<std::int64_t> work_budget;
   bool approximate = false;  ///< as HorizonOptions has it
-  int threads = 1;           ///< never changes a byte of the result
   EdgeFiles edges = EdgeFiles::kLines;
+  /// How deep skirts are, metres; 0: none; unset: as SkirtDepths has it.
+  std::optional<double> skirt_m;
+  int threads = 1;  ///< never changes a byte of the result
 };
 
 /// Checks options that need no DEM to be checked. Errors: kInvalidArgument, naming the flag, its

@@ -5,19 +5,18 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <utility>
 
 #include "core/io/draco_mesh.h"
 #include "core/io/glb.h"
 #include "core/measure/covers.h"
 #include "core/pipeline/level_lattice.h"
+#include "core/pipeline/skirt.h"
 
 namespace farhorizon {
 
 namespace {
-
-// The share of a level's part of Stage::kEncode after which its skyline is looked for.
-constexpr double kEncoded = 0.3;
 
 Result<LocalMesh> ToLocal(const LevelContext& context, const PostMesh& mesh) {
   const std::vector<VertexId>& posts = mesh.posts;
@@ -143,27 +142,13 @@ Result<LevelArtifact> EncodeLevel(const LevelContext& context, const Lod& lod, i
   if (!local) return std::move(local.error());
   LatticeSteps steps =
       StepsOfLevel(storage.finest_side_m, context.georeference, lod, storage.coarseness);
-  Result<QuantizationLattice> lattice =
-      RoundToLattice(context.terrain.dem(), context.georeference.frame(), steps, *local);
+  Result<QuantizationLattice> lattice = RoundToLattice(
+      context.terrain.dem(), context.georeference.frame(), steps, *local, storage.skirt_room_m);
   if (!lattice) return std::move(lattice.error()).WithContext("level " + std::to_string(level));
   Result<Encoded> encoded = Encode(*local, *lattice, storage);
   if (!encoded) return std::move(encoded.error());
-  Result<PlacedMesh> placed = PlaceLevel(context, encoded->decoded.mesh);
-  if (!placed) return std::move(placed.error()).WithContext("level " + std::to_string(level));
   LevelArtifact artifact;
-  artifact.placed = *std::move(placed);
-  artifact.lattice = *lattice;
-  if (storage.glb) {
-    if (storage.edges != EdgeFiles::kNone) {
-      const RunControl search = context.control.Between(kEncoded, 1);
-      Result<LevelEdges> edges = FindLevelEdges(
-          context.With(search), lod.kept, {encoded->decoded, artifact.placed}, storage.threads);
-      if (!edges) return std::move(edges.error());
-      artifact.edges = *std::move(edges);
-    }
-    artifact.glb = WriteGlb(encoded->glb_stream, encoded->decoded,
-                            IsInline(storage.edges) ? artifact.edges.vertices : VertexPairs());
-  }
+  if (storage.glb) artifact.glb_stream = std::move(encoded->glb_stream);
   artifact.drc = std::move(encoded->drc);
   context.control.Report(Stage::kEncode, 1);
   const LocalMesh& mesh = encoded->decoded.mesh;
@@ -174,11 +159,32 @@ Result<LevelArtifact> EncodeLevel(const LevelContext& context, const Lod& lod, i
   artifact.report.exact = lod.exact;
   artifact.report.side_step_m = steps.sides_m;
   artifact.report.horizon_edges = static_cast<std::int64_t>(lod.kept.size());
-  artifact.report.skyline_edges = artifact.edges.report;
-  artifact.report.glb_bytes = static_cast<std::int64_t>(artifact.glb.size());
   artifact.report.drc_bytes = static_cast<std::int64_t>(artifact.drc.size());
-  artifact.mesh = std::move(encoded->decoded.mesh);
+  artifact.decoded = std::move(encoded->decoded);
+  artifact.decoded.lattice = *lattice;  // with its room for a skirt
   return artifact;
+}
+
+Result<std::vector<std::uint8_t>> LevelGlb(const LevelContext& context, double skirt_m,
+                                           LevelArtifact& level, LocalMesh& skirt) {
+  std::optional<EncodedMesh> walls;
+  if (skirt_m > 0) {
+    const QuantizationLattice& lattice = level.decoded.lattice;
+    Result<std::vector<std::uint8_t>> stream =
+        EncodeDraco(SkirtOf(level.decoded.mesh, context.georeference.frame(), lattice, skirt_m),
+                    lattice, DracoPosts::kLeftOut);
+    if (!stream) return std::move(stream.error());
+    Result<DecodedMesh> decoded = DecodeDraco(*stream);
+    if (!decoded) return std::move(decoded.error());
+    walls = EncodedMesh{*std::move(stream), *std::move(decoded)};
+  }
+  std::vector<std::uint8_t> glb =
+      WriteGlb(level.glb_stream, level.decoded, level.flagged, walls ? &*walls : nullptr);
+  level.report.skirt_m = skirt_m;
+  level.report.glb_bytes = static_cast<std::int64_t>(glb.size());
+  if (walls) skirt = std::move(walls->decoded.mesh);
+  level.report.skirt_triangles = static_cast<std::int64_t>(skirt.triangles.size());
+  return glb;
 }
 
 }  // namespace farhorizon

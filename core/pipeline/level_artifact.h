@@ -1,16 +1,16 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "core/base/result.h"
 #include "core/base/run_control.h"
 #include "core/horizon/horizon.h"
+#include "core/io/draco_mesh.h"
 #include "core/io/local_mesh.h"
 #include "core/measure/mesh_error.h"
-#include "core/pipeline/build_options.h"
 #include "core/pipeline/georeference.h"
-#include "core/pipeline/level_edges.h"
 #include "core/pipeline/post_normals.h"
 #include "core/pipeline/report.h"
 #include "core/simplify/lod_chain.h"
@@ -43,33 +43,37 @@ inline RunControl LevelControl(const RunControl& control, std::size_t i, std::si
 
 /// How a level is to be stored.
 ///
-/// finest_side_m, coarseness: as StepsOfLevel has them. glb, drc: which files are asked for. edges:
-/// what the GLB is asked to say of the level's horizon. threads: never changes the result.
+/// finest_side_m, coarseness: as StepsOfLevel has them. skirt_room_m: how deep its skirt may be.
+/// glb, drc: which files are asked for.
 struct LevelStorage {
   double finest_side_m = 0;
   int coarseness = 0;
+  double skirt_room_m = 0;
   bool glb = true;
   bool drc = true;
-  EdgeFiles edges = EdgeFiles::kNone;
-  int threads = 1;
 };
 
 /// A level as it is stored.
 struct LevelArtifact {
-  std::vector<std::uint8_t> drc;  ///< empty where it is not asked for
-  std::vector<std::uint8_t> glb;  ///< likewise
-  LocalMesh mesh;                 ///< what both decode to
-  PlacedMesh placed;              ///< the same, to be measured
-  QuantizationLattice lattice;    ///< of both
-  LevelEdges edges;               ///< empty where they are not asked for
-  LevelReport report;             ///< all but what is measured, and `asked`
+  std::vector<std::uint8_t> drc;         ///< empty where it is not asked for
+  std::vector<std::uint8_t> glb_stream;  ///< likewise: the Draco stream of the GLB's surface
+  DecodedMesh decoded;                   ///< what both decode to, with posts
+  /// The edges that the GLB is to flag, by vertices of `decoded`; EncodeLevel leaves it empty.
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> flagged;
+  LevelReport report;  ///< all but what is measured or of the GLB, and `asked`
 };
 
 /// Encodes one level and decodes it again.
-/// Errors: those of Georeference::ToEnu, RoundToLattice, EncodeDraco, PlaceLevel and
-///   FindLevelEdges.
+/// Errors: those of Georeference::ToEnu, RoundToLattice and EncodeDraco.
 Result<LevelArtifact> EncodeLevel(const LevelContext& context, const Lod& lod, int level,
                                   const LevelStorage& storage);
+
+/// The GLB of a level and its skirt, which is skirt_m deep; 0: none. `skirt` gets what the skirt
+/// decodes to, level.report what the GLB and its skirt are.
+/// Requires: the level was encoded with a GLB, and room for the skirt.
+/// Errors: those of EncodeDraco.
+Result<std::vector<std::uint8_t>> LevelGlb(const LevelContext& context, double skirt_m,
+                                           LevelArtifact& level, LocalMesh& skirt);
 
 /// A decoded mesh as it is measured.
 /// Errors: kUnsupportedData where a vertex names no post, or the mesh has a hole or a flipped

@@ -86,6 +86,7 @@ Result<LevelEdges> FindLevelEdges(const LevelContext& context,
   if (!skyline) return std::move(skyline.error());
 
   LevelEdges edges;
+  edges.lattice = lattice;
   std::vector<std::array<double, 2>> middles;
   const Dem& dem = context.terrain.dem();
   for (const SkylineSide& side : skyline->sides) {

@@ -28,10 +28,12 @@ using VertexPairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 /// lines: by rising posts; their measures are those of the DEM once AddMeasures has been called.
 /// vertices: the same edges by the vertices of the decoded mesh; of a post with several the first.
 /// horizon_edges: for each line its place in the horizon, -1 where the DEM has no such edge there.
+/// lattice: the level's.
 struct LevelEdges {
   std::vector<HorizonLine> lines;
   VertexPairs vertices;
   std::vector<std::int32_t> horizon_edges;
+  QuantizationLattice lattice;
   SkylineEdgesReport report;
 };
 

@@ -1,9 +1,12 @@
 #include "core/pipeline/level_lattice.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
+#include "core/geo/ellipsoid_normal.h"
 #include "core/pipeline/mesh_orientation.h"
 #include "core/terrain/border.h"
 
@@ -33,6 +36,23 @@ std::vector<Enu> Rounded(const Dem& dem, const LatticeSteps& steps, const LocalM
   return rounded;
 }
 
+// Two corners of the box around what is `room_m` below `points`.
+std::array<Enu, 2> RoomBelow(const std::vector<Enu>& points, const TangentFrame& frame,
+                             double room_m) {
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  std::array<Enu, 2> room = {Enu{kFar, kFar, kFar}, Enu{-kFar, -kFar, -kFar}};
+  for (const Enu& p : points) {
+    const Enu up = EllipsoidNormal(p, frame);
+    const double share = -room_m / std::hypot(up.east, up.north, up.up);
+    const Enu q = {p.east + share * up.east, p.north + share * up.north, p.up + share * up.up};
+    room[0] = {std::min(room[0].east, q.east), std::min(room[0].north, q.north),
+               std::min(room[0].up, q.up)};
+    room[1] = {std::max(room[1].east, q.east), std::max(room[1].north, q.north),
+               std::max(room[1].up, q.up)};
+  }
+  return room;
+}
+
 }  // namespace
 
 double FinestSideStep(const Georeference& georeference, double max_error_m) {
@@ -55,12 +75,18 @@ LatticeSteps StepsOfLevel(double finest_side_m, const Georeference& georeference
 }
 
 Result<QuantizationLattice> RoundToLattice(const Dem& dem, const TangentFrame& frame,
-                                           LatticeSteps& steps, LocalMesh& mesh) {
+                                           LatticeSteps& steps, LocalMesh& mesh, double room_m) {
   const std::vector<Enu> exact = mesh.positions;
   bool finer = false;
   while (true) {
     std::vector<Enu> rounded = Rounded(dem, steps, {exact, mesh.posts, {}, {}});
-    const QuantizationLattice lattice = ChooseLattice(rounded, steps.inside_m);
+    std::vector<Enu> reach = rounded;
+    if (room_m > 0) {
+      // Two steps for the rounding of what is down there.
+      const auto below = RoomBelow(rounded, frame, room_m + 2 * steps.inside_m);
+      reach.insert(reach.end(), below.begin(), below.end());
+    }
+    const QuantizationLattice lattice = ChooseLattice(reach, steps.inside_m);
     const bool reaches = lattice.step_m == steps.inside_m;
     if (!reaches && finer) {
       return Error{ErrorCode::kUnsupportedData,

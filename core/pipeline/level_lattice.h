@@ -43,11 +43,12 @@ LatticeSteps StepsOfLevel(double finest_side_m, const Georeference& georeference
                           int number);
 
 /// Rounds a level's positions by `steps`, which are made coarser where kMaxLatticeBits do not reach
-/// over the level, and finer where rounding would flip a triangle; returns the lattice of the
-/// inside, on which all of them lie, and sets `steps` to what was taken.
+/// over the level and room_m metres below it, and finer where rounding would flip a triangle;
+/// returns the lattice of the inside, on which all of them lie, with that room below them, and sets
+/// `steps` to what was taken.
 /// Errors: kUnsupportedData, kind "flipped-triangle", where no step leaves every triangle
 ///   counter-clockwise from above.
 Result<QuantizationLattice> RoundToLattice(const Dem& dem, const TangentFrame& frame,
-                                           LatticeSteps& steps, LocalMesh& mesh);
+                                           LatticeSteps& steps, LocalMesh& mesh, double room_m = 0);
 
 }  // namespace farhorizon

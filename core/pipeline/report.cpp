@@ -162,6 +162,8 @@ Json ToJson(const LevelReport& level) {
           {"geometric_error_m", level.geometric_error_m},
           {"quantization_step_m", level.quantization_step_m},
           {"side_step_m", level.side_step_m},
+          {"skirt_m", level.skirt_m},
+          {"skirt_triangles", level.skirt_triangles},
           {"glb_bytes", level.glb_bytes},
           {"drc_bytes", level.drc_bytes},
           {"skyline_edges", ToJson(level.skyline_edges)}};
@@ -183,6 +185,9 @@ LevelReport ReadLevel(const Json& json) {
   json.at("geometric_error_m").get_to(level.geometric_error_m);
   json.at("quantization_step_m").get_to(level.quantization_step_m);
   json.at("side_step_m").get_to(level.side_step_m);
+  // Reports of versions without skirts have neither.
+  level.skirt_m = json.value("skirt_m", 0.0);
+  level.skirt_triangles = json.value("skirt_triangles", std::int64_t{0});
   json.at("glb_bytes").get_to(level.glb_bytes);
   json.at("drc_bytes").get_to(level.drc_bytes);
   level.skyline_edges = ReadSkylineEdges(json);

@@ -51,7 +51,9 @@ struct SkylineEdgesReport {
 /// exact: before vertices were rounded to be encoded, its skyline was the DEM's. vertical,
 /// silhouette, rim_m, facet_angle_deg (root mean square), needle_share: as MeshError has them.
 /// quantization_step_m, side_step_m: positions are multiples of the former, those on the tile's
-/// four sides of the latter. glb_bytes, drc_bytes: 0 where there is no such file.
+/// four sides of the latter. skirt_m, skirt_triangles: how deep the skirt in the GLB is, and its
+/// triangles, which `triangles` leaves out; 0 where there is none. glb_bytes, drc_bytes: 0 where
+/// there is no such file.
 struct LevelReport {
   int level = 0;
   bool exact = false;
@@ -67,6 +69,8 @@ struct LevelReport {
   double geometric_error_m = 0;
   double quantization_step_m = 0;
   double side_step_m = 0;
+  double skirt_m = 0;
+  std::int64_t skirt_triangles = 0;
   std::int64_t glb_bytes = 0;
   std::int64_t drc_bytes = 0;
   SkylineEdgesReport skyline_edges;

@@ -55,7 +55,10 @@ void AddBuildFlags(Command& command, BuildFlags& flags) {
       "instead of the three above: a level for each number, with at most that many triangles, in "
       "any order; exact where every horizon edge fits in");
   Add(command, flags, "formats", "a,b,...",
-      "of 3dtiles, drc, geojson, flatgeobuf (3dtiles,drc,geojson)");
+      "of 3dtiles, drc, geojson, flatgeobuf, quantized-mesh (3dtiles,drc,geojson)");
+  Add(command, flags, "skirt", "auto|M",
+      "depth of the walls at the tile's sides and around holes, metres; 0: none (auto: as deep as "
+      "the errors of the level and of the coarsest one)");
   Add(command, flags, "edges", "WHERE",
       "where each level's horizon is drawn: lines: a file of its own, lodN-horizon.glb; inline: in "
       "lodN.glb, as EXT_mesh_primitive_edge_visibility; both; none (lines)");

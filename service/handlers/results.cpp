@@ -70,6 +70,12 @@ void SetDisposition(HttpResponse& response, const Artifact& artifact) {
   if (page) response.Set("Content-Security-Policy", kPagePolicy);
 }
 
+// Tiles of terrain are files in gzip, for servers that know of nothing else; there is no other
+// representation of them, so that all get this one.
+bool IsStoredInGzip(const Artifact& artifact) {
+  return MediaTypeIn(artifact.media_type) == "application/vnd.quantized-mesh";
+}
+
 // The artifact piece by piece, each verified.
 class ArtifactSource : public BodySource {
  public:
@@ -111,7 +117,9 @@ HttpResponse SendArtifact(const HttpRequest& request, OpenArtifact open) {
   response.Set("Cache-Control", "private, max-age=31536000, immutable");
   if (selection.status == 304) return response;
   response.Set("Content-Type", open.artifact.media_type);
-  if (open.coding == Coding::kGzip) response.Set("Content-Encoding", "gzip");
+  if (open.coding == Coding::kGzip || IsStoredInGzip(open.artifact)) {
+    response.Set("Content-Encoding", "gzip");
+  }
   response.Set("Accept-Ranges", "bytes");
   SetDisposition(response, open.artifact);
   if (selection.status == 206) {

@@ -123,10 +123,15 @@ Result<DataDirectory> LockDataDirectory(const fs::path& path) {
 Result<DataDirectory> OpenDataDirectory(const fs::path& path) {
   const fs::path root = Absolute(path);
   std::error_code failure;
-  if (fs::create_directories(root, failure)) ::chmod(root.c_str(), 0700);
+  const bool made = fs::create_directories(root, failure);
+  if (made) ::chmod(root.c_str(), 0700);
   if (failure) {
     return Unusable(root, "cannot be made (" + failure.message() +
                               "); give --data a folder that this user can write");
+  }
+  if (made) {
+    Status synced = SyncFolder(root.parent_path());
+    if (!synced) return std::move(synced.error());
   }
   Result<DataDirectory> directory = Lock(root);
   if (!directory) return directory;

@@ -190,6 +190,11 @@ Result<std::unique_ptr<ObjectStore>> OpenLocalObjectStore(const fs::path& root) 
                      failure.message() + "; give a data directory that can be written",
                  "storage"};
   }
+  // An object is as durable as every folder above it.
+  for (const fs::path& folder : {root, root.parent_path()}) {
+    Status synced = SyncFolder(folder);
+    if (!synced) return std::move(synced.error());
+  }
   return std::unique_ptr<ObjectStore>(std::make_unique<LocalObjectStore>(root));
 }
 

@@ -90,6 +90,12 @@ CREATE INDEX jobs_by_deadline ON jobs (deadline_ms)
 )";
 constexpr std::array kVersions = {kVersion1, kVersion2, kVersion3, kVersion4, kVersion5};
 
+std::int64_t CountOfTables(Database& database) {
+  Statement count(database, "SELECT count(*) FROM sqlite_schema");
+  count.Step();
+  return count.Integer(0);
+}
+
 void Migrate(Database& database) {
   Transaction transaction(database);
   for (std::int64_t version = database.Pragma("user_version"); version < kSchemaVersion;
@@ -110,7 +116,8 @@ const std::int64_t kSchemaVersion = static_cast<std::int64_t>(kVersions.size());
 void PrepareSchema(Database& database) {
   const std::int64_t application = database.Pragma("application_id");
   const std::int64_t version = database.Pragma("user_version");
-  const bool is_new = database.Pragma("page_count") == 0;
+  // A first start that was cut off leaves a page without a table.
+  const bool is_new = version == 0 && CountOfTables(database) == 0;
   if (!is_new && application != kApplicationId) {
     throw SqliteFailure{{ErrorCode::kIo,
                          "job store: the file is no job store of farhorizon; put the right one "

@@ -5,6 +5,7 @@
 #include <set>
 #include <signal.h>
 #include <string>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <thread>
 #include <vector>
@@ -52,6 +53,16 @@ class SandboxE2e : public testing::Test {
     }
     return found;
   }
+  /// The stand-ins that run. A process knows its program by its link.
+  static std::set<int> StandIns() {
+    std::set<int> found;
+    for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+      std::error_code failure;
+      const auto program = std::filesystem::read_symlink(entry.path() / "exe", failure);
+      if (!failure && program == STAND_IN_WORKER) found.insert(std::stoi(entry.path().filename()));
+    }
+    return found;
+  }
   json Run(const std::string& name, const std::string& query = "crs=EPSG:4326") {
     const RawAnswer answer = Ask(port_, "POST", "/jobs?" + query + "&levels=1&filename=" + name,
                                  "Content-Type: application/octet-stream\r\n", HillyGrid(12, 10));
@@ -90,20 +101,24 @@ TEST_F(SandboxE2e, AWorkerReachesNothingButItsJob) {
 TEST_F(SandboxE2e, NoProcessOfAWorkerOutlivesIt) {
   StartStandIn();
   EXPECT_EQ(Run("children.asc")["exception"]["code"], "worker-crashed");
-  // A process knows its program by its link: those of the stand-in are gone soon.
-  const auto left = [] {
-    std::set<std::string> found;
-    for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
-      std::error_code failure;
-      const auto program = std::filesystem::read_symlink(entry.path() / "exe", failure);
-      if (!failure && program == STAND_IN_WORKER) found.insert(entry.path().filename());
-    }
-    return found;
-  };
-  for (int tries = 0; tries < 200 && !left().empty(); ++tries) {
+  for (int tries = 0; tries < 200 && !StandIns().empty(); ++tries) {
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
-  EXPECT_THAT(left(), testing::IsEmpty());
+  EXPECT_THAT(StandIns(), testing::IsEmpty());
+}
+
+TEST_F(SandboxE2e, AJobStandsBackBehindWhatClientsWaitFor) {
+  StartStandIn();
+  std::set<int> niceness;
+  std::thread look([&niceness] {
+    for (int tries = 0; tries < 200 && !niceness.contains(10); ++tries) {
+      for (const int pid : StandIns()) niceness.insert(::getpriority(PRIO_PROCESS, id_t(pid)));
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+  });
+  EXPECT_EQ(Run("slow.asc")["status"], "successful");
+  look.join();
+  EXPECT_THAT(niceness, testing::Contains(10));
 }
 
 TEST_F(SandboxE2e, WhatStartsWorkersIsStartedAgainAndEndsWithTheService) {

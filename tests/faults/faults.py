@@ -12,10 +12,12 @@ import crash_points  # noqa: E402
 import disk  # noqa: E402
 import kills  # noqa: E402
 import limits  # noqa: E402
+import opens  # noqa: E402
+import power  # noqa: E402
 import store  # noqa: E402
 
-CASES = {"kills": kills.run, "crash_points": crash_points.run, "disk": disk.run, "store": store.run,
-         "limits": limits.run}
+CASES = {"kills": kills.run, "crash_points": crash_points.run, "disk": disk.run, "power": power.run,
+         "store": store.run, "limits": limits.run, "opens": opens.run}
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:

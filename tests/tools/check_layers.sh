@@ -56,12 +56,16 @@ declare -A may=(
   [core/io/dem/place]="core/base core/terrain core/geo core/io core/io/dem"
   # Meshes that others wrote; `compare` alone reads them.
   [core/io/mesh_files]="core/base core/io"
+  # Tiles of terrain for a globe: their bytes, and their list.
+  [core/io/quantized_mesh]="core/base core/geo core/io"
   [core/pipeline]="$below_pipeline"
   [core/pipeline/compare]="$below_pipeline core/io/mesh_files core/pipeline"
   [core/pipeline/verify]="$below_pipeline core/pipeline"
   [core/pipeline/report_page]="$below_pipeline core/pipeline"
+  # Levels cut into tiles for a globe.
+  [core/pipeline/terrain_tiles]="$below_pipeline core/io/quantized_mesh core/pipeline"
   # What stands above the rooms of core/pipeline: the build itself.
-  [core/pipeline/build]="$below_pipeline core/pipeline core/pipeline/report_page"
+  [core/pipeline/build]="$below_pipeline core/pipeline core/pipeline/report_page core/pipeline/terrain_tiles"
   # The service's own root: clock, log, and the wrapper header of Asio. main.cpp is below.
   [service]="core/base"
   [service/worker]="core/base core/io core/pipeline core/pipeline/build service service/worker/spawner"
@@ -90,7 +94,7 @@ foreign=(
   'boost/multiprecision/ @ ^core/exact/'
   'boost/ @ ^service/asio\.h$ ^service/(http|worker|cli)/'
   'sqlite3 @ ^service/jobs/[a-z_0-9]+\.cpp$'
-  'nlohmann/ @ ^core/(io|pipeline)/(compare/)?[^/]+\.cpp$ ^core/io/mesh_files/(gltf_json\.h|[^/]+\.cpp)$ ^service/[a-z_0-9]+\.(h|cpp)$ ^service/(handlers|jobs|worker|config|cli)/'
+  'nlohmann/ @ ^core/(io|pipeline)/((compare|quantized_mesh)/)?[^/]+\.cpp$ ^core/io/mesh_files/(gltf_json\.h|[^/]+\.cpp)$ ^service/[a-z_0-9]+\.(h|cpp)$ ^service/(handlers|jobs|worker|config|cli)/'
   'openssl/ @ ^core/io/[^/]+\.cpp$'
   'CLI/ @ ^service/cli/(command_line|run)\.cpp$'
   'prometheus/ @ ^service/metrics\.cpp$'

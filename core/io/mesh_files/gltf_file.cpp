@@ -126,7 +126,15 @@ class SceneReader {
     return Ok{};
   }
 
+  // Whether the primitive is marked as the skirt of the mesh's surface, as ours are.
+  static bool IsSkirt(const MeshJson& primitive) {
+    const MeshJson* extras = Member(primitive, "extras");
+    const MeshJson* skirt = extras == nullptr ? nullptr : Member(*extras, "skirt");
+    return skirt != nullptr && skirt->is_boolean() && skirt->get<bool>();
+  }
+
   Status AddPrimitive(const MeshJson& primitive, const PlacingMatrix& placing) {
+    if (IsSkirt(primitive)) return Ok{};
     if (!HasTriangles(primitive)) {
       ++others_;
       return Ok{};

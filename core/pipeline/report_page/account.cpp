@@ -38,13 +38,33 @@ std::string BytesEach(const Report& report, const ManifestEntry& artifact) {
   return edges ? Each(artifact.bytes, report.horizon_edges, "horizon edge") : "";
 }
 
+// The artifacts, those of terrain tiles as one.
+std::vector<ManifestEntry> Summed(const std::vector<ManifestEntry>& artifacts) {
+  std::vector<ManifestEntry> summed;
+  ManifestEntry tiles;
+  std::int64_t count = 0;
+  for (const ManifestEntry& artifact : artifacts) {
+    if (!artifact.name.ends_with(".terrain")) {
+      summed.push_back(artifact);
+      continue;
+    }
+    tiles.bytes += artifact.bytes;
+    ++count;
+  }
+  if (count > 0) {
+    tiles.name = std::to_string(count) + " tiles, terrain-Z-X-Y.terrain";
+    summed.push_back(tiles);
+  }
+  return summed;
+}
+
 }  // namespace
 
 Html BytesTable(const Report& report, const std::vector<ManifestEntry>& artifacts) {
   BarTable table{"The files of this build, without this page and the manifest"_html,
                  {"File"_html, "Size"_html, "Bytes"_html},
                  {}};
-  std::vector<ManifestEntry> sorted = artifacts;
+  std::vector<ManifestEntry> sorted = Summed(artifacts);
   std::stable_sort(
       sorted.begin(), sorted.end(),
       [](const ManifestEntry& a, const ManifestEntry& b) { return a.bytes > b.bytes; });

@@ -17,6 +17,7 @@
 #include "core/io/tileset_reader.h"
 #include "core/pipeline/build_features.h"
 #include "core/pipeline/level_artifact.h"
+#include "core/pipeline/level_edges.h"
 #include "core/pipeline/post_places.h"
 #include "core/pipeline/report.h"
 #include "core/pipeline/terrain_input.h"

@@ -15,6 +15,7 @@
 #include "core/io/file.h"
 #include "core/io/glb.h"
 #include "core/pipeline/mesh_orientation.h"
+#include "core/pipeline/skirt.h"
 #include "core/terrain/border.h"
 
 namespace farhorizon {
@@ -83,7 +84,7 @@ MeshContents ContentsOf(const LocalMesh& mesh) {
   return contents;
 }
 
-void VerifyAccessors(const std::string& name, const GlbContents& glb, const DecodedMesh& decoded,
+void VerifyAccessors(const std::string& name, const GlbPrimitive& glb, const DecodedMesh& decoded,
                      Claims& claims) {
   const LocalMesh& mesh = decoded.mesh;
   claims.Same(name + " POSITION count", glb.vertex_count,
@@ -95,8 +96,73 @@ void VerifyAccessors(const std::string& name, const GlbContents& glb, const Deco
   const LatticeBox box = LatticeBoxOf(mesh.positions, decoded.lattice);
   claims.Add(glb.min == box.least && glb.max == box.greatest,
              name + " POSITION min and max are those of the decoded mesh");
+}
+
+void VerifyMatrix(const std::string& name, const GlbContents& glb, const DecodedMesh& decoded,
+                  Claims& claims) {
   claims.Add(glb.matrix == GltfMatrix(decoded.lattice),
              name + " has the lattice of its Draco stream in the node's matrix");
+}
+
+// Triangles by the places of their corners, each from its least one on, rising.
+using Corner = std::array<double, 3>;
+std::vector<std::array<Corner, 3>> CornersOf(const LocalMesh& mesh) {
+  std::vector<std::array<Corner, 3>> result;
+  result.reserve(mesh.triangles.size());
+  for (const auto& t : mesh.triangles) {
+    std::array<Corner, 3>& corners = result.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Enu& p = mesh.positions[t[k]];
+      corners[k] = {p.east, p.north, p.up};
+    }
+    std::ranges::rotate(corners, std::ranges::min_element(corners));
+  }
+  std::ranges::sort(result);
+  return result;
+}
+
+// For each place its normal, rising.
+std::vector<std::pair<Corner, UnitNormal>> NormalsByPlace(const LocalMesh& mesh) {
+  std::vector<std::pair<Corner, UnitNormal>> result;
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    const Enu& p = mesh.positions[i];
+    result.push_back({{p.east, p.north, p.up}, mesh.normals[i]});
+  }
+  std::ranges::sort(result);
+  const auto repeated = std::ranges::unique(result);
+  result.erase(repeated.begin(), repeated.end());
+  return result;
+}
+
+// A level's surface, as decoded, with posts.
+struct LevelSurface {
+  const LevelContext& context;
+  const std::string& name;
+  const LevelReport& claimed;
+  const DecodedMesh& decoded;
+};
+
+// The skirt is the one that hangs from the surface's rim as deep as claimed: its tops are the rim's
+// vertices bit for bit, and it is lit as they are.
+void VerifySkirt(const LevelSurface& surface, const GlbContents& glb, Claims& claims) {
+  const LevelReport& claimed = surface.claimed;
+  const std::string name = surface.name + " skirt";
+  claims.Add(glb.skirt.has_value() == (claimed.skirt_m > 0),
+             name + " is there where the report has one");
+  if (!glb.skirt || !(claimed.skirt_m > 0)) return;
+  const std::optional<DecodedMesh> skirt = Decode(name, glb.skirt->draco, claims);
+  if (!skirt) return;
+  VerifyAccessors(name, *glb.skirt, *skirt, claims);
+  claims.Add(skirt->lattice.origin == surface.decoded.lattice.origin &&
+                 skirt->lattice.step_m == surface.decoded.lattice.step_m,
+             name + " has the surface's lattice");
+  claims.Same(name + " triangles", claimed.skirt_triangles,
+              static_cast<std::int64_t>(skirt->mesh.triangles.size()));
+  const LocalMesh due = SkirtOf(surface.decoded.mesh, surface.context.georeference.frame(),
+                                surface.decoded.lattice, claimed.skirt_m);
+  claims.Add(CornersOf(due) == CornersOf(skirt->mesh),
+             name + " hangs from every edge of the rim, bit for bit, as deep as claimed");
+  claims.Add(NormalsByPlace(due) == NormalsByPlace(skirt->mesh), name + " is lit as the rim is");
 }
 
 // Every decoded normal is the mean of the DEM's, as nearly as Draco's bits tell.
@@ -127,14 +193,14 @@ std::optional<StoredLevel> LoadGlb(const LevelContext& context,
   claims.Add(glb.has_value(), name + " is a binary glTF with a Draco mesh" +
                                   (glb ? "" : ": " + glb.error().message));
   if (!glb) return std::nullopt;
-  std::optional<DecodedMesh> decoded = Decode(name, glb->draco, claims);
+  std::optional<DecodedMesh> decoded = Decode(name, glb->surface.draco, claims);
   if (!decoded) return std::nullopt;
-  VerifyAccessors(name, *glb, *decoded, claims);
+  VerifyAccessors(name, glb->surface, *decoded, claims);
+  VerifyMatrix(name, *glb, *decoded, claims);
   Status named = NamePosts(context, decoded->mesh);
-  if (!named) {
-    claims.Add(false, name + ": " + named.error().message);
-    return std::nullopt;
-  }
+  if (!named) claims.Add(false, name + ": " + named.error().message);
+  if (!named) return std::nullopt;
+  VerifySkirt({context, name, claimed, *decoded}, *glb, claims);
   return StoredLevel{*std::move(decoded), {}, std::move(glb->edges)};
 }
 

@@ -16,6 +16,7 @@
 #include "core/io/file.h"
 #include "core/io/glb.h"
 #include "core/io/horizon_glb.h"
+#include "core/pipeline/level_edges.h"
 
 namespace farhorizon {
 

@@ -109,6 +109,8 @@ class Child {
     OpenReferenceData();
     FdMessage asked = ReceiveFds(kOrderFd);
     Result<LaunchOrder> order = ReadOrder(asked.text);
+    // Of a look at an upload a client waits for the answer; of a job nobody.
+    if (order && !order->probe_only) StandBack();
     if (!order || asked.descriptors.size() != 1 ||
         !TakeFolder(order->directory, asked.descriptors[0].get()) || !ShutIn(*order)) {
       ::_exit(kCannotStart);

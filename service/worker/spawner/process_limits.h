@@ -8,6 +8,10 @@ namespace farhorizon {
 /// Lower limits that there are already stay. False where the kernel refuses.
 bool ApplyLimits(const WorkerLimits& limits, bool own_user);
 
+/// Lets processes that somebody waits for go first, for good: where processors are scarce, this one
+/// gets a tenth of what one of those gets.
+void StandBack();
+
 /// Takes all capabilities from this process and the way to get new ones, for good.
 bool DropCapabilities();
 

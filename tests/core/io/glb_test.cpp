@@ -153,12 +153,33 @@ TEST(Glb, ReadsBackWhatItWrote) {
   const Encoded e = Encode(9, 8);
   Result<GlbContents> contents = ReadGlb(WriteGlb(e.draco, e.decoded, SomeEdges(e.decoded.mesh)));
   ASSERT_TRUE(contents) << contents.error().message;
-  EXPECT_EQ(contents->draco, e.draco);
-  EXPECT_EQ(contents->vertex_count, 72);
-  EXPECT_EQ(contents->normal_count, 72);
+  EXPECT_EQ(contents->surface.draco, e.draco);
+  EXPECT_EQ(contents->surface.vertex_count, 72);
+  EXPECT_EQ(contents->surface.normal_count, 72);
   EXPECT_EQ(contents->matrix, GltfMatrix(e.decoded.lattice));
-  EXPECT_EQ(contents->index_count, 3 * 2 * 8 * 7);
-  EXPECT_LT(contents->min[0], contents->max[0]);
+  EXPECT_EQ(contents->surface.index_count, 3 * 2 * 8 * 7);
+  EXPECT_LT(contents->surface.min[0], contents->surface.max[0]);
+}
+
+TEST(Glb, TheSkirtIsASecondPrimitiveOfTheSameMeshAndMaterial) {
+  const Encoded e = Encode(9, 8);
+  const Encoded small = Encode(4, 3);
+  const EncodedMesh skirt = {small.draco, small.decoded};
+  const std::vector<std::uint8_t> glb =
+      WriteGlb(e.draco, e.decoded, SomeEdges(e.decoded.mesh), &skirt);
+  const Json primitives = JsonOf(glb)["meshes"][0]["primitives"];
+  ASSERT_EQ(primitives.size(), 2U);
+  EXPECT_FALSE(primitives[0].contains("extras"));
+  EXPECT_EQ(primitives[1]["extras"], Json({{"skirt", true}}));
+  EXPECT_EQ(primitives[1]["material"], primitives[0]["material"]);
+  EXPECT_FALSE(primitives[1]["extensions"].contains("EXT_mesh_primitive_edge_visibility"));
+  const Result<GlbContents> contents = ReadGlb(glb);
+  ASSERT_TRUE(contents) << contents.error().message;
+  EXPECT_EQ(contents->surface.draco, e.draco);
+  ASSERT_TRUE(contents->skirt);
+  EXPECT_EQ(contents->skirt->draco, small.draco);
+  EXPECT_EQ(contents->skirt->vertex_count, 12);
+  EXPECT_EQ(contents->skirt->index_count, 3 * 2 * 3 * 2);
 }
 
 TEST(Glb, ReadingACutOrDamagedFileFailsWithAReason) {

@@ -20,7 +20,8 @@ TEST(ParseOptions, ReadsTheParametersOfAJob) {
                                                {"datumOperation", "EPSG:1693"},
                                                {"nodata", "-9999"},
                                                {"workBudget", "5000000000"},
-                                               {"approximate", "true"}});
+                                               {"approximate", "true"},
+                                               {"skirt", "12.5"}});
   ASSERT_TRUE(options);
   EXPECT_EQ(options->levels, 3);
   EXPECT_EQ(options->max_error_m, 2.5);
@@ -33,6 +34,13 @@ TEST(ParseOptions, ReadsTheParametersOfAJob) {
   EXPECT_EQ(options->nodata, std::vector<double>{-9999});
   EXPECT_EQ(options->work_budget, 5'000'000'000);
   EXPECT_TRUE(options->approximate);
+  EXPECT_EQ(options->skirt_m, 12.5);
+}
+
+TEST(ParseOptions, LeavesTheDepthOfSkirtsToTheLevels) {
+  EXPECT_EQ(ParseOptions({})->skirt_m, std::nullopt);
+  EXPECT_EQ(ParseOptions({{"skirt", "auto"}})->skirt_m, std::nullopt);
+  EXPECT_EQ(ParseOptions({{"skirt", "0"}})->skirt_m, 0);
 }
 
 TEST(ParseOptions, NamesWhatItDoesNotKnow) {
@@ -123,6 +131,7 @@ INSTANTIATE_TEST_SUITE_P(
                     BadParameter{"levels", "99999999999"}, BadParameter{"maxError", "0"},
                     BadParameter{"maxError", "-1"}, BadParameter{"maxError", "nan"},
                     BadParameter{"maxError", "inf"}, BadParameter{"maxError", "3m"},
+                    BadParameter{"skirt", "-1"}, BadParameter{"skirt", "deep"},
                     BadParameter{"silhouetteError", "-0.5"}, BadParameter{"formats", ""},
                     BadParameter{"formats", "stl"}, BadParameter{"nodata", ""},
                     BadParameter{"nodata", "1,"}, BadParameter{"nodata", "none"},

@@ -24,7 +24,7 @@ TEST(BuildFlags, AreTheParametersOfAJob) {
   const DemArguments arguments = Parsed(
       "a.tif --levels 3 --max-error 2.5 --silhouette-error 1 --formats drc,geojson "
       "--crs EPSG:32611 --vertical-datum EPSG:5703 --height-unit ft --datum-operation EPSG:1693 "
-      "--nodata -9999 --work-budget 1000 --approximate");
+      "--nodata -9999 --work-budget 1000 --approximate --skirt 20");
   EXPECT_EQ(arguments.path, "a.tif");
   EXPECT_EQ(arguments.flags.parameters, (Parameters{{"levels", "3"},
                                                     {"maxError", "2.5"},
@@ -36,7 +36,8 @@ TEST(BuildFlags, AreTheParametersOfAJob) {
                                                     {"datumOperation", "EPSG:1693"},
                                                     {"nodata", "-9999"},
                                                     {"workBudget", "1000"},
-                                                    {"approximate", "true"}}));
+                                                    {"approximate", "true"},
+                                                    {"skirt", "20"}}));
 }
 
 TEST(BuildFlags, AreThoseOfAllParameters) {

@@ -652,6 +652,31 @@ TEST(SqliteJobStore, RefusesAFileOfANewerVersion) {
   EXPECT_NE(opened.error().message.find("newer farhorizon"), std::string::npos);
 }
 
+TEST(SqliteJobStore, GoesOnWithAFirstStartThatWasCutOffBeforeItsTables) {
+  const TempDir folder;
+  const auto path = folder / "jobs.sqlite";
+  {
+    Database database;
+    database.Open(path);
+    database.Execute("PRAGMA journal_mode = WAL;");  // writes the first page
+    ASSERT_GT(database.Pragma("page_count"), 0);
+  }
+  EXPECT_TRUE(OpenSqliteJobStore(path));
+}
+
+TEST(SqliteJobStore, RefusesADatabaseOfAnotherProgram) {
+  const TempDir folder;
+  const auto path = folder / "jobs.sqlite";
+  {
+    Database database;
+    database.Open(path);
+    database.Execute("CREATE TABLE theirs (x);");
+  }
+  auto opened = OpenSqliteJobStore(path);
+  ASSERT_FALSE(opened);
+  EXPECT_NE(opened.error().message.find("no job store of farhorizon"), std::string::npos);
+}
+
 TEST(SqliteJobStore, NeverStartsAfreshOverAFileThatItCannotRead) {
   const TempDir folder;
   const auto path = folder / "jobs.sqlite";

@@ -113,8 +113,9 @@ class History:
                 self.check_results(service, job)
         return ends
 
-    def check_disk(self, service: Service) -> None:
-        """I7, of a stopped service: objects and rows against each other."""
+    def check_disk(self, service: Service, aside: bool = False) -> None:
+        """I7, of a stopped service: objects and rows against each other. aside: objects that nobody knows may have
+        been set aside."""
         database = sqlite3.connect(f"file:{service.data}/jobs.sqlite?mode=ro", uri=True)
         named = {row[0] for row in database.execute(
             "SELECT input_sha256 FROM jobs UNION SELECT sha256 FROM artifacts UNION "
@@ -122,8 +123,10 @@ class History:
         database.close()
         there, left = set(), []
         for folder, _, files in os.walk(service.data):
-            below = os.path.relpath(folder, service.data).split(os.sep)[0]
+            below, *rest = os.path.relpath(folder, service.data).split(os.sep)
             for name in files:
+                if aside and rest == ["stray"]:
+                    continue
                 if below == "objects" and len(name) == 64:
                     there.add(name)
                 elif below in ("spool", "work"):

@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "core/io/glb.h"
 #include "core/io/horizon_features.h"
@@ -206,6 +207,36 @@ TEST_F(Verify, ANodeThatPlacesTheMeshElsewhereIsFound) {
   EXPECT_TRUE(Names(False(), "lod0.glb has the lattice of its Draco stream"));
 }
 
+TEST_F(Verify, ASkirtOfAnotherDepthIsFound) {
+  Result<Report> report = ReadReport(SlurpFile(folder_ / "out" / "report.json"));
+  ASSERT_TRUE(report);
+  EXPECT_GT(report->levels[1].skirt_m, 0);
+  EXPECT_GT(report->levels[1].skirt_triangles, 2 * (29 + 23));
+  report->levels[1].skirt_m += report->levels[1].quantization_step_m;
+  SpillFile(folder_ / "out" / "report.json", WriteReport(*report));
+  const std::vector<std::string> lines = False();
+  EXPECT_TRUE(Names(lines, "lod1.glb skirt hangs from every edge of the rim"));
+  EXPECT_FALSE(Names(lines, "lod0.glb skirt"));
+  report->levels[0].skirt_m = 0;
+  SpillFile(folder_ / "out" / "report.json", WriteReport(*report));
+  EXPECT_TRUE(Names(False(), "lod0.glb skirt is there where the report has one"));
+}
+
+TEST_F(Verify, BuildsWithoutSkirtsAndWithDeepOnesHold) {
+  for (const double depth_m : {0.0, 1000.0}) {
+    options_.skirt_m = depth_m;
+    ASSERT_TRUE(BuildArtifacts(folder_ / "hills.asc", folder_ / "out", options_, control_));
+    const std::vector<std::string> lines = False();
+    EXPECT_TRUE(lines.empty()) << lines.front();
+    const Report report = *ReadReport(SlurpFile(folder_ / "out" / "report.json"));
+    EXPECT_EQ(report.levels[0].skirt_m, depth_m);
+    EXPECT_EQ(report.levels[0].skirt_triangles > 0, depth_m > 0);
+    const auto tileset = nlohmann::json::parse(SlurpFile(folder_ / "out" / "tileset.json"));
+    const double least_m = tileset["root"]["boundingVolume"]["region"][4];
+    EXPECT_EQ(least_m<report.dem.heights_m[0] - 1000, depth_m> 0);
+  }
+}
+
 TEST_F(Verify, ADracoStreamWithAnotherLatticeIsFound) {
   // Halves the step, in the bitstreams of both files.
   const double half = StepOf("lod1.drc") / 2;
@@ -352,10 +383,9 @@ TEST_F(Verify, FlagsThatAreNotTheLevelsAreFound) {
   ASSERT_TRUE(BuildArtifacts(folder_ / "hills.asc", folder_ / "out", options_, control_));
   const std::string bytes = SlurpFile(folder_ / "out" / "lod1.glb");
   const GlbContents contents = *ReadGlb({bytes.begin(), bytes.end()});
-  const DecodedMesh drc = Decode("lod1.drc");
-  DecodedMesh decoded = *DecodeDraco(contents.draco);
+  DecodedMesh decoded = *DecodeDraco(contents.surface.draco);
   decoded.mesh.posts.resize(decoded.mesh.positions.size());
-  const std::vector<std::uint8_t> glb = WriteGlb(contents.draco, decoded, {{0, 1}});
+  const std::vector<std::uint8_t> glb = WriteGlb(contents.surface.draco, decoded, {{0, 1}});
   SpillFile(folder_ / "out" / "lod1.glb", {glb.begin(), glb.end()});
   EXPECT_TRUE(Names(False(), "lod1.glb flags them and no others"));
 }
