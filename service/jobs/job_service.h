@@ -103,7 +103,8 @@ class JobService {
   /// coding: in which the artifact is wanted; it is given as it is where there is no such copy.
   /// Errors: kNotFound; kIo "result-corrupt" where the object is missing or damaged.
   Result<OpenArtifact> Open(const std::string& id, const std::string& name, Coding coding);
-  /// Dismisses the job, stops its worker and removes its objects. Errors: kNotFound.
+  /// Dismisses the job, stops its worker and removes its objects: soon, where results of another
+  /// are just being stored. Errors: kNotFound.
   Result<Job> Dismiss(const std::string& id);
 
   /// What accepting and running jobs depends on: the service is ready if all succeed. Writes to the
