@@ -12,8 +12,6 @@
 
 #include <proj.h>
 
-#include "core/geo/proj_session.h"
-
 namespace farhorizon {
 
 namespace {
@@ -66,9 +64,20 @@ void SealContext(PJ_CONTEXT* context) {
 const char* ProjDataFolder() { return kFolder.data(); }
 const char* GdalDataFolder() { return FARHORIZON_GDAL_DATA; }
 
-void OpenReferenceData() {
-  const ProjSession session;
-  const ProjObject crs(proj_create(session.get(), "EPSG:4326"));
+int ReferenceDataFd() {
+  std::error_code failure;
+  const std::filesystem::path opened =
+      std::filesystem::canonical(std::filesystem::path(kFolder) / "proj.db", failure);
+  if (failure) return -1;
+  const std::filesystem::directory_iterator end;
+  std::filesystem::directory_iterator fd("/proc/self/fd", failure);
+  for (; !failure && fd != end; fd.increment(failure)) {
+    std::error_code closed;  // of the descriptor that lists the others
+    if (std::filesystem::read_symlink(fd->path(), closed) == opened) {
+      return std::stoi(fd->path().filename().string());
+    }
+  }
+  return -1;
 }
 
 Status CheckReferenceData() {

@@ -15,9 +15,8 @@ void SealContext(pj_ctx* context);
 const char* ProjDataFolder();
 const char* GdalDataFolder();
 
-/// Opens the database for this process, which then need not do so for its first DEM. A process that
-/// was forked opens it anew.
-void OpenReferenceData();
+/// The descriptor on which this process has the database open; -1 where it has not.
+int ReferenceDataFd();
 
 /// Checks that the database is there. Errors: kIo, kind "reference-data", with the remedy.
 Status CheckReferenceData();

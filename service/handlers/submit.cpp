@@ -26,9 +26,17 @@ namespace {
 
 constexpr std::size_t kMaxKeyBytes = 256;
 
+// What the parameters of a request ask for.
+struct Wishes {
+  Parameters parameters;  // of the build
+  JobTerms terms;
+  BuildOptions options;
+};
+
 // The contents of the head of a submission.
 struct SubmissionHead {
   Parameters parameters;  // of the query, except the file name, with the job's terms
+  Wishes wishes;          // what they mean
   std::optional<std::string> filename;
   std::optional<std::string> idempotency_key;
   ContentDigest digest;
@@ -49,13 +57,16 @@ Result<std::optional<std::string>> ReadIdempotencyKey(const HttpRequest& request
   return std::optional<std::string>(key);
 }
 
-// parameters: those of the job, with its terms.
-Status CheckParameters(Parameters parameters, const TermBounds& bounds) {
-  Result<JobTerms> terms = TakeTerms(parameters, bounds);
+// Sets `head.wishes` from `head.parameters`.
+Status ReadWishes(const TermBounds& bounds, SubmissionHead& head) {
+  Parameters of_build = head.parameters;
+  Result<JobTerms> terms = TakeTerms(of_build, bounds);
   if (!terms) return std::move(terms.error());
-  Result<BuildOptions> options = ParseOptions(parameters);
+  Result<BuildOptions> options = ParseOptions(of_build);
   if (!options) return std::move(options.error());
-  return CheckOptions(*options);
+  if (Status checked = CheckOptions(*options); !checked) return checked;
+  head.wishes = {std::move(of_build), *terms, *std::move(options)};
+  return Ok{};
 }
 
 // Moves the file name out of the parameters of a job.
@@ -79,10 +90,9 @@ Result<SubmissionHead> ReadSubmissionHead(const HttpRequest& request, const Term
   }
   Result<ContentDigest> digest = ContentDigest::Of(request);
   if (!digest) return std::move(digest.error());
-  SubmissionHead head{*std::move(query), {}, *std::move(key), *std::move(digest)};
+  SubmissionHead head{*std::move(query), {}, {}, *std::move(key), *std::move(digest)};
   TakeFilename(head);
-  Status parameters = CheckParameters(head.parameters, bounds);
-  if (!parameters) return std::move(parameters.error());
+  if (Status read = ReadWishes(bounds, head); !read) return std::move(read.error());
   return head;
 }
 
@@ -98,7 +108,7 @@ Status AddFormParameters(const std::string& json, const TermBounds& bounds, Subm
                  "invalid-parameter"};
   }
   TakeFilename(head);
-  return CheckParameters(head.parameters, bounds);
+  return ReadWishes(bounds, head);
 }
 
 class SubmitExchange : public Exchange {
@@ -133,16 +143,13 @@ Result<Submission> SubmitExchange::ReadSubmission() {
     Status added = AddFormParameters(*body_.params(), context_.terms, head_);
     if (!added) return std::move(added.error());
   }
-  Result<JobTerms> terms = TakeTerms(head_.parameters, context_.terms);
-  if (!terms) return std::move(terms.error());
   const std::string name = head_.filename.value_or(body_.filename().value_or(""));
-  return Submission{SafeFilename(name),
-                    std::move(head_.parameters),
-                    std::move(head_.idempotency_key),
-                    {},
-                    request_.peer,
-                    *terms,
-                    {}};
+  return Submission{.filename = SafeFilename(name),
+                    .parameters = std::move(head_.wishes.parameters),
+                    .idempotency_key = std::move(head_.idempotency_key),
+                    .client = request_.peer,
+                    .terms = head_.wishes.terms,
+                    .options = std::move(head_.wishes.options)};
 }
 
 Result<Job> SubmitExchange::Submit() {

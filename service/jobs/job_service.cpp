@@ -165,7 +165,7 @@ Result<Job> JobService::Submit(const SpoolFile& upload, const Submission& submis
     engine_->Wake();
     return inserted;
   }
-  Status removed = collector_.RemoveUnreferenced({stored->sha256});
+  Status removed = collector_.RemoveUnlessPinned({stored->sha256});
   if (!removed) Log(LogLevel::kWarning, "an object is left", {{"error", removed.error().message}});
   return inserted;
 }
@@ -220,7 +220,7 @@ Result<Job> JobService::Dismiss(const std::string& id) {
   engine_->Cancel(id);
   std::vector<std::string> names = ObjectsOf(*artifacts);
   names.push_back(before->input_sha256);
-  Status removed = collector_.RemoveUnreferenced(names);
+  Status removed = collector_.RemoveUnlessPinned(names);
   if (!removed) Log(LogLevel::kWarning, "objects are left", {{"error", removed.error().message}});
   SetExpiry(*dismissed);
   return dismissed;

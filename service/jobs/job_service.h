@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/base/result.h"
+#include "core/pipeline/build_options.h"
 #include "service/jobs/data_directory.h"
 #include "service/jobs/housekeeper.h"
 #include "service/jobs/job_engine.h"
@@ -50,7 +51,8 @@ struct Submission {
   Assumptions assumptions = {};  ///< those of the probe
   std::string client = {};       ///< the peer's address
   JobTerms terms = {};
-  JobCost cost = {};  ///< likewise
+  JobCost cost = {};          ///< likewise
+  BuildOptions options = {};  ///< what the parameters mean
 };
 
 /// One thing that a service depends on.
@@ -88,7 +90,7 @@ class JobService {
 
   /// As UploadProbe::Look has it.
   Result<ProbeReport> Probe(const SpoolFile& upload, const Submission& submission) {
-    return probe_.Look(upload, submission.filename, submission.parameters);
+    return probe_.Look(upload, submission.filename, submission.parameters, submission.options);
   }
 
   /// Stores the bytes and an accepted job, durably, and returns the job: an earlier one where the
@@ -101,7 +103,8 @@ class JobService {
   /// coding: in which the artifact is wanted; it is given as it is where there is no such copy.
   /// Errors: kNotFound; kIo "result-corrupt" where the object is missing or damaged.
   Result<OpenArtifact> Open(const std::string& id, const std::string& name, Coding coding);
-  /// Dismisses the job, stops its worker and removes its objects. Errors: kNotFound.
+  /// Dismisses the job, stops its worker and removes its objects: soon, where results of another
+  /// are just being stored. Errors: kNotFound.
   Result<Job> Dismiss(const std::string& id);
 
   /// What accepting and running jobs depends on: the service is ready if all succeed. Writes to the

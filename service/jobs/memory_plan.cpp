@@ -21,9 +21,11 @@ constexpr std::int64_t kSmallestPosts = 257 * 257;
 constexpr std::int64_t kProbesShare = 4;
 constexpr std::int64_t kLeastOfProbe = 96 * kMebibyte;
 
-std::string Mebibytes(std::int64_t bytes) { return std::to_string(bytes / kMebibyte) + " MiB"; }
-
 }  // namespace
+
+std::string Mebibytes(std::int64_t bytes) {
+  return std::to_string((bytes + kMebibyte - 1) / kMebibyte) + " MiB";
+}
 
 Result<MemoryPlan> PlanMemory(const MemoryWishes& wishes) {
   std::int64_t budget = wishes.budget_bytes;

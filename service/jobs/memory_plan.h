@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 
 #include "core/base/result.h"
 
@@ -25,6 +26,9 @@ struct MemoryPlan {
   std::int64_t probe_bytes = 0;
   int probes = 1;
 };
+
+/// "256 MiB": rounded up, for messages.
+std::string Mebibytes(std::int64_t bytes);
 
 /// Errors: kInvalidArgument "invalid-config" where nothing is left for the smallest job.
 Result<MemoryPlan> PlanMemory(const MemoryWishes& wishes);

@@ -4,6 +4,15 @@ namespace farhorizon {
 
 Status ObjectCollector::RemoveUnreferenced(const std::vector<std::string>& names) {
   const std::unique_lock lock(mutex_);
+  return RemoveEach(names);
+}
+
+Status ObjectCollector::RemoveUnlessPinned(const std::vector<std::string>& names) {
+  const std::unique_lock lock(mutex_, std::try_to_lock);
+  return lock ? RemoveEach(names) : Ok{};
+}
+
+Status ObjectCollector::RemoveEach(const std::vector<std::string>& names) {
   for (const std::string& name : names) {
     Result<bool> referenced = jobs_.IsReferenced(name);
     if (!referenced) return std::move(referenced.error());

@@ -33,6 +33,10 @@ class ObjectCollector {
   /// Removes those of the objects `names` that no row references. Requires: they are this store's;
   /// the caller holds no lock of Pin.
   Status RemoveUnreferenced(const std::vector<std::string>& names);
+  /// The same without a wait for locks of Pin, of which one is held while large results are copied:
+  /// then the objects are left to the next RemoveUnacknowledged and RemoveGarbage.
+  /// Requires: they are incoming ones, or of removed jobs.
+  Status RemoveUnlessPinned(const std::vector<std::string>& names);
   /// Removes incoming objects that no row has come to name: of submissions and runs that failed.
   Status RemoveUnacknowledged();
   /// Removes what is left of the objects of removed jobs.
@@ -42,6 +46,8 @@ class ObjectCollector {
   Result<SortedObjects> SortOut();
 
  private:
+  /// Requires: mutex_ is held.
+  Status RemoveEach(const std::vector<std::string>& names);
   /// Those of the objects in a list that a row references, or that none does.
   Result<std::vector<std::string>> Select(ObjectList which, bool referenced);
 

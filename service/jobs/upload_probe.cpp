@@ -8,6 +8,7 @@
 
 #include "core/pipeline/build_cost.h"
 #include "core/pipeline/build_options.h"
+#include "service/jobs/memory_plan.h"
 #include "service/log.h"
 #include "service/worker/supervisor.h"
 #include "service/worker/worker_protocol.h"
@@ -30,10 +31,6 @@ WorkerLimits LimitsOf(const ProbeOptions& probe) {
   limits.file_bytes = std::int64_t{1} << 20U;  // a probe writes only what goes to standard error
   limits.folder_bytes = 2 * limits.file_bytes;
   return limits;
-}
-
-std::string Mebibytes(std::int64_t bytes) {
-  return std::to_string((bytes + (1 << 20) - 1) >> 20U) + " MiB";
 }
 
 // The cost of a job on so many posts, or why no worker may have as much.
@@ -72,7 +69,6 @@ UploadProbe::UploadProbe(fs::path folder, const ProbeOptions& options, RunnerOpt
 
 WorkerOutcome UploadProbe::Run(const fs::path& directory, const WorkerTask& task,
                                Assumptions& assumptions) {
-  assumptions.clear();
   WorkerOutcome outcome;
   if (Status written = WriteTaskFile(directory, task); !written) {
     outcome.error = std::move(written.error());
@@ -91,12 +87,10 @@ WorkerOutcome UploadProbe::Run(const fs::path& directory, const WorkerTask& task
 }
 
 Result<ProbeReport> UploadProbe::Look(const SpoolFile& upload, const std::string& filename,
-                                      const Parameters& parameters) {
+                                      const Parameters& parameters, BuildOptions options) {
   ProbeReport report;
   if (upload.bytes() > options_.max_bytes) return report;
-  Result<BuildOptions> options = ParseOptions(parameters);
-  if (!options) return std::move(options.error());
-  options->threads = runner_.threads;
+  options.threads = runner_.threads;
   const fs::path directory = folder_ / ("probe-" + std::to_string(next_++));
   const fs::path input = fs::path("in") / filename;
   std::error_code failure;
@@ -108,32 +102,15 @@ Result<ProbeReport> UploadProbe::Look(const SpoolFile& upload, const std::string
     fs::remove_all(directory, failure);
     return report;
   }
-  WorkerTask task{input.string(), "", parameters, runner_.max_posts, 1};
-  WorkerOutcome outcome = Run(directory, task, report.assumptions);
-  // The cells of a text grid are read with its header. Where there are too many for a probe, a
-  // second one, which may have no more than a job has memory for, ends at the header.
-  const bool short_of_memory =
-      outcome.end == WorkerEnd::kFailed && outcome.error.kind == "memory-limit";
-  const std::int64_t most = PostsWithin(runner_.limits.memory_bytes, *options);
-  bool too_many = false;
-  if (short_of_memory && !outcome.posts && most < task.max_posts) {
-    task.max_posts = most;
-    Assumptions ignored;
-    WorkerOutcome second = Run(directory, task, ignored);
-    too_many = second.end == WorkerEnd::kFailed && second.error.kind == "raster-too-large";
-    if (too_many) outcome = std::move(second);
-  }
+  WorkerOutcome outcome =
+      Run(directory, {input.string(), "", parameters, runner_.max_posts, 1}, report.assumptions);
   fs::remove_all(directory, failure);
-  if (too_many) {
-    return Error{ErrorCode::kResourceExhausted,
-                 outcome.error.message + "; more needs more than the " +
-                     Mebibytes(runner_.limits.memory_bytes) + " that a job may have here",
-                 "memory-limit"};
-  }
   // A worker that runs out of the probe's memory says so itself; a job may have more.
-  if (outcome.end == WorkerEnd::kFailed && !short_of_memory) return std::move(outcome.error);
+  if (outcome.end == WorkerEnd::kFailed && outcome.error.kind != "memory-limit") {
+    return std::move(outcome.error);
+  }
   if (!outcome.posts) return report;
-  Result<JobCost> cost = Judge(*outcome.posts, *options, runner_);
+  Result<JobCost> cost = Judge(*outcome.posts, options, runner_);
   if (!cost) return std::move(cost.error());
   report.cost = *cost;
   return report;

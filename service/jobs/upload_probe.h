@@ -6,6 +6,7 @@
 #include <semaphore>
 
 #include "core/base/result.h"
+#include "core/pipeline/build_options.h"
 #include "service/jobs/job.h"
 #include "service/jobs/job_runner.h"
 #include "service/jobs/spool_file.h"
@@ -40,10 +41,11 @@ class UploadProbe {
 
   /// Reads, places and plans the upload, without building anything. Succeeds, with what is known by
   /// then, also where the limits of the probe end the worker: the job has larger ones.
+  /// options: what `parameters` mean.
   /// Errors: those of TerrainInput::Open and PlanLevels; kResourceExhausted "memory-limit",
   ///   "timeout" where the job is expected to need more than one may have.
   Result<ProbeReport> Look(const SpoolFile& upload, const std::string& filename,
-                           const Parameters& parameters);
+                           const Parameters& parameters, BuildOptions options);
 
  private:
   /// Runs one probe. assumptions: those that it tells.

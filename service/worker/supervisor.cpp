@@ -17,6 +17,7 @@
 
 #include "service/metrics.h"
 #include "service/worker/folder_bytes.h"
+#include "service/worker/message_reader.h"
 #include "service/worker/worker_protocol.h"
 
 namespace farhorizon {
@@ -25,54 +26,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t kLongestLine = 16384;
 constexpr off_t kStderrTailBytes = 2000;
 // Eight beats. The thread that sends them needs a moment of a processor a second, which a machine
 // that swaps, or a start of the program on a slow disk, may refuse it for some.
 constexpr std::chrono::seconds kLongestSilence{8 * kBeatInterval};
-
-// Splits a worker's bytes into messages, passes progress and assumptions on and keeps the message
-// that ends the work.
-class MessageReader {
- public:
-  explicit MessageReader(const RunControl& control) : control_(control) {}
-
-  // False where the bytes violate the protocol.
-  bool Add(std::string_view bytes) {
-    buffer_ += bytes;
-    std::size_t end = 0;
-    while ((end = buffer_.find('\n')) != std::string::npos) {
-      if (!AddLine(std::string_view(buffer_).substr(0, end))) return false;
-      buffer_.erase(0, end + 1);
-    }
-    return buffer_.size() <= kLongestLine;
-  }
-  [[nodiscard]] const std::optional<WorkerMessage>& final_message() const { return final_message_; }
-  [[nodiscard]] std::optional<std::int64_t> posts() const { return posts_; }
-
- private:
-  bool AddLine(std::string_view line) {
-    std::optional<WorkerMessage> message = ReadMessage(line);
-    if (!message || final_message_) return false;
-    if (const auto* step = std::get_if<WorkerProgress>(&*message)) {
-      control_.Report(step->stage, step->done);
-    } else if (const auto* assumption = std::get_if<Assumption>(&*message)) {
-      if (++assumptions_ > kMostAssumptions) return false;
-      control_.Assume(*assumption);
-    } else if (const auto* size = std::get_if<WorkerSize>(&*message)) {
-      posts_ = size->posts;
-    } else if (!std::holds_alternative<WorkerBeat>(*message)) {
-      final_message_ = std::move(message);
-    }
-    return true;
-  }
-
-  const RunControl& control_;
-  std::size_t assumptions_ = 0;
-  std::optional<std::int64_t> posts_;
-  std::string buffer_;
-  std::optional<WorkerMessage> final_message_;
-};
 
 enum class WaitResult { kEnded, kStopped, kTimedOut, kSilent, kProtocolError, kFolderFull };
 

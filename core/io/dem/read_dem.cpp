@@ -125,7 +125,8 @@ Result<Dem> ReadOpened(OpenedDem opened) {
 
 Result<Dem> ReadDem(const std::filesystem::path& path, const DemReadOptions& options) {
   GdalSession session(path);
-  Result<OpenedRaster> raster = OpenRaster(path, options.max_posts, session);
+  Result<OpenedRaster> raster =
+      OpenRaster(path, {options.max_posts, options.most_decoded}, session);
   if (!raster) return std::move(raster.error());
   return ReadOpened({.dataset = raster->dataset.get(),
                      .path = path,

@@ -141,7 +141,7 @@ bool MayBeNumbersAlone(const std::string& filename) {
 
 }  // namespace
 
-Result<OpenedRaster> OpenRaster(const std::filesystem::path& path, std::int64_t max_cells,
+Result<OpenedRaster> OpenRaster(const std::filesystem::path& path, const GridLimits& limits,
                                 GdalSession& session) {
   std::error_code failure;
   const std::filesystem::path absolute = std::filesystem::absolute(path).lexically_normal();
@@ -161,12 +161,12 @@ Result<OpenedRaster> OpenRaster(const std::filesystem::path& path, std::int64_t 
       FindUnreadFormat(*beginning, facts.bytes, filename) != nullptr) {
     return UnreadFile(facts, Quoted(path), "");
   }
-  if (IsTextGrid(kind)) return OpenTextRaster(path, kind, max_cells);
+  if (IsTextGrid(kind)) return OpenTextRaster(path, kind, limits);
   Result<RasterPtr> dataset = OpenOfKind(absolute, kind, session);
   if (!dataset) return std::move(dataset.error());
   if (!*dataset) return UnreadFile(facts, Quoted(path), session.Complaint());
   session.Forget();
-  return OpenedRaster{std::move(*dataset)};
+  return OpenedRaster{.dataset = std::move(*dataset)};
 }
 
 }  // namespace farhorizon

@@ -5,6 +5,7 @@
 #include <array>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <cpl_conv.h>
 #include <cpl_string.h>
@@ -22,6 +23,36 @@ namespace farhorizon {
 
 namespace {
 
+Error NoMemory(std::int64_t columns, std::int64_t rows) {
+  return {ErrorCode::kResourceExhausted,
+          "no memory for the raster's " + std::to_string(columns) + " x " + std::to_string(rows) +
+              " cells",
+          "memory-limit"};
+}
+
+// A dataset of the size of `grid` whose rows all lie in one row of zeros, each a cell further on:
+// it takes no memory for cells that nobody reads. It must be closed before `zeros` goes.
+Result<RasterPtr> Unread(const TextGrid& grid, std::vector<float>& zeros) {
+  const auto columns = static_cast<int>(grid.columns);
+  const auto rows = static_cast<int>(grid.rows);
+  zeros.assign(static_cast<std::size_t>(grid.columns + grid.rows), 0);
+  std::array<char, 32> address{};
+  const int length = CPLPrintPointer(address.data(), zeros.data(), address.size() - 1);
+  CPLStringList options;
+  options.SetNameValue("DATAPOINTER",
+                       std::string(address.data(), static_cast<std::size_t>(length)).c_str());
+  options.SetNameValue("PIXELOFFSET", std::to_string(sizeof(float)).c_str());
+  options.SetNameValue("LINEOFFSET", std::to_string(sizeof(float)).c_str());
+  RasterPtr dataset(
+      GDALCreate(GDALGetDriverByName("MEM"), "", columns, rows, 0, GDT_Float32, nullptr));
+  std::array<double, 6> transform = grid.geotransform;
+  if (!dataset || GDALAddBand(dataset.get(), GDT_Float32, options.List()) != CE_None ||
+      GDALSetGeoTransform(dataset.get(), transform.data()) != CE_None) {
+    return NoMemory(grid.columns, grid.rows);
+  }
+  return dataset;
+}
+
 Result<RasterPtr> InMemory(const TextGrid& grid) {
   const auto columns = static_cast<int>(grid.columns);
   const auto rows = static_cast<int>(grid.rows);
@@ -34,10 +65,7 @@ Result<RasterPtr> InMemory(const TextGrid& grid) {
   if (band == nullptr || GDALSetGeoTransform(dataset.get(), transform.data()) != CE_None ||
       GDALRasterIO(band, GF_Write, 0, 0, columns, rows, cells, columns, rows, type, 0, 0) !=
           CE_None) {
-    return Error{ErrorCode::kResourceExhausted,
-                 "no memory for the raster's " + std::to_string(columns) + " x " +
-                     std::to_string(rows) + " cells",
-                 "memory-limit"};
+    return NoMemory(grid.columns, grid.rows);
   }
   if (grid.nodata) GDALSetRasterNoDataValue(band, *grid.nodata);
   return dataset;
@@ -76,11 +104,12 @@ void AddReferenceSystem(const std::filesystem::path& path, GDALDatasetH dataset)
   }
 }
 
-Result<XyzGrid> ReadGrid(const std::filesystem::path& path, FileKind kind, std::int64_t max_cells) {
-  if (kind == FileKind::kXyz) return ReadXyzList(path, max_cells);
-  Result<TextGrid> grid = kind == FileKind::kGrassGrid    ? ReadGrassGrid(path, max_cells)
-                          : kind == FileKind::kSurferText ? ReadSurferGrid(path, max_cells)
-                                                          : ReadArcGrid(path, max_cells);
+Result<XyzGrid> ReadGrid(const std::filesystem::path& path, FileKind kind,
+                         const GridLimits& limits) {
+  if (kind == FileKind::kXyz) return ReadXyzList(path, limits);
+  Result<TextGrid> grid = kind == FileKind::kGrassGrid    ? ReadGrassGrid(path, limits)
+                          : kind == FileKind::kSurferText ? ReadSurferGrid(path, limits)
+                                                          : ReadArcGrid(path, limits);
   if (!grid) return std::move(grid.error());
   return XyzGrid{std::move(*grid), true};
 }
@@ -88,13 +117,15 @@ Result<XyzGrid> ReadGrid(const std::filesystem::path& path, FileKind kind, std::
 }  // namespace
 
 Result<OpenedRaster> OpenTextRaster(const std::filesystem::path& path, FileKind kind,
-                                    std::int64_t max_cells) {
-  Result<XyzGrid> read = ReadGrid(path, kind, max_cells);
+                                    const GridLimits& limits) {
+  Result<XyzGrid> read = ReadGrid(path, kind, limits);
   if (!read) return std::move(read.error());
-  Result<RasterPtr> dataset = InMemory(read->grid);
+  const bool unread = read->grid.cells.size() == 0;
+  OpenedRaster opened;
+  Result<RasterPtr> dataset = unread ? Unread(read->grid, opened.unread) : InMemory(read->grid);
   if (!dataset) return std::move(dataset.error());
   if (kind == FileKind::kArcGrid) AddReferenceSystem(path, dataset->get());
-  OpenedRaster opened{std::move(*dataset), {}};
+  opened.dataset = std::move(*dataset);
   if (kind == FileKind::kXyz && !read->order_is_stated) {
     opened.assumptions.push_back(
         {"xyz-order",

@@ -30,7 +30,7 @@ const char* NoDataKey(const GridHeader& header) {
 
 }  // namespace
 
-Result<TextGrid> ReadArcGrid(const std::filesystem::path& path, std::int64_t max_cells) {
+Result<TextGrid> ReadArcGrid(const std::filesystem::path& path, const GridLimits& limits) {
   Result<TextWords> words = TextWords::Open(path);
   if (!words) return std::move(words.error());
   Result<GridHeader> header = GridHeader::Read(*words, kKeys);
@@ -52,8 +52,8 @@ Result<TextGrid> ReadArcGrid(const std::filesystem::path& path, std::int64_t max
   Result<std::array<double, 6>> place = LowerLeftPlace(*header, *rows);
   if (!place) return std::move(place.error());
   grid.geotransform = *place;
-  if (Status fits = CheckGridSize(grid, max_cells); !fits) return std::move(fits.error());
-  BodyRules rules;
+  if (Status fits = CheckGridSize(grid, limits.max_cells); !fits) return std::move(fits.error());
+  BodyRules rules{.most_read = limits.most_read};
   if (nodata != nullptr) {
     if (ParseNumber(nodata->text)) {
       Result<double> number = header->NumberOrNan(NoDataKey(*header));

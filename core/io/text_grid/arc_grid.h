@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 
 #include "core/base/result.h"
@@ -16,8 +15,9 @@ namespace farhorizon {
 /// columns * rows in lines that fit (GridLines). A cell that is no number is NaN where NODATA_value
 /// is just that word ("NA", "null", "-").
 /// Errors: kUnsupportedData, kinds "not-a-raster", "truncated"; kResourceExhausted
-///   "raster-too-large" where the header says more than `max_cells`; kIo.
-/// Cost: one pass; 4 bytes for each cell that the file has, however many the header says.
-Result<TextGrid> ReadArcGrid(const std::filesystem::path& path, std::int64_t max_cells);
+///   "raster-too-large" where the header says more than `limits.max_cells`; kIo.
+/// Cost: one pass; 4 bytes for each cell that the file has, however many the header says. Where the
+///   cells stay unread, only the header is read.
+Result<TextGrid> ReadArcGrid(const std::filesystem::path& path, const GridLimits& limits);
 
 }  // namespace farhorizon

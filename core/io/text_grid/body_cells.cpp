@@ -84,6 +84,7 @@ Status CheckGridSize(const TextGrid& grid, std::int64_t max_cells) {
 
 Status ReadBody(TextWords& words, TextWord first, const BodyRules& rules, TextGrid& grid) {
   const std::int64_t wanted = grid.columns * grid.rows;
+  if (wanted > rules.most_read) return Ok{};
   GridLines lines(grid.columns);
   CommaRule commas;
   grid.cells.Reserve(static_cast<std::size_t>(std::min(wanted, kReservedCells)));

@@ -26,7 +26,7 @@ Result<double> CellAlong(const GridHeader& header, const std::string& low, const
 
 }  // namespace
 
-Result<TextGrid> ReadGrassGrid(const std::filesystem::path& path, std::int64_t max_cells) {
+Result<TextGrid> ReadGrassGrid(const std::filesystem::path& path, const GridLimits& limits) {
   Result<TextWords> words = TextWords::Open(path);
   if (!words) return std::move(words.error());
   Result<GridHeader> header = GridHeader::Read(
@@ -47,8 +47,8 @@ Result<TextGrid> ReadGrassGrid(const std::filesystem::path& path, std::int64_t m
   Result<double> height = CellAlong(*header, "south:", "north:", *rows);
   if (!height) return std::move(height.error());
   grid.geotransform = {*header->Number("west:"), *width, 0, *header->Number("north:"), 0, -*height};
-  if (Status fits = CheckGridSize(grid, max_cells); !fits) return std::move(fits.error());
-  BodyRules rules = {.null_word = "*"};
+  if (Status fits = CheckGridSize(grid, limits.max_cells); !fits) return std::move(fits.error());
+  BodyRules rules = {.null_word = "*", .most_read = limits.most_read};
   if (const TextWord* null = header->Find("null:")) {
     if (const std::optional<TextNumber> number = ParseNumber(null->text)) {
       grid.nodata = number->value;

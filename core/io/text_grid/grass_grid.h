@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 
 #include "core/base/result.h"
@@ -12,6 +11,6 @@ namespace farhorizon {
 /// type: where they are there, then the cells, row by row from the north. A cell that is the word
 /// of null:, or "*", is NaN.
 /// Errors and cost: as ReadArcGrid.
-Result<TextGrid> ReadGrassGrid(const std::filesystem::path& path, std::int64_t max_cells);
+Result<TextGrid> ReadGrassGrid(const std::filesystem::path& path, const GridLimits& limits);
 
 }  // namespace farhorizon

@@ -43,7 +43,7 @@ bool IsSide(double cells) {
 
 }  // namespace
 
-Result<TextGrid> ReadSurferGrid(const std::filesystem::path& path, std::int64_t max_cells) {
+Result<TextGrid> ReadSurferGrid(const std::filesystem::path& path, const GridLimits& limits) {
   Result<TextWords> words = TextWords::Open(path);
   if (!words) return std::move(words.error());
   TextWord word;
@@ -61,9 +61,10 @@ Result<TextGrid> ReadSurferGrid(const std::filesystem::path& path, std::int64_t 
   const double width = (east - west) / (columns - 1);
   const double height = (north - south) / (rows - 1);
   grid.geotransform = {west - width / 2, width, 0, north + height / 2, 0, -height};
-  if (Status fits = CheckGridSize(grid, max_cells); !fits) return std::move(fits.error());
+  if (Status fits = CheckGridSize(grid, limits.max_cells); !fits) return std::move(fits.error());
   words->Next(word);
-  Status filled = ReadBody(*words, std::move(word), {.nodata_number = "1.70141e38"}, grid);
+  const BodyRules rules = {.nodata_number = "1.70141e38", .most_read = limits.most_read};
+  Status filled = ReadBody(*words, std::move(word), rules, grid);
   if (!filled) return std::move(filled.error());
   if (grid.cells.is_float()) grid.nodata = kBlank;  // no whole number can be that
   grid.cells.FlipRows(static_cast<std::size_t>(grid.columns));

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -39,6 +40,13 @@ struct TextGrid {
   GridCells cells = {};                     ///< columns x rows
   std::array<double, 6> geotransform = {};  ///< as GDAL has it, of cell corners
   std::optional<double> nodata = {};        ///< as the file states it
+};
+
+/// How large a grid may be.
+struct GridLimits {
+  std::int64_t max_cells = 0;  ///< one with more is refused
+  /// Of one with more, the cells stay unread: TextGrid::cells is empty.
+  std::int64_t most_read = std::numeric_limits<std::int64_t>::max();
 };
 
 }  // namespace farhorizon

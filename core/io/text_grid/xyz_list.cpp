@@ -112,7 +112,7 @@ Status FillCells(XyzPoints& reader, const Axis& x, const Axis& y, std::vector<fl
 
 }  // namespace
 
-Result<XyzGrid> ReadXyzList(const std::filesystem::path& path, std::int64_t max_cells) {
+Result<XyzGrid> ReadXyzList(const std::filesystem::path& path, const GridLimits& limits) {
   Result<XyzPoints> reader = XyzPoints::Open(path);
   if (!reader) return std::move(reader.error());
   Axis x;
@@ -134,7 +134,10 @@ Result<XyzGrid> ReadXyzList(const std::filesystem::path& path, std::int64_t max_
   list.grid.rows = y.count();
   list.grid.geotransform = {x.low() - x.step() / 2,  x.step(), 0,
                             y.high() + y.step() / 2, 0,        -y.step()};
-  if (Status fits = CheckGridSize(list.grid, max_cells); !fits) return std::move(fits.error());
+  if (Status fits = CheckGridSize(list.grid, limits.max_cells); !fits) {
+    return std::move(fits.error());
+  }
+  if (x.count() * y.count() > limits.most_read) return list;
   std::vector<float> cells(static_cast<std::size_t>(x.count() * y.count()),
                            std::numeric_limits<float>::quiet_NaN());
   Result<XyzPoints> again = XyzPoints::Open(path);

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 
 #include "core/base/result.h"
@@ -23,7 +22,7 @@ struct XyzGrid {
 /// cells must.
 /// Errors: kUnsupportedData "not-a-raster", which names the line; kResourceExhausted
 ///   "raster-too-large"; kIo.
-/// Cost: two passes; 4 bytes a cell.
-Result<XyzGrid> ReadXyzList(const std::filesystem::path& path, std::int64_t max_cells);
+/// Cost: two passes; 4 bytes a cell. Where the cells stay unread, one pass.
+Result<XyzGrid> ReadXyzList(const std::filesystem::path& path, const GridLimits& limits);
 
 }  // namespace farhorizon

@@ -26,6 +26,7 @@ struct Containment {
   /// Those for the second process of a PID namespace, as each worker is where there are such.
   const SyscallFilter* own_filter = nullptr;    ///< of this program
   const SyscallFilter* other_filter = nullptr;  ///< of another
+  int reference_data = -1;  ///< as ReferenceDataFd has it; where -1, the worker opens its own
   /// Whether to find out which layers can be had: then one that cannot be is no failure, and the
   /// child does no work but writes to the message pipe which there are.
   bool trial = false;

@@ -23,6 +23,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/geo/reference_data.h"
 #include "core/io/file.h"
 #include "core/io/posix_file.h"
 #include "service/worker/run_task.h"
@@ -66,6 +67,7 @@ bool HasOneThread() {
 // One for a job and one for a look at an upload, which come in turns.
 constexpr std::size_t kWaiting = 2;
 
+// To be made when the process is warm.
 class SpawnerLoop {
  public:
   // Which layers there are, as a child finds out.
@@ -147,7 +149,8 @@ class SpawnerLoop {
   Result<ContainedChild> StartOne() {
     Result<ContainedChild> child = StartContained({.layers = layers_,
                                                    .own_filter = Ready(own_filter_),
-                                                   .other_filter = Ready(other_filter_)});
+                                                   .other_filter = Ready(other_filter_),
+                                                   .reference_data = reference_data_});
     if (child) keepers_.insert(child->pid);
     return child;
   }
@@ -181,6 +184,8 @@ class SpawnerLoop {
 
   std::optional<SyscallFilter> own_filter_ = MakeSyscallFilter(kWorkerPid, false);
   std::optional<SyscallFilter> other_filter_ = MakeSyscallFilter(kWorkerPid, true);
+  // Greater than those that a child replaces: they were taken when it was opened.
+  const int reference_data_ = ReferenceDataFd();
   SandboxLayers layers_;
   std::set<pid_t> keepers_;
   std::deque<ContainedChild> waiting_;
@@ -196,13 +201,15 @@ int RunSpawner() {
   ::sigaddset(&signals, SIGCHLD);
   ::sigprocmask(SIG_BLOCK, &signals, nullptr);
   const UniqueFd ended_children(::signalfd(-1, &signals, SFD_CLOEXEC | SFD_NONBLOCK));
-  SpawnerLoop loop;
-  if (!ended_children || !WarmUp() || !HasOneThread() || !loop.FindLayers() || !loop.SayReady()) {
-    std::fprintf(stderr, "farhorizon: the process that starts workers cannot get ready\n");
-    return 70;
+  if (ended_children && WarmUp() && HasOneThread()) {
+    SpawnerLoop loop;
+    if (loop.FindLayers() && loop.SayReady()) {
+      loop.Serve(ended_children.get());
+      return 0;
+    }
   }
-  loop.Serve(ended_children.get());
-  return 0;
+  std::fprintf(stderr, "farhorizon: the process that starts workers cannot get ready\n");
+  return 70;
 }
 
 }  // namespace farhorizon

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -95,6 +96,42 @@ TEST_F(OnTheGlobe, TheHeaderAloneIsPlacedAsTheWholeIs) {
   // The row beyond the pole may have no data.
   MakeDegrees(7, 90.0015, 0.001);
   EXPECT_TRUE(header());
+}
+
+// Its cells are not even looked at: the words are no numbers, and most are not there.
+TEST_F(OnTheGlobe, OfTextTheHeaderAloneIsPlacedToo) {
+  BuildOptions options;
+  options.crs = "EPSG:32610";
+  const auto header = [&](const std::string& name, const std::string& text) {
+    SpillFile(folder_ / name, text);
+    return TerrainInput::Open(folder_ / name, options, control_, 2999);
+  };
+  const std::string arc = "ncols 60\nnrows 50\nxllcorner 500000\nyllcorner 4000000\ncellsize 30\n";
+  const std::string grass =
+      "north: 4001500\nsouth: 4000000\neast: 501800\nwest: 500000\nrows: 50\ncols: 60\n";
+  const std::string surfer = "DSAA\n60 50\n500015 501785\n4000015 4001485\n0 100\n";
+  const std::pair<const char*, std::string> grids[] = {
+      {"a.asc", arc + "1 x"}, {"b.txt", grass + "1 x"}, {"c.grd", surfer + "1 x"}};
+  for (const auto& [name, text] : grids) {
+    Result<std::unique_ptr<TerrainInput>> input = header(name, text);
+    ASSERT_TRUE(input) << name << ": " << input.error().message;
+    EXPECT_TRUE((*input)->HeaderOnly()) << name;
+    EXPECT_EQ((*input)->posts(), 3000) << name;
+  }
+  std::string points;
+  for (int i = 0; i < 3000; ++i) {
+    points += std::to_string(500000 + 30 * (i % 60)) + " " +
+              std::to_string(4000000 + 30 * (i / 60)) + " 5\n";
+  }
+  Result<std::unique_ptr<TerrainInput>> list = header("d.xyz", points);
+  ASSERT_TRUE(list) << list.error().message;
+  EXPECT_TRUE((*list)->HeaderOnly());
+  EXPECT_EQ((*list)->posts(), 3000);
+
+  const std::string far = "ncols 60\nnrows 50\nxllcorner 7e9\nyllcorner 4000000\ncellsize 30\n";
+  Result<std::unique_ptr<TerrainInput>> outside = header("a.asc", far);
+  ASSERT_FALSE(outside);
+  EXPECT_EQ(outside.error().kind, "outside-crs");
 }
 
 TEST_F(OnTheGlobe, ARegionAcross180DegreesHasItsWestEastOfItsEast) {

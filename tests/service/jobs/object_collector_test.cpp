@@ -1,5 +1,7 @@
 #include "service/jobs/object_collector.h"
 
+#include <thread>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -69,6 +71,28 @@ TEST_F(ObjectCollectorTest, RemovesWhatRemovedJobsHaveLeft) {
   EXPECT_EQ(ObjectCollector(*jobs_, *objects_).SortOut()->strays, 0);
   EXPECT_EQ(*objects_->List(ObjectList::kAll), std::vector<std::string>{shared});
   EXPECT_THAT(*jobs_->Garbage(), testing::IsEmpty());
+}
+
+TEST_F(ObjectCollectorTest, LeavesToLaterWhatItWouldHaveToWaitFor) {
+  const std::string input = Put("input");
+  objects_->Keep({input});
+  const auto job = jobs_->Insert({"a", {}, input, 5, {}}, {}, 1);
+  ASSERT_TRUE(jobs_->ClaimNext(2, {}));
+  ASSERT_TRUE(*jobs_->Publish(job->id, 1, {}, {}, 3));
+  ASSERT_TRUE(jobs_->Dismiss(job->id, 4));
+  const std::string incoming = Put("incoming");
+  ObjectCollector collector(*jobs_, *objects_);
+  {
+    const auto pin = collector.Pin();  // results are being stored
+    std::thread([&] { EXPECT_TRUE(collector.RemoveUnlessPinned({input, incoming})); }).join();
+    EXPECT_EQ(objects_->List(ObjectList::kAll)->size(), 2U);
+  }
+  EXPECT_TRUE(collector.RemoveUnacknowledged());
+  EXPECT_TRUE(collector.RemoveGarbage());
+  EXPECT_THAT(*objects_->List(ObjectList::kAll), testing::IsEmpty());
+  const std::string at_once = Put("at once");
+  EXPECT_TRUE(collector.RemoveUnlessPinned({at_once}));
+  EXPECT_THAT(*objects_->List(ObjectList::kAll), testing::IsEmpty());
 }
 
 TEST_F(ObjectCollectorTest, RemovesOnlyTheObjectsThatAreNamed) {

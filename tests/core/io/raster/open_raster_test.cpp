@@ -23,7 +23,7 @@ class OpenRasterTest : public ::testing::Test {
   std::vector<double> Cells(const std::string& name) {
     const std::filesystem::path path = dir_ / name;
     GdalSession session(path);
-    Result<OpenedRaster> raster = OpenRaster(path, 1'000'000, session);
+    Result<OpenedRaster> raster = OpenRaster(path, {1'000'000}, session);
     if (!raster) throw std::runtime_error(raster.error().message);
     const GDALDatasetH dataset = raster->dataset.get();
     const int columns = GDALGetRasterXSize(dataset);
@@ -40,7 +40,7 @@ class OpenRasterTest : public ::testing::Test {
   std::string Refusal(const std::string& name) {
     const std::filesystem::path path = dir_ / name;
     GdalSession session(path);
-    Result<OpenedRaster> raster = OpenRaster(path, 1'000'000, session);
+    Result<OpenedRaster> raster = OpenRaster(path, {1'000'000}, session);
     if (raster) return "opened";
     EXPECT_THAT(raster.error().message, ::testing::Not(HasSubstr(dir_.path().string())));
     return std::string(raster.error().kind) + ": " + raster.error().message;
@@ -143,7 +143,7 @@ TEST_F(OpenRasterTest, SaysHowTheColumnsOfAListWereTaken) {
   for (const auto& [name, codes] : {std::pair("list.xyz", 1), std::pair("named.xyz", 0)}) {
     EXPECT_THAT(Cells(name), ::testing::ElementsAre(3, 4, 1, 2));
     GdalSession session(dir_ / name);
-    Result<OpenedRaster> raster = OpenRaster(dir_ / name, 100, session);
+    Result<OpenedRaster> raster = OpenRaster(dir_ / name, {100}, session);
     ASSERT_TRUE(raster);
     EXPECT_EQ(std::ranges::count(raster->assumptions, "xyz-order", &Assumption::code), codes)
         << name;
@@ -196,7 +196,7 @@ TEST_F(OpenRasterTest, SaysWhatIsNoFile) {
   EXPECT_THAT(Refusal("grid"), HasSubstr("is a folder"));
   const std::filesystem::path address = "https://example.org/dem.tif";
   GdalSession session(address);
-  Result<OpenedRaster> raster = OpenRaster(address, 100, session);
+  Result<OpenedRaster> raster = OpenRaster(address, {100}, session);
   ASSERT_FALSE(raster);
   EXPECT_THAT(raster.error().message, HasSubstr("it is an address"));
 }

@@ -22,7 +22,7 @@ class ArcGrid : public ::testing::Test {
  protected:
   Result<TextGrid> Read(const std::string& text) {
     SpillFile(dir_ / "dem.asc", text);
-    return ReadArcGrid(dir_ / "dem.asc", 1000);
+    return ReadArcGrid(dir_ / "dem.asc", {1000});
   }
   TextGrid MustRead(const std::string& text) {
     Result<TextGrid> grid = Read(text);

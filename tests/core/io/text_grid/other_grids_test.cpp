@@ -34,14 +34,14 @@ class TextFormats : public ::testing::Test {
   template <typename Read>
   auto Must(Read read, const std::string& text) {
     SpillFile(dir_ / "dem.txt", text);
-    auto grid = read(dir_ / "dem.txt", 1000);
+    auto grid = read(dir_ / "dem.txt", GridLimits{1000});
     if (!grid) throw std::runtime_error(grid.error().message);
     return *grid;
   }
   template <typename Read>
   std::string Refusal(Read read, const std::string& text) {
     SpillFile(dir_ / "dem.txt", text);
-    auto grid = read(dir_ / "dem.txt", 1000);
+    auto grid = read(dir_ / "dem.txt", GridLimits{1000});
     return grid ? "read" : std::string(grid.error().kind) + ": " + grid.error().message;
   }
 
