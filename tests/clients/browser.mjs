@@ -17,7 +17,7 @@ export const launch = (packages, executablePath) => {
 export const openPage = async (browser, base, { width, height, scheme = 'light' }) => {
   const context = await browser.newContext({ viewport: { width, height }, colorScheme: scheme });
   const page = await context.newPage();
-  page.setDefaultTimeout(60_000);
+  page.setDefaultTimeout(120_000);
   const faults = [];
   page.on('console', (message) => { if (message.type() === 'error') faults.push(message.text()); });
   page.on('pageerror', (failure) => faults.push(String(failure)));

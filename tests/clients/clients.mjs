@@ -36,7 +36,7 @@ const checkClient = async (browser, base, dir, index, client) => {
       `&heading=${look.heading}&pitch=${look.pitch}&range=${look.range}`);
     const result = await page.waitForFunction(() => globalThis.result)
       .then((handle) => handle.jsonValue())
-      .catch(() => ({ client, failures: ['the tiles do not settle in a minute'] }));
+      .catch(() => ({ client, failures: ['the tiles do not settle in two minutes'] }));
     const took = Date.now() - began;
     const png = await page.screenshot();
     writeFileSync(join(pictures, `${basename(dir)}-${client}-${name}.png`), png);

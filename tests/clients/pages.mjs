@@ -26,6 +26,8 @@ const startService = async (farhorizon, cesium, data) => {
   return { base: `http://127.0.0.1:${port}`, stop: () => service.kill('SIGTERM') };
 };
 
+// Of a job on a machine that does much else.
+const kJobTime = 600_000;
 const kKinds = [
   { width: 1280, height: 800, scheme: 'light' }, { width: 1280, height: 800, scheme: 'dark' },
   { width: 390, height: 844, scheme: 'light' }, { width: 390, height: 844, scheme: 'dark' },
@@ -36,11 +38,13 @@ const sendDem = async ({ browser, base, dem, report }) => {
   const { page, faults, close } = await openPage(browser, base, kKinds[0]);
   await page.goto(`${base}/`);
   const began = Date.now();
+  await page.getByText('Options').click();
+  await page.getByLabel('Levels').fill('3');
   await page.setInputFiles('#file', dem);
   const row = page.locator('.job', { hasText: basename(dem) }).first();
   await row.waitFor();
   await page.waitForFunction(() => document.querySelector('.job')?.matches('.successful, .failed'),
-    null, { polling: 50 });
+    null, { polling: 50, timeout: kJobTime });
   const done = Date.now();
   if (!(await row.getAttribute('class')).includes('successful')) faults.push('the job has failed');
   await row.getByRole('button', { name: 'Artifacts' }).click();
