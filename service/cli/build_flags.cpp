@@ -59,8 +59,18 @@ void AddBuildFlags(Command& command, BuildFlags& flags) {
   Add(command, flags, "skirt", "auto|M",
       "depth of the walls at the tile's sides and around holes, metres; 0: none (auto: as deep as "
       "the errors of the level and of the coarsest one)");
+  AddTileFlags(command, flags);
   AddReadFlags(command, flags);
   AddWorkFlags(command, flags);
+}
+
+void AddTileFlags(Command& command, BuildFlags& flags) {
+  Add(command, flags, "frame", "tile|LON,LAT|globe",
+      "axes that positions are rounded along: the tile's own east, north and up, those at a place, "
+      "or earth-fixed ones; tiles of one frame share posts bit for bit (tile)");
+  Add(command, flags, "apron", "N",
+      "the N outermost rows and columns on each side are the neighbours' ground: they give normals "
+      "and are not meshed (0)");
 }
 
 void AddReadFlags(Command& command, BuildFlags& flags) {
