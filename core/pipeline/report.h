@@ -42,9 +42,9 @@ struct LevelAsked {
 /// exact: before vertices were rounded to be encoded, its skyline was the DEM's. vertical,
 /// silhouette, rim_m, facet_angle_deg (root mean square), needle_share: as MeshError has them.
 /// quantization_step_m, side_step_m: positions are multiples of the former, those on the tile's
-/// four sides of the latter. seam_reach: as MeanNormals has it, 0 without an apron. skirt_m, skirt_triangles: how deep the skirt in the GLB is, and its
-/// triangles, which `triangles` leaves out; 0 where there is none. glb_bytes, drc_bytes: 0 where
-/// there is no such file.
+/// four sides of the latter. seam_reach: as MeanNormals has it, 0 without an apron. skirt_m,
+/// skirt_triangles: how deep the skirt in the GLB is, and its triangles, which `triangles` leaves
+/// out; 0 where there is none. glb_bytes, drc_bytes: 0 where there is no such file.
 struct LevelReport {
   int level = 0;
   bool exact = false;

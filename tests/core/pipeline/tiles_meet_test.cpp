@@ -26,8 +26,8 @@ namespace {
 // Posts of the whole DEM, [column, row].
 using Post = std::array<int, 2>;
 
-// A level as decoded: where its vertices are on the globe and how they are lit, in earth-fixed axes,
-// by post of the whole DEM.
+// A level as decoded: where its vertices are on the globe and how they are lit, in earth-fixed
+// axes, by post of the whole DEM.
 struct DecodedLevel {
   LevelReport report;
   std::map<Post, Ecef> places;
