@@ -240,7 +240,8 @@ Status BuildArtifacts(const fs::path& dem, const fs::path& directory, const Buil
   if (!chain) return std::move(chain.error());
 
   control.Report(Stage::kEncode, 0);
-  Result<PostNormals> normals = FindPostNormals((*input)->terrain(), (*input)->georeference());
+  Result<PostNormals> normals =
+      FindPostNormals((*input)->around(), (*input)->georeference(), (*input)->apron());
   if (!normals) return std::move(normals.error());
   ArtifactWriter writer(directory);
   Status opened = writer.Open();
@@ -284,7 +285,8 @@ Status BuildArtifacts(const fs::path& dem, const fs::path& directory, const Buil
                       (*input)->assumptions(),
                       static_cast<std::int64_t>(horizon->edges.size()),
                       horizon->statistics,
-                      levels->reports};
+                      levels->reports,
+                      FrameReport{options.frame, (*input)->georeference().frame().EnuToEcef()}};
   Status reported = writer.Add("report.json", WriteReport(report));
   if (!reported) return reported;
   Result<std::string> html = page->Write({report, *features, writer.entries(), control.Timings()});

@@ -18,6 +18,8 @@ namespace {
 // Each of these is compared with every post of the DEM.
 constexpr std::size_t kMostNodataValues = 16;
 constexpr int kMostLevels = 12;
+// Far wider than the ground that lights a side (SeamReach).
+constexpr int kMostApron = 1000;
 // A triangulation has two triangles or more; no raster that is read has more than this.
 constexpr std::int64_t kFewestTriangles = 2;
 constexpr std::int64_t kMostTriangles = 1'000'000'000;
@@ -176,6 +178,20 @@ constexpr std::array kParameters = {
                 if (given.value == "auto") return Ok{};
                 return ReadMetres(given, "auto, or a number of metres", options.skirt_m.emplace());
               }},
+    Parameter{"frame",
+              [](const Given& given, Options& options) -> Status {
+                const std::optional<FrameChoice> frame = FrameFromText(given.value);
+                if (!frame) {
+                  return given.Expected(
+                      "tile, globe, or longitude and latitude in degrees such as 7.5,46");
+                }
+                options.frame = *frame;
+                return Ok{};
+              }},
+    Parameter{"apron",
+              [](const Given& given, Options& options) {
+                return ReadCount(given, "a whole number from 0 to 1000", options.apron);
+              }},
 };
 
 Error NoSuchParameter(const std::string& name) {
@@ -253,6 +269,9 @@ Status CheckOptions(const BuildOptions& options) {
   }
   if (options.skirt_m && !(*options.skirt_m >= 0 && *options.skirt_m <= 1e5)) {
     return Given{"skirt", Text(*options.skirt_m)}.Expected("auto, or 0 to 100000 metres");
+  }
+  if (options.apron < 0 || options.apron > kMostApron) {
+    return Given{"apron", std::to_string(options.apron)}.Expected("0 to 1000");
   }
   if (options.formats.empty()) return Given{"formats", ""}.Expected("at least one format");
   constexpr std::array kKnown = {"3dtiles", "drc", "geojson", "flatgeobuf", "quantized-mesh"};

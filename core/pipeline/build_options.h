@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/base/result.h"
+#include "core/geo/frame_choice.h"
 #include "core/horizon/find_horizon.h"
 
 namespace farhorizon {
@@ -43,6 +44,9 @@ struct BuildOptions {
   EdgeFiles edges = EdgeFiles::kLines;
   /// How deep skirts are, metres; 0: none; unset: as SkirtDepths has it.
   std::optional<double> skirt_m;
+  FrameChoice frame = {};  ///< whose axes the lattice has
+  /// Rows and columns on each side that are the neighbours' ground: for normals, not meshed.
+  int apron = 0;
   int threads = 1;  ///< never changes a byte of the result
 };
 

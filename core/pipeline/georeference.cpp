@@ -24,7 +24,32 @@ double Distance(const Ecef& a, const Ecef& b) {
 Georeference::Georeference(const Dem& dem, GlobeTransform transform, TangentFrame frame)
     : dem_(&dem), transform_(std::move(transform)), frame_(frame) {}
 
-Result<Georeference> Georeference::Of(const Terrain& terrain, GlobeOptions options) {
+// Turns the frame from the tile's own axes to others. The origin is at a multiple of a power of two
+// within an eighth of the diagonal: that is more than a 16th of a cell, the greatest step of a side
+// (StepsOfLevel), and more than the step that kMaxLatticeBits reach over the tile with; and near
+// enough to the middle for ExactInFloat.
+Status Georeference::TurnTo(const FrameChoice& axes) {
+  axes_ = axes;
+  if (axes.axes == FrameAxes::kTile) return Ok{};
+  TangentFrame common = TangentFrame::EarthFixed();
+  if (axes.axes == FrameAxes::kPlace) {
+    const Geodetic place = {axes.lon_deg, axes.lat_deg, 0};
+    Result<std::vector<Ecef>> ecef = transform_.ToEcef({place});
+    if (!ecef) return std::move(ecef.error());
+    common = TangentFrame(place, ecef->front());
+  }
+  int exponent = 0;
+  std::frexp(std::hypot(column_step_m_ * (dem_->columns - 1), row_step_m_ * (dem_->rows - 1)) / 8,
+             &exponent);
+  const double unit_m = std::ldexp(1.0, exponent - 1);
+  const Enu middle = common.ToEnu(frame_.ToEcef({0, 0, 0}));
+  const auto round = [unit_m](double x) { return std::nearbyint(x / unit_m) * unit_m; };
+  frame_ = common.MovedTo({round(middle.east), round(middle.north), round(middle.up)});
+  return Ok{};
+}
+
+Result<Georeference> Georeference::Of(const Terrain& terrain, GlobeOptions options,
+                                      const FrameChoice& axes) {
   const Dem& dem = terrain.dem();
   // The frame's origin is the middle of the grid, on the ellipsoid; half a cell to each side gives
   // the cell's size.
@@ -46,6 +71,8 @@ Result<Georeference> Georeference::Of(const Terrain& terrain, GlobeOptions optio
   Georeference georeference(dem, *std::move(transform), TangentFrame(origin, (*ecef)[0]));
   georeference.column_step_m_ = Distance((*ecef)[1], (*ecef)[2]);
   georeference.row_step_m_ = Distance((*ecef)[3], (*ecef)[4]);
+  georeference.middle_ = origin;
+  if (Status turned = georeference.TurnTo(axes); !turned) return std::move(turned.error());
   return georeference;
 }
 

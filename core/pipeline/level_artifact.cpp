@@ -18,7 +18,7 @@ namespace farhorizon {
 
 namespace {
 
-Result<LocalMesh> ToLocal(const LevelContext& context, const PostMesh& mesh) {
+Result<LocalMesh> ToLocal(const LevelContext& context, const PostMesh& mesh, int seam_reach) {
   const std::vector<VertexId>& posts = mesh.posts;
   std::vector<GridPoint> points;
   points.reserve(posts.size());
@@ -43,7 +43,8 @@ Result<LocalMesh> ToLocal(const LevelContext& context, const PostMesh& mesh) {
   for (const Triangle& t : mesh.triangles) {
     local.triangles.push_back({index(t[0]), index(t[keeps ? 1 : 2]), index(t[keeps ? 2 : 1])});
   }
-  local.normals = MeanNormals(context.terrain, context.normals, local);
+  local.normals = MeanNormals(context.terrain, context.georeference.frame(), context.normals, local,
+                              seam_reach);
   return local;
 }
 
@@ -138,7 +139,8 @@ void ReportErrors(const MeshError& error, LevelReport& report) {
 Result<LevelArtifact> EncodeLevel(const LevelContext& context, const Lod& lod, int level,
                                   const LevelStorage& storage) {
   context.control.Report(Stage::kEncode, 0);
-  Result<LocalMesh> local = ToLocal(context, lod.mesh);
+  const int seam_reach = SeamReach(context.normals.apron, storage.coarseness);
+  Result<LocalMesh> local = ToLocal(context, lod.mesh, seam_reach);
   if (!local) return std::move(local.error());
   LatticeSteps steps =
       StepsOfLevel(storage.finest_side_m, context.georeference, lod, storage.coarseness);
@@ -158,6 +160,7 @@ Result<LevelArtifact> EncodeLevel(const LevelContext& context, const Lod& lod, i
   artifact.report.quantization_step_m = lattice->step_m;
   artifact.report.exact = lod.exact;
   artifact.report.side_step_m = steps.sides_m;
+  artifact.report.seam_reach = seam_reach;
   artifact.report.horizon_edges = static_cast<std::int64_t>(lod.kept.size());
   artifact.report.drc_bytes = static_cast<std::int64_t>(artifact.drc.size());
   artifact.decoded = std::move(encoded->decoded);

@@ -4,7 +4,9 @@
 #include "core/pipeline/level_plan.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <utility>
 
@@ -41,8 +43,8 @@ Result<std::vector<Enu>> ReachOf(const Terrain& terrain, const Georeference& geo
   return reach;
 }
 
-// The sum of the terrain's steepest slopes along rows and along columns, metres up per metre.
-double SteepestSlopes(const TerrainInput& input) {
+// The terrain's steepest slopes along rows and along columns, metres up per metre.
+std::array<double, 2> SteepestSlopes(const TerrainInput& input) {
   double by_column = 0;
   double by_row = 0;
   const Dem& dem = input.dem();
@@ -54,13 +56,18 @@ double SteepestSlopes(const TerrainInput& input) {
     if (dem.Column(v) + 1 < dem.columns) by_column = std::max(by_column, rise(v, v + 1));
     if (dem.Row(v) + 1 < dem.rows) by_row = std::max(by_row, rise(v, v + dem.columns));
   }
-  return by_column / input.georeference().column_step_m() +
-         by_row / input.georeference().row_step_m();
+  return {by_column / input.georeference().column_step_m(),
+          by_row / input.georeference().row_step_m()};
 }
 
 // The most that rounding a vertex changes the height over a fixed point of the plan: half a step up
-// or down, and half a step aside on each axis times the slope along it.
-double HeightLost(double step_m, double slopes) { return 0.5 * step_m * (1 + slopes); }
+// or down, and half a step aside on each axis times the slope along it. Along other axes than the
+// tile's own, a vertex moves by sqrt(3) / 2 steps at most, perhaps straight off the ground.
+double HeightLost(double step_m, const std::array<double, 2>& slopes, FrameAxes axes) {
+  const auto& [a, b] = slopes;
+  if (axes == FrameAxes::kTile) return 0.5 * step_m * (1 + a + b);
+  return 0.5 * std::numbers::sqrt3 * step_m * std::hypot(1, a, b);
+}
 
 std::string Metres(double value) {
   std::string text = std::to_string(value);
@@ -86,7 +93,7 @@ Result<LevelPlan> PlanLevels(const TerrainInput& input, const BuildOptions& opti
   plan.lods.triangles = options.triangles;
   if (!options.triangles.empty()) return plan;
 
-  const double lost = HeightLost(step_m, SteepestSlopes(input));
+  const double lost = HeightLost(step_m, SteepestSlopes(input), input.georeference().axes().axes);
   const auto& [least_m, greatest_m] = input.report().heights_m;
   const double default_m = std::max(
       {std::min(cell_m / 8, (greatest_m - least_m) / 64), input.dem().quantum_m, 2 * lost});

@@ -20,8 +20,9 @@ namespace {
 // Rows, and posts of a row, that are looked at; any number is sound, these take milliseconds.
 constexpr std::int32_t kSampled = 64;
 // A vertex may be half a cell from its post (mesh_error.h). Rounding moves it by half a step on
-// each axis, by step / sqrt(2) in plan: no cell may be narrower than sqrt(2) steps.
-constexpr double kLeastSteps = std::numbers::sqrt2;
+// each axis, by sqrt(3) / 2 steps in plan at most, for the axes may be any: no cell may be narrower
+// than sqrt(3) steps.
+constexpr double kLeastSteps = std::numbers::sqrt3;
 // Cells of so many steps keep their triangles' turn, too, wherever their corners are rounded to.
 constexpr double kSafeSteps = 2;
 // The share of a cell by which a post may come back elsewhere. Datum shifts without heights come
@@ -89,7 +90,7 @@ Status CheckNoDegrees(const Dem& dem, const Georeference& georeference) {
   const double x = std::max(std::abs(t.origin_x), std::abs(t.origin_x + dem.columns * t.step_x));
   const double y = std::max(std::abs(t.origin_y), std::abs(t.origin_y + dem.rows * t.step_y));
   if (x > 360 || y > 90 || georeference.FullTurn() > 0 || georeference.InAreaOfUse()) return Ok{};
-  const Geodetic middle = georeference.frame().origin();
+  const Geodetic middle = georeference.middle();
   return Bad("the DEM's middle would be at longitude " + Number(middle.lon_deg) + ", latitude " +
                  Number(middle.lat_deg) + ", outside the area where " + georeference.CrsName() +
                  " is used, and its coordinates look like degrees; is --crs right? Degrees of GPS "

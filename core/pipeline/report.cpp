@@ -32,6 +32,7 @@ Json ToJson(const DemReport& dem) {
           {"heights_m", dem.heights_m},
           {"height_quantum_m", dem.height_quantum_m},
           {"heights_rounded", dem.heights_rounded},
+          {"apron", dem.apron},
           {"nodata_posts", dem.nodata_posts},
           {"sha256", dem.sha256}};
 }
@@ -45,6 +46,7 @@ DemReport ReadDemReport(const Json& json) {
   json.at("heights_m").get_to(dem.heights_m);
   json.at("height_quantum_m").get_to(dem.height_quantum_m);
   json.at("heights_rounded").get_to(dem.heights_rounded);
+  dem.apron = json.value("apron", 0);  // reports of versions without aprons have no such member
   json.at("nodata_posts").get_to(dem.nodata_posts);
   json.at("sha256").get_to(dem.sha256);
   return dem;
@@ -162,6 +164,7 @@ Json ToJson(const LevelReport& level) {
           {"geometric_error_m", level.geometric_error_m},
           {"quantization_step_m", level.quantization_step_m},
           {"side_step_m", level.side_step_m},
+          {"seam_reach", level.seam_reach},
           {"skirt_m", level.skirt_m},
           {"skirt_triangles", level.skirt_triangles},
           {"glb_bytes", level.glb_bytes},
@@ -185,7 +188,8 @@ LevelReport ReadLevel(const Json& json) {
   json.at("geometric_error_m").get_to(level.geometric_error_m);
   json.at("quantization_step_m").get_to(level.quantization_step_m);
   json.at("side_step_m").get_to(level.side_step_m);
-  // Reports of versions without skirts have neither.
+  // Reports of versions without aprons and skirts have none of these.
+  level.seam_reach = json.value("seam_reach", 0);
   level.skirt_m = json.value("skirt_m", 0.0);
   level.skirt_triangles = json.value("skirt_triangles", std::int64_t{0});
   json.at("glb_bytes").get_to(level.glb_bytes);
@@ -194,16 +198,32 @@ LevelReport ReadLevel(const Json& json) {
   return level;
 }
 
+Json ToJson(const FrameReport& frame) {
+  return {{"axes", FrameText(frame.axes)}, {"transform", frame.transform}};
+}
+
+Error BadReport(const std::string& what) {
+  return {ErrorCode::kUnsupportedData, "report.json: " + what, "bad-report"};
+}
+
+Result<FrameReport> ReadFrame(const Json& json) {
+  const auto text = json.at("axes").get<std::string>();
+  const std::optional<FrameChoice> axes = FrameFromText(text);
+  if (!axes) return BadReport("there is no frame \"" + text + "\"");
+  return FrameReport{*axes, json.at("transform").get<std::array<double, 16>>()};
+}
+
 }  // namespace
 
 std::string WriteReport(const Report& report) {
   Json levels = Json::array();
   for (const LevelReport& level : report.levels) levels.push_back(ToJson(level));
-  const Json json = {{"farhorizon", report.version},
-                     {"dem", ToJson(report.dem)},
-                     {"assumptions", ToJson(report.assumptions)},
-                     {"horizon", ToJson(report.statistics, report.horizon_edges)},
-                     {"levels", levels}};
+  Json json = {{"farhorizon", report.version},
+               {"dem", ToJson(report.dem)},
+               {"assumptions", ToJson(report.assumptions)},
+               {"horizon", ToJson(report.statistics, report.horizon_edges)},
+               {"levels", levels}};
+  if (report.frame) json["frame"] = ToJson(*report.frame);
   return json.dump(1) + "\n";
 }
 
@@ -213,13 +233,17 @@ Result<Report> ReadReport(const std::string& text) {
     Report report;
     json.at("farhorizon").get_to(report.version);
     report.dem = ReadDemReport(json.at("dem"));
+    if (json.contains("frame")) {
+      Result<FrameReport> frame = ReadFrame(json.at("frame"));
+      if (!frame) return std::move(frame.error());
+      report.frame = *frame;
+    }
     report.assumptions = ReadAssumptions(json);
     ReadHorizon(json.at("horizon"), report);
     for (const Json& level : json.at("levels")) report.levels.push_back(ReadLevel(level));
     return report;
   } catch (const nlohmann::json::exception& failure) {
-    return Error{ErrorCode::kUnsupportedData, std::string("report.json: ") + failure.what(),
-                 "bad-report"};
+    return BadReport(failure.what());
   }
 }
 

@@ -2,23 +2,27 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/base/assumption.h"
 #include "core/base/result.h"
+#include "core/geo/frame_choice.h"
 #include "core/horizon/horizon.h"
 #include "core/measure/mesh_error.h"
 
 namespace farhorizon {
 
-/// The DEM that was read: the `dem` member of report.json. heights_m: the least and the greatest.
+/// The DEM that was read: the `dem` member of report.json, without its apron but for the SHA-256.
+/// heights_m: the least and the greatest. apron: rows and columns on each side that were left out.
 struct DemReport {
   std::int32_t columns = 0;
   std::int32_t rows = 0;
   std::string crs;
   std::array<double, 2> cell_m = {0, 0};
   std::array<double, 2> heights_m = {0, 0};
+  int apron = 0;
   std::int64_t nodata_posts = 0;
   double height_quantum_m = 1;
   bool heights_rounded = false;  ///< true: to that quantum; false: heights are as stored
@@ -51,9 +55,9 @@ struct SkylineEdgesReport {
 /// exact: before vertices were rounded to be encoded, its skyline was the DEM's. vertical,
 /// silhouette, rim_m, facet_angle_deg (root mean square), needle_share: as MeshError has them.
 /// quantization_step_m, side_step_m: positions are multiples of the former, those on the tile's
-/// four sides of the latter. skirt_m, skirt_triangles: how deep the skirt in the GLB is, and its
-/// triangles, which `triangles` leaves out; 0 where there is none. glb_bytes, drc_bytes: 0 where
-/// there is no such file.
+/// four sides of the latter. seam_reach: as MeanNormals has it, 0 without an apron. skirt_m,
+/// skirt_triangles: how deep the skirt in the GLB is, and its triangles, which `triangles` leaves
+/// out; 0 where there is none. glb_bytes, drc_bytes: 0 where there is no such file.
 struct LevelReport {
   int level = 0;
   bool exact = false;
@@ -69,11 +73,19 @@ struct LevelReport {
   double geometric_error_m = 0;
   double quantization_step_m = 0;
   double side_step_m = 0;
+  int seam_reach = 0;
   double skirt_m = 0;
   std::int64_t skirt_triangles = 0;
   std::int64_t glb_bytes = 0;
   std::int64_t drc_bytes = 0;
   SkylineEdgesReport skyline_edges;
+};
+
+/// The local frame: the `frame` member of report.json. transform: from the frame to ECEF,
+/// column-major, as the tileset's.
+struct FrameReport {
+  FrameChoice axes;
+  std::array<double, 16> transform = {};
 };
 
 /// The contents of report.json.
@@ -84,6 +96,7 @@ struct Report {
   std::int64_t horizon_edges = 0;
   HorizonStatistics statistics;
   std::vector<LevelReport> levels;
+  std::optional<FrameReport> frame;  ///< nullopt: of a version that knew the tile's own alone
 };
 
 /// The text of report.json.

@@ -40,6 +40,24 @@ bool HasRowsOnTheGlobe(const Dem& dem, double full_turn) {
   return full_turn > 0 && std::min(first, last) < pole && std::max(first, last) > -pole;
 }
 
+// Requires: the apron leaves a cell. Heights may be unread.
+Dem WithoutApron(const Dem& dem, int apron) {
+  Dem inner = dem;
+  inner.columns -= 2 * apron;
+  inner.rows -= 2 * apron;
+  inner.transform.origin_x += apron * dem.transform.step_x;
+  inner.transform.origin_y += apron * dem.transform.step_y;
+  inner.heights.clear();
+  if (dem.heights.empty()) return inner;
+  inner.heights.reserve(static_cast<std::size_t>(inner.columns) *
+                        static_cast<std::size_t>(inner.rows));
+  for (std::int32_t row = apron; row < dem.rows - apron; ++row) {
+    const auto first = dem.heights.begin() + std::ptrdiff_t{row} * dem.columns + apron;
+    inner.heights.insert(inner.heights.end(), first, first + inner.columns);
+  }
+  return inner;
+}
+
 }  // namespace
 
 Result<std::unique_ptr<TerrainInput>> TerrainInput::Open(const std::filesystem::path& path,
@@ -57,14 +75,19 @@ Result<std::unique_ptr<TerrainInput>> TerrainInput::Open(const std::filesystem::
   input->dem_ = *std::move(dem);
   input->posts_ = std::int64_t{input->dem_.columns} * input->dem_.rows;
   input->Assume(input->dem_.assumptions, control);
+  if (options.apron > 0) {
+    if (Status cut = input->CutApron(options.apron); !cut) return std::move(cut.error());
+  }
   input->header_only_ = input->dem_.heights.empty();
   if (input->header_only_) input->dem_ = StandInFor(input->dem_);
   Result<Terrain> terrain = Terrain::Build(input->dem_);
   if (!terrain) return std::move(terrain.error()).WithContext("triangulate DEM");
   input->terrain_ = *terrain;
   Result<Georeference> georeference =
-      Georeference::Of(*input->terrain_, {.vertical_datum = options.vertical_datum.value_or(""),
-                                          .datum_operation = options.datum_operation.value_or("")});
+      Georeference::Of(*input->terrain_,
+                       {.vertical_datum = options.vertical_datum.value_or(""),
+                        .datum_operation = options.datum_operation.value_or("")},
+                       options.frame);
   if (!georeference) return std::move(georeference.error()).WithContext("place DEM on the globe");
   input->georeference_.emplace(*std::move(georeference));
   Status placed = CheckPlacement(*input->terrain_, *input->georeference_);
@@ -82,6 +105,23 @@ Result<std::unique_ptr<TerrainInput>> TerrainInput::Open(const std::filesystem::
   input->report_.sha256 = *std::move(sha256);
   input->Describe();
   return input;
+}
+
+Status TerrainInput::CutApron(int apron) {
+  if (std::min(dem_.columns, dem_.rows) < 2 * apron + 2) {
+    return Error{ErrorCode::kInvalidArgument,
+                 "--apron is " + std::to_string(apron) + ", which leaves no cell of the DEM's " +
+                     std::to_string(dem_.columns) + " x " + std::to_string(dem_.rows) + " posts",
+                 "invalid-parameter"};
+  }
+  report_.apron = apron;
+  Dem inner = WithoutApron(dem_, apron);
+  dem_around_ = std::exchange(dem_, std::move(inner));
+  if (dem_.heights.empty()) return Ok{};
+  Result<Terrain> around = Terrain::Build(dem_around_);
+  if (!around) return std::move(around.error()).WithContext("triangulate DEM");
+  around_ = *around;
+  return Ok{};
 }
 
 void TerrainInput::Assume(const Assumptions& assumptions, const RunControl& control) {

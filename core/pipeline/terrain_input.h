@@ -17,7 +17,8 @@
 
 namespace farhorizon {
 
-/// A DEM file, read, triangulated and georeferenced: what every command starts from.
+/// A DEM file, read, triangulated and georeferenced: what every command starts from. Rows and
+/// columns of an apron are no part of it; they are in `around` alone.
 class TerrainInput {
  public:
   static constexpr std::int64_t kAll = std::numeric_limits<std::int64_t>::max();
@@ -37,6 +38,9 @@ class TerrainInput {
   [[nodiscard]] std::int64_t posts() const { return posts_; }
   [[nodiscard]] const Dem& dem() const { return dem_; }
   [[nodiscard]] const Terrain& terrain() const { return *terrain_; }
+  /// The terrain with its apron, and how wide that is; the terrain itself and 0 where it has none.
+  [[nodiscard]] const Terrain& around() const { return around_ ? *around_ : *terrain_; }
+  [[nodiscard]] int apron() const { return report_.apron; }
   [[nodiscard]] const Georeference& georeference() const { return *georeference_; }
   [[nodiscard]] const DemReport& report() const { return report_; }
   /// What was assumed about the heights and their place, in the order in which it was met.
@@ -49,12 +53,15 @@ class TerrainInput {
  private:
   TerrainInput() = default;
   void Describe();
+  Status CutApron(int apron);
   void Assume(const Assumptions& assumptions, const RunControl& control);
 
   Dem dem_;
+  Dem dem_around_;  // with the apron; empty where there is none
   std::int64_t posts_ = 0;
   bool header_only_ = false;
   std::optional<Terrain> terrain_;
+  std::optional<Terrain> around_;
   std::optional<Georeference> georeference_;
   DemReport report_;
   Assumptions assumptions_;

@@ -62,8 +62,18 @@ void AddBuildFlags(Command& command, BuildFlags& flags) {
   Add(command, flags, "edges", "WHERE",
       "where each level's horizon is drawn: lines: a file of its own, lodN-horizon.glb; inline: in "
       "lodN.glb, as EXT_mesh_primitive_edge_visibility; both; none (lines)");
+  AddTileFlags(command, flags);
   AddReadFlags(command, flags);
   AddWorkFlags(command, flags);
+}
+
+void AddTileFlags(Command& command, BuildFlags& flags) {
+  Add(command, flags, "frame", "tile|LON,LAT|globe",
+      "axes that positions are rounded along: the tile's own east, north and up, those at a place, "
+      "or earth-fixed ones; tiles of one frame share posts bit for bit (tile)");
+  Add(command, flags, "apron", "N",
+      "the N outermost rows and columns on each side are the neighbours' ground: they give normals "
+      "and are not meshed (0)");
 }
 
 void AddReadFlags(Command& command, BuildFlags& flags) {

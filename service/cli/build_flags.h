@@ -19,6 +19,8 @@ struct BuildFlags {
 
 /// Adds --levels, --max-error and all other flags of a build. Requires: `flags` outlives the parse.
 void AddBuildFlags(Command& command, BuildFlags& flags);
+/// Adds --frame, --apron.
+void AddTileFlags(Command& command, BuildFlags& flags);
 /// Adds --crs, --vertical-datum, --height-unit, --datum-operation, --nodata.
 void AddReadFlags(Command& command, BuildFlags& flags);
 /// Adds --work-budget, --approximate.

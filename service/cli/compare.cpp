@@ -111,6 +111,7 @@ void AddCompare(Command& program, SelectedCommand& selected) {
   command.Add(
       {.names = "--tile", .type = "URI", .help = "of a tileset, only the content with this uri"},
       arguments->tile);
+  AddTileFlags(command, arguments->dem.flags);
   AddReadFlags(command, arguments->dem.flags);
   AddWorkFlags(command, arguments->dem.flags);
   AddRunFlags(command, arguments->dem);

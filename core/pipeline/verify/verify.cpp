@@ -168,6 +168,14 @@ void VerifyLevels(const LevelContext& context, const fs::path& directory, const 
   }
 }
 
+bool IsFrame(const std::array<double, 16>& claimed, const TerrainInput& input) {
+  const std::array<double, 16> transform = input.georeference().frame().EnuToEcef();
+  double off = 0;
+  for (std::size_t i = 0; i < 16; ++i) off = std::max(off, std::abs(claimed[i] - transform[i]));
+  // Far above what writing a double rounds, far below any rounding of vertices.
+  return off < 1e-6;
+}
+
 void VerifyTileset(const TerrainInput& input, const fs::path& directory, const Report& report,
                    Claims& claims) {
   Result<std::string> text = ReadFile(directory / "tileset.json");
@@ -185,13 +193,8 @@ void VerifyTileset(const TerrainInput& input, const fs::path& directory, const R
            tileset->levels[i].geometric_error_m == report.levels[i].geometric_error_m;
   }
   claims.Add(same, "tileset.json has the measured geometric errors");
-  const std::array<double, 16> transform = input.georeference().frame().EnuToEcef();
-  double off = 0;
-  for (std::size_t i = 0; i < 16; ++i) {
-    off = std::max(off, std::abs(tileset->transform[i] - transform[i]));
-  }
-  // Far above what writing a double rounds, far below any rounding of vertices.
-  claims.Add(off < 1e-6, "tileset.json places the local frame where the DEM is");
+  claims.Add(IsFrame(tileset->transform, input),
+             "tileset.json places the local frame where the DEM is");
 }
 
 // Checks horizon.geojson, and finds the measures of edges again where a file has some.
@@ -262,10 +265,18 @@ Result<std::vector<ClaimCheck>> VerifyArtifacts(const fs::path& dem, const fs::p
   if (!text) return std::move(text.error());
   Result<Report> report = ReadReport(*text);
   if (!report) return std::move(report.error());
-  Result<std::unique_ptr<TerrainInput>> input = TerrainInput::Open(dem, options, control);
+  BuildOptions as_claimed = options;
+  if (report->frame) as_claimed.frame = report->frame->axes;
+  as_claimed.apron = report->dem.apron;
+  if (Status sound = CheckOptions(as_claimed); !sound) return std::move(sound.error());
+  Result<std::unique_ptr<TerrainInput>> input = TerrainInput::Open(dem, as_claimed, control);
   if (!input) return std::move(input.error());
   control.Report(Stage::kRead, 1);
   VerifyDem(report->dem, (*input)->report(), claims);
+  if (report->frame) {
+    claims.Add(IsFrame(report->frame->transform, **input),
+               "report.json places the local frame where the DEM is");
+  }
   if (report->dem.columns != (*input)->dem().columns || report->dem.rows != (*input)->dem().rows) {
     return std::move(claims).Take();
   }
@@ -285,7 +296,8 @@ Result<std::vector<ClaimCheck>> VerifyArtifacts(const fs::path& dem, const fs::p
   if (!horizon_claims) return std::move(horizon_claims.error());
   claims.Append(std::move(horizon_claims->checks));
   control.Report(Stage::kVerify, kVerifiedWithSights);
-  Result<PostNormals> normals = FindPostNormals((*input)->terrain(), (*input)->georeference());
+  Result<PostNormals> normals =
+      FindPostNormals((*input)->around(), (*input)->georeference(), (*input)->apron());
   if (!normals) return std::move(normals.error());
   Result<PostPlaces> places = FindPostPlaces((*input)->terrain(), (*input)->georeference());
   if (!places) return std::move(places.error());

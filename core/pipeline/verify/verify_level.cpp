@@ -12,6 +12,7 @@
 #include <tuple>
 #include <utility>
 
+#include "core/geo/ellipsoid_normal.h"
 #include "core/io/file.h"
 #include "core/io/glb.h"
 #include "core/pipeline/mesh_orientation.h"
@@ -166,16 +167,24 @@ void VerifySkirt(const LevelSurface& surface, const GlbContents& glb, Claims& cl
 }
 
 // Every decoded normal is the mean of the DEM's, as nearly as Draco's bits tell.
-void VerifyNormals(const LevelContext& context, const std::string& name, const LocalMesh& mesh,
+void VerifyNormals(const LevelContext& context, const LevelReport& claimed, const LocalMesh& mesh,
                    Claims& claims) {
+  const std::string name = "lod" + std::to_string(claimed.level);
+  const int most = std::max(context.normals.apron - 1, 0);
+  const bool within = claimed.seam_reach >= 0 && claimed.seam_reach <= most;
+  claims.Add(within, name + " seam_reach is within the apron");
+  if (!within) return;
   constexpr double kLeastCosine =
       0.99985;  // the cosine of a degree; rounding turns by half of that
-  const std::vector<UnitNormal> normals = MeanNormals(context.terrain, context.normals, mesh);
+  const std::vector<UnitNormal> normals = MeanNormals(context.terrain, context.georeference.frame(),
+                                                      context.normals, mesh, claimed.seam_reach);
   std::int64_t turned = 0;
   for (std::size_t i = 0; i < normals.size(); ++i) {
     const UnitNormal& n = normals[i];
     const UnitNormal& m = mesh.normals[i];
-    const bool near = m[2] > 0 && n[0] * m[0] + n[1] * m[1] + n[2] * m[2] > kLeastCosine;
+    const Enu up = EllipsoidNormal(mesh.positions[i], context.georeference.frame());
+    const bool upwards = m[0] * up.east + m[1] * up.north + m[2] * up.up > 0;
+    const bool near = upwards && n[0] * m[0] + n[1] * m[1] + n[2] * m[2] > kLeastCosine;
     turned += near ? 0 : 1;
   }
   claims.Same(name + " normals a degree or more off the DEM's", std::int64_t{0}, turned);
@@ -296,7 +305,7 @@ std::optional<StoredLevel> VerifyLevel(const LevelContext& context,
   claims.Add(found.has_value(),
              name + " covers the DEM without cracks" + (found ? "" : ": " + found.error().message));
   if (!found) return std::nullopt;
-  VerifyNormals(context, name, mesh, claims);
+  VerifyNormals(context, claimed, mesh, claims);
   claims.Same(name + " triangles", claimed.triangles, found->triangles);
   claims.Same(name + " vertices", claimed.vertices, found->vertices);
   claims.AtMost(name + " vertical error, max", claimed.vertical.max_m, found->vertical.max_m);

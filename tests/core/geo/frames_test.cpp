@@ -32,6 +32,28 @@ TEST(TangentFrame, AgreesWithTheClosedFormulaAllOverTheGlobe) {
   }
 }
 
+TEST(TangentFrame, MovedFramesShareTheirAxesAndCountInWholeSteps) {
+  const Geodetic place = {7, 46, 0};
+  for (const TangentFrame& common :
+       {TangentFrame(place, by_formula::ToEcef(place)), TangentFrame::EarthFixed()}) {
+    const Ecef p = by_formula::ToEcef({7.9, 46.7, 2345.6});
+    const Enu at = common.ToEnu(p);
+    const Enu origin = {std::round(at.east / 512) * 512, std::round(at.north / 512) * 512,
+                        std::round(at.up / 512) * 512};
+    const TangentFrame moved = common.MovedTo(origin);
+    EXPECT_EQ(moved.ToEnu(p).east, at.east - origin.east);
+    EXPECT_EQ(moved.ToEnu(p).north, at.north - origin.north);
+    EXPECT_EQ(moved.ToEnu(p).up, at.up - origin.up);
+    const Ecef back = moved.ToEcef(moved.ToEnu(p));
+    EXPECT_LT(std::hypot(back.x - p.x, back.y - p.y, back.z - p.z), 1e-8);
+    const auto matrix = moved.EnuToEcef();
+    const Ecef there = common.ToEcef(origin);
+    EXPECT_EQ(matrix[12], there.x);
+    EXPECT_EQ(matrix[14], there.z);
+    EXPECT_EQ(matrix[4], common.EnuToEcef()[4]);
+  }
+}
+
 TEST(TangentFrame, ItsMatrixIsARotationAndAShiftInColumns) {
   const Geodetic origin = {8, 46, 500};
   const TangentFrame frame(origin, by_formula::ToEcef(origin));

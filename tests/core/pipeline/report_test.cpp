@@ -8,7 +8,7 @@ namespace {
 Report SomeReport() {
   Report report;
   report.version = "1.2.3";
-  report.dem = {403, 344, "EPSG:4326", {25.1, 30.9}, {236, 1076}, 7, 0.5, true, "abc"};
+  report.dem = {403, 344, "EPSG:4326", {25.1, 30.9}, {236, 1076}, 8, 7, 0.5, true, "abc"};
   report.horizon_edges = 6500;
   report.statistics.terrain_edges = 413000;
   report.statistics.candidates = 60000;

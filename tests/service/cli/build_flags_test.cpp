@@ -24,7 +24,8 @@ TEST(BuildFlags, AreTheParametersOfAJob) {
   const DemArguments arguments = Parsed(
       "a.tif --levels 3 --max-error 2.5 --silhouette-error 1 --formats drc,geojson "
       "--crs EPSG:32611 --vertical-datum EPSG:5703 --height-unit ft --datum-operation EPSG:1693 "
-      "--nodata -9999 --work-budget 1000 --approximate --skirt 20");
+      "--nodata -9999 --work-budget 1000 --approximate --skirt 20 "
+      "--frame -122.5,37.75 --apron 8");
   EXPECT_EQ(arguments.path, "a.tif");
   EXPECT_EQ(arguments.flags.parameters, (Parameters{{"levels", "3"},
                                                     {"maxError", "2.5"},
@@ -37,7 +38,9 @@ TEST(BuildFlags, AreTheParametersOfAJob) {
                                                     {"nodata", "-9999"},
                                                     {"workBudget", "1000"},
                                                     {"approximate", "true"},
-                                                    {"skirt", "20"}}));
+                                                    {"skirt", "20"},
+                                                    {"frame", "-122.5,37.75"},
+                                                    {"apron", "8"}}));
 }
 
 TEST(BuildFlags, AreThoseOfAllParameters) {
