@@ -17,6 +17,8 @@ struct EdgeVisibility {
   /// triples x, y, z of signed bytes, 127 for 1.
   std::vector<std::int8_t> normals;
   std::int64_t edge_count = 0;
+
+  friend bool operator==(const EdgeVisibility&, const EdgeVisibility&) = default;
 };
 
 /// Flags `edges` (pairs of vertices): those between two triangles as silhouette edges, those on the

@@ -4,6 +4,7 @@
 #include "core/io/glb.h"
 
 #include <algorithm>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -19,10 +20,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Numbers of the glTF 2.0 specification: GLB header and chunks, component types, modes.
-constexpr std::uint32_t kMagic = 0x46546C67;
-constexpr std::uint32_t kJsonChunk = 0x4E4F534A;
-constexpr std::uint32_t kBinChunk = 0x004E4942;
+// Numbers of the glTF 2.0 specification: sizes of headers, component types, modes.
 constexpr std::size_t kHeaderBytes = 12;
 constexpr std::size_t kChunkHeaderBytes = 8;
 constexpr int kByte = 5120;
@@ -35,12 +33,6 @@ constexpr std::size_t kMaxShortVertices = 65535;  // 65535 itself restarts a str
 
 constexpr char kDraco[] = "KHR_draco_mesh_compression";
 constexpr char kEdges[] = "EXT_mesh_primitive_edge_visibility";
-
-void AppendLittleEndian(std::vector<std::uint8_t>& bytes, std::uint32_t value) {
-  for (unsigned shift = 0; shift < 32; shift += 8) {
-    bytes.push_back(static_cast<std::uint8_t>(value >> shift));
-  }
-}
 
 void Pad(std::vector<std::uint8_t>& bytes, std::uint8_t with) {
   while (bytes.size() % 4 != 0) bytes.push_back(with);
@@ -122,32 +114,35 @@ Json Primitive(const std::vector<std::uint8_t>& draco, const DecodedMesh& decode
   return primitive;
 }
 
-std::vector<std::uint8_t> Assemble(const Json& gltf, const Binary& binary) {
-  const std::string text = gltf.dump();
-  std::vector<std::uint8_t> json(text.begin(), text.end());
-  Pad(json, ' ');
-  std::vector<std::uint8_t> bin = binary.bytes;
-  Pad(bin, 0);
-  const std::size_t total =
-      kHeaderBytes + kChunkHeaderBytes + json.size() + kChunkHeaderBytes + bin.size();
-  Check(total <= 0xFFFFFFFFU, "a GLB beyond 4 GiB");
-  std::vector<std::uint8_t> glb;
-  glb.reserve(total);
-  const auto append_chunk = [&](std::uint32_t type, const std::vector<std::uint8_t>& chunk) {
-    AppendLittleEndian(glb, static_cast<std::uint32_t>(chunk.size()));
-    AppendLittleEndian(glb, type);
-    glb.insert(glb.end(), chunk.begin(), chunk.end());
-  };
-  AppendLittleEndian(glb, kMagic);
-  AppendLittleEndian(glb, 2);
-  AppendLittleEndian(glb, static_cast<std::uint32_t>(total));
-  append_chunk(kJsonChunk, json);
-  append_chunk(kBinChunk, bin);
-  return glb;
-}
-
 Error BadGlb(const std::string& message) {
   return {ErrorCode::kUnsupportedData, "no GLB of ours: " + message, "bad-glb"};
+}
+
+// The part of the buffer that a view names; nullopt where it lies outside.
+std::optional<std::span<const std::uint8_t>> PartOf(std::span<const std::uint8_t> buffer,
+                                                    const Json& view) {
+  const auto offset = view.value("byteOffset", std::uint64_t{0});
+  const auto length = view.at("byteLength").get<std::uint64_t>();
+  if (offset > buffer.size() || length > buffer.size() - offset) return std::nullopt;
+  return buffer.subspan(offset, length);
+}
+
+// What the extension of a primitive says of its edges; nullopt where it lies outside the buffer.
+std::optional<EdgeVisibility> ReadEdges(const Json& gltf, const Json& extension,
+                                        std::span<const std::uint8_t> buffer) {
+  const auto part = [&](const char* name) {
+    const Json& accessor = gltf.at("accessors").at(extension.at(name).get<std::size_t>());
+    return PartOf(buffer, gltf.at("bufferViews").at(accessor.at("bufferView").get<std::size_t>()));
+  };
+  EdgeVisibility edges;
+  const auto bits = part("visibility");
+  if (!bits) return std::nullopt;
+  edges.bits.assign(bits->begin(), bits->end());
+  if (!extension.contains("silhouetteNormals")) return edges;
+  const auto normals = part("silhouetteNormals");
+  if (!normals) return std::nullopt;
+  edges.normals.assign(normals->begin(), normals->end());
+  return edges;
 }
 
 // Errors: "bad-glb"; those of nlohmann::json are thrown.
@@ -165,13 +160,9 @@ Result<GlbPrimitive> ReadPrimitive(const Json& gltf, const Json& primitive,
       accessors.at(primitive.at("indices").get<std::size_t>()).at("count").get<std::int64_t>();
   contents.min = position.at("min").get<std::array<double, 3>>();
   contents.max = position.at("max").get<std::array<double, 3>>();
-  const auto offset = view.value("byteOffset", std::uint64_t{0});
-  const auto length = view.at("byteLength").get<std::uint64_t>();
-  if (offset > bin.size() || length > bin.size() - offset) {
-    return BadGlb("the Draco bitstream lies outside the buffer");
-  }
-  const auto part = bin.subspan(offset, length);
-  contents.draco.assign(part.begin(), part.end());
+  const auto part = PartOf(bin, view);
+  if (!part) return BadGlb("the Draco bitstream lies outside the buffer");
+  contents.draco.assign(part->begin(), part->end());
   return contents;
 }
 
@@ -216,7 +207,7 @@ std::vector<std::uint8_t> WriteGlb(
   gltf["accessors"] = accessors;
   gltf["bufferViews"] = binary.views;
   gltf["buffers"] = Json::array({{{"byteLength", binary.bytes.size()}}});
-  return Assemble(gltf, binary);
+  return JoinGlb(gltf.dump(), binary.bytes);
 }
 
 Result<GlbContents> ReadGlb(const std::vector<std::uint8_t>& bytes) {
@@ -234,6 +225,12 @@ Result<GlbContents> ReadGlb(const std::vector<std::uint8_t>& bytes) {
     Result<GlbPrimitive> surface = ReadPrimitive(gltf, primitives.at(0), chunks->bin);
     if (!surface) return std::move(surface.error());
     contents.surface = *std::move(surface);
+    const Json& extensions = primitives.at(0).at("extensions");
+    if (extensions.contains(kEdges)) {
+      std::optional<EdgeVisibility> edges = ReadEdges(gltf, extensions.at(kEdges), chunks->bin);
+      if (!edges) return BadGlb("its edges lie outside the buffer");
+      contents.edges = *std::move(edges);
+    }
     if (primitives.size() > 1) {
       Result<GlbPrimitive> skirt = ReadPrimitive(gltf, primitives.at(1), chunks->bin);
       if (!skirt) return std::move(skirt.error());

@@ -8,6 +8,7 @@
 
 #include "core/base/result.h"
 #include "core/io/draco_mesh.h"
+#include "core/io/edge_visibility.h"
 
 namespace farhorizon {
 
@@ -48,11 +49,13 @@ struct GlbPrimitive {
   std::array<double, 3> max = {0, 0, 0};
 };
 
-/// A GLB of WriteGlb, for verification. matrix: of the root node.
+/// A GLB of WriteGlb, for verification. matrix: of the root node. edges: those that the surface
+/// flags, uncounted; empty where it flags none.
 struct GlbContents {
   GlbPrimitive surface;
   std::optional<GlbPrimitive> skirt;
   std::array<double, 16> matrix = {};
+  EdgeVisibility edges;
 };
 /// Errors: kUnsupportedData, kind "bad-glb", with the cause.
 Result<GlbContents> ReadGlb(const std::vector<std::uint8_t>& bytes);

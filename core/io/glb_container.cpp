@@ -23,6 +23,24 @@ std::uint32_t LittleEndianAt(std::span<const std::uint8_t> bytes, std::size_t at
   return value;
 }
 
+void AppendLittleEndian(std::vector<std::uint8_t>& bytes, std::uint32_t value) {
+  for (unsigned shift = 0; shift < 32; shift += 8) {
+    bytes.push_back(static_cast<std::uint8_t>(value >> shift));
+  }
+}
+
+// Appends a chunk and as many bytes `with` as bring the file to a multiple of `alignment`.
+template <typename Bytes>
+void AppendChunk(std::vector<std::uint8_t>& glb, std::uint32_t type, const Bytes& content,
+                 std::uint8_t with, std::size_t alignment) {
+  const std::size_t end = glb.size() + kChunkHeaderBytes + content.size();
+  const std::size_t padding = (alignment - end % alignment) % alignment;
+  AppendLittleEndian(glb, static_cast<std::uint32_t>(content.size() + padding));
+  AppendLittleEndian(glb, type);
+  glb.insert(glb.end(), content.begin(), content.end());
+  glb.insert(glb.end(), padding, with);
+}
+
 Error BadGlb(const std::string& message) {
   return {ErrorCode::kUnsupportedData, message, "bad-glb"};
 }
@@ -42,6 +60,23 @@ Result<std::span<const std::uint8_t>> TakeChunk(std::span<const std::uint8_t>& r
 }
 
 }  // namespace
+
+std::vector<std::uint8_t> JoinGlb(std::string_view json, std::span<const std::uint8_t> buffer,
+                                  std::size_t alignment) {
+  Check(json.size() + buffer.size() < 0xFFFF0000U, "a GLB beyond 4 GiB");
+  std::vector<std::uint8_t> glb;
+  glb.reserve(kHeaderBytes + 2 * (kChunkHeaderBytes + alignment) + json.size() + buffer.size());
+  AppendLittleEndian(glb, kMagic);
+  AppendLittleEndian(glb, 2);
+  AppendLittleEndian(glb, 0);  // the length, below
+  // The buffer begins behind the header of its chunk, of 8 bytes.
+  AppendChunk(glb, kJsonChunk, json, ' ', alignment);
+  AppendChunk(glb, kBinChunk, buffer, 0, alignment);
+  std::vector<std::uint8_t> length;
+  AppendLittleEndian(length, static_cast<std::uint32_t>(glb.size()));
+  std::copy(length.begin(), length.end(), glb.begin() + 8);
+  return glb;
+}
 
 bool IsGlb(std::span<const std::uint8_t> bytes) {
   return bytes.size() >= kHeaderBytes && LittleEndianAt(bytes, 0) == kMagic;

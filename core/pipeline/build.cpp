@@ -15,6 +15,7 @@
 #include "core/pipeline/artifact_writer.h"
 #include "core/pipeline/build_features.h"
 #include "core/pipeline/level_artifact.h"
+#include "core/pipeline/level_edges.h"
 #include "core/pipeline/level_plan.h"
 #include "core/pipeline/mesh_region.h"
 #include "core/pipeline/post_places.h"
@@ -30,6 +31,9 @@ namespace farhorizon {
 namespace {
 
 namespace fs = std::filesystem;
+
+// The share of a level's part of Stage::kEncode after which its skyline is looked for.
+constexpr double kEncoded = 0.3;
 
 bool Asks(const BuildOptions& options, std::string_view format) {
   return std::find(options.formats.begin(), options.formats.end(), format) != options.formats.end();
@@ -54,6 +58,7 @@ std::vector<int> LevelsKept(const Horizon& horizon, const std::vector<Lod>& chai
 // these are asked for.
 struct WrittenLevels {
   std::vector<LevelReport> reports;
+  std::vector<LevelEdges> edges;  // where they are asked for
   MeshRegion region;
   std::vector<TiledLevel> globe;
 };
@@ -86,6 +91,20 @@ Status WriteTilesetFor(const TerrainInput& input, const WrittenLevels& levels,
                                    georeference.row_step_m() * (input.dem().rows - 1));
   return writer.Add("tileset.json", WriteTileset(tiles, *region, RoundUp(size_m),
                                                  georeference.frame().EnuToEcef()));
+}
+
+// Writes lodN-horizon.glb for each level, with what is known of the DEM's edges by now.
+Status WriteEdges(const std::vector<HorizonFeature>& features, WrittenLevels& levels,
+                  ArtifactWriter& writer) {
+  for (std::size_t i = 0; i < levels.edges.size(); ++i) {
+    LevelEdges& edges = levels.edges[i];
+    AddMeasures(features, edges);
+    const std::vector<std::uint8_t> glb = WriteHorizonGlb(edges.lines, edges.lattice);
+    levels.reports[i].skyline_edges.bytes = std::ssize(glb);
+    Status added = writer.Add(HorizonGlbName(static_cast<int>(i)), AsText(glb));
+    if (!added) return added;
+  }
+  return Ok{};
 }
 
 Status WriteFeatures(const std::vector<HorizonFeature>& features, const BuildOptions& options,
@@ -144,7 +163,7 @@ Result<WrittenLevels> WriteLevels(const LevelContext& context, const TerrainInpu
                                   const LevelPlan& plan, const std::vector<Lod>& chain,
                                   const BuildOptions& options, ArtifactWriter& writer,
                                   ReportPage& page) {
-  WrittenLevels written = {{}, MeshRegion(context.georeference), {}};
+  WrittenLevels written = {{}, {}, MeshRegion(context.georeference), {}};
   std::vector<LevelArtifact> levels;
   std::vector<LevelReport>& reports = written.reports;
   std::vector<PlacedMesh> decoded;
@@ -154,14 +173,25 @@ Result<WrittenLevels> WriteLevels(const LevelContext& context, const TerrainInpu
     const LevelStorage storage = {plan.finest_side_m, CoarsenessOf(plan, context.terrain.dem(), i),
                                   glb ? MostSkirtDepth(input, options.skirt_m) : 0, glb,
                                   Asks(options, "drc")};
+    const RunControl encoding = control.Between(0, kEncoded);
     Result<LevelArtifact> level =
-        EncodeLevel(context.With(control), chain[i], static_cast<int>(i), storage);
+        EncodeLevel(context.With(encoding), chain[i], static_cast<int>(i), storage);
     if (!level) return std::move(level.error());
     level->report.asked = AskedOf(plan, chain, i);
     const LocalMesh& mesh = level->decoded.mesh;
     Result<PlacedMesh> placed = PlaceLevel(context, mesh);
     if (!placed) return std::move(placed.error()).WithContext("level " + std::to_string(i));
     decoded.push_back(*std::move(placed));
+    if (glb && options.edges != EdgeFiles::kNone) {
+      const RunControl searching = control.Between(kEncoded, 1);
+      Result<LevelEdges> edges = FindLevelEdges(context.With(searching), chain[i].kept,
+                                                {level->decoded, decoded.back()}, options.threads);
+      if (!edges) return std::move(edges.error());
+      level->report.skyline_edges = edges->report;
+      if (IsInline(options.edges)) level->flagged = edges->vertices;
+      written.edges.push_back(*std::move(edges));
+    }
+    control.Report(Stage::kEncode, 1);
     reports.push_back(level->report);
     if (Status added = written.region.Add(mesh); !added) return std::move(added.error());
     if (Status drawn = page.AddLevel(mesh); !drawn) return std::move(drawn.error());
@@ -245,6 +275,10 @@ Status BuildArtifacts(const fs::path& dem, const fs::path& directory, const Buil
   control.Report(Stage::kWrite, 0);
   Status written = WriteFeatures(*features, options, writer);
   if (!written) return written;
+  if (HasLines(options.edges)) {
+    Status lines = WriteEdges(*features, *levels, writer);
+    if (!lines) return lines;
+  }
   const Report report{Version(),
                       (*input)->report(),
                       (*input)->assumptions(),

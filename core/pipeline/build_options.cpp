@@ -94,6 +94,26 @@ Status ReadTriangles(const Given& given, std::vector<std::int64_t>& triangles) {
   return Ok{};
 }
 
+// The value that one of the words of `known` stands for.
+template <typename Value, std::size_t count>
+Status ReadWord(const Given& given, const std::pair<std::string_view, Value> (&known)[count],
+                Value& value) {
+  std::string words;
+  for (const auto& [word, its_value] : known) {
+    if (given.value == word) {
+      value = its_value;
+      return Ok{};
+    }
+    words.append(words.empty() ? "" : ", ").append(word);
+  }
+  return given.Expected("one of " + words);
+}
+
+constexpr std::pair<std::string_view, EdgeFiles> kEdgeFiles[] = {{"lines", EdgeFiles::kLines},
+                                                                 {"inline", EdgeFiles::kInline},
+                                                                 {"both", EdgeFiles::kBoth},
+                                                                 {"none", EdgeFiles::kNone}};
+
 struct Parameter {
   std::string_view name;
   Status (*read)(const Given& given, BuildOptions& options);
@@ -149,6 +169,8 @@ constexpr std::array kParameters = {
               }},
     Parameter{"approximate", [](const Given& given,
                                 Options& options) { return ReadFlag(given, options.approximate); }},
+    Parameter{"edges", [](const Given& given,
+                          Options& options) { return ReadWord(given, kEdgeFiles, options.edges); }},
     Parameter{"skirt",
               [](const Given& given, Options& options) -> Status {
                 if (given.value == "auto") return Ok{};

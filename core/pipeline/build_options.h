@@ -12,6 +12,16 @@
 
 namespace farhorizon {
 
+/// Where a level's horizon edges are drawn: in a file of lines, lodN-horizon.glb; in the GLB of its
+/// mesh, as EXT_mesh_primitive_edge_visibility; in both; nowhere.
+enum class EdgeFiles { kLines, kInline, kBoth, kNone };
+inline bool HasLines(EdgeFiles edges) {
+  return edges == EdgeFiles::kLines || edges == EdgeFiles::kBoth;
+}
+inline bool IsInline(EdgeFiles edges) {
+  return edges == EdgeFiles::kInline || edges == EdgeFiles::kBoth;
+}
+
 /// Options of `farhorizon build` and of a job. The defaults are those of proto/openapi.yaml.
 struct BuildOptions {
   int levels = 5;                     ///< at most
@@ -30,6 +40,7 @@ struct BuildOptions {
   /// As HorizonOptions has it: decisions about candidates.
   std::optional<std::int64_t> work_budget;
   bool approximate = false;  ///< as HorizonOptions has it
+  EdgeFiles edges = EdgeFiles::kLines;
   /// How deep skirts are, metres; 0: none; unset: as SkirtDepths has it.
   std::optional<double> skirt_m;
   int threads = 1;  ///< never changes a byte of the result

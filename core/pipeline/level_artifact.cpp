@@ -47,27 +47,6 @@ Result<LocalMesh> ToLocal(const LevelContext& context, const PostMesh& mesh) {
   return local;
 }
 
-// The level's kept horizon edges as pairs of vertices of the decoded mesh; of a post with several
-// vertices the first.
-std::vector<std::pair<std::uint32_t, std::uint32_t>> KeptInDecoded(const Horizon& horizon,
-                                                                   const Lod& lod,
-                                                                   const LocalMesh& decoded) {
-  const std::vector<std::pair<std::uint32_t, std::uint32_t>> by_post = VerticesByPost(decoded);
-  const auto find = [&by_post](VertexId v) {
-    const auto at = std::lower_bound(by_post.begin(), by_post.end(),
-                                     std::pair(static_cast<std::uint32_t>(v), std::uint32_t{0}));
-    Check(at != by_post.end() && at->first == static_cast<std::uint32_t>(v),
-          "the posts of a kept edge are in the mesh");
-    return at->second;
-  };
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
-  for (const std::int32_t i : lod.kept) {
-    const Edge edge = horizon.edges[static_cast<std::size_t>(i)].edge;
-    pairs.emplace_back(find(edge.a), find(edge.b));
-  }
-  return pairs;
-}
-
 // Gives the vertices of `decoded`, whose stream has no posts, those of the vertices of `mesh` at
 // the same place. Where no triangle is flat, no two posts share a place.
 void NamePosts(const LocalMesh& mesh, LocalMesh& decoded) {
@@ -169,10 +148,7 @@ Result<LevelArtifact> EncodeLevel(const LevelContext& context, const Lod& lod, i
   Result<Encoded> encoded = Encode(*local, *lattice, storage);
   if (!encoded) return std::move(encoded.error());
   LevelArtifact artifact;
-  if (storage.glb) {
-    artifact.glb_stream = std::move(encoded->glb_stream);
-    artifact.kept = KeptInDecoded(context.horizon, lod, encoded->decoded.mesh);
-  }
+  if (storage.glb) artifact.glb_stream = std::move(encoded->glb_stream);
   artifact.drc = std::move(encoded->drc);
   context.control.Report(Stage::kEncode, 1);
   const LocalMesh& mesh = encoded->decoded.mesh;
@@ -203,7 +179,7 @@ Result<std::vector<std::uint8_t>> LevelGlb(const LevelContext& context, double s
     walls = EncodedMesh{*std::move(stream), *std::move(decoded)};
   }
   std::vector<std::uint8_t> glb =
-      WriteGlb(level.glb_stream, level.decoded, level.kept, walls ? &*walls : nullptr);
+      WriteGlb(level.glb_stream, level.decoded, level.flagged, walls ? &*walls : nullptr);
   level.report.skirt_m = skirt_m;
   level.report.glb_bytes = static_cast<std::int64_t>(glb.size());
   if (walls) skirt = std::move(walls->decoded.mesh);

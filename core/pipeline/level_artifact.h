@@ -58,8 +58,8 @@ struct LevelArtifact {
   std::vector<std::uint8_t> drc;         ///< empty where it is not asked for
   std::vector<std::uint8_t> glb_stream;  ///< likewise: the Draco stream of the GLB's surface
   DecodedMesh decoded;                   ///< what both decode to, with posts
-  /// The kept horizon edges, by vertices of `decoded`.
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> kept;
+  /// The edges that the GLB is to flag, by vertices of `decoded`; EncodeLevel leaves it empty.
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> flagged;
   LevelReport report;  ///< all but what is measured or of the GLB, and `asked`
 };
 

@@ -129,6 +129,25 @@ LevelAsked ReadAsked(const Json& json) {
   return asked;
 }
 
+Json ToJson(const SkylineEdgesReport& edges) {
+  return {{"edges", edges.edges},
+          {"carrying", edges.carrying},
+          {"share", edges.share},
+          {"bytes", edges.bytes}};
+}
+
+// Reports of versions that flagged none but the DEM's edges have no such member.
+SkylineEdgesReport ReadSkylineEdges(const Json& level) {
+  SkylineEdgesReport edges;
+  if (!level.contains("skyline_edges")) return edges;
+  const Json& json = level.at("skyline_edges");
+  json.at("edges").get_to(edges.edges);
+  json.at("carrying").get_to(edges.carrying);
+  json.at("share").get_to(edges.share);
+  json.at("bytes").get_to(edges.bytes);
+  return edges;
+}
+
 Json ToJson(const LevelReport& level) {
   return {{"level", level.level},
           {"exact", level.exact},
@@ -146,7 +165,8 @@ Json ToJson(const LevelReport& level) {
           {"skirt_m", level.skirt_m},
           {"skirt_triangles", level.skirt_triangles},
           {"glb_bytes", level.glb_bytes},
-          {"drc_bytes", level.drc_bytes}};
+          {"drc_bytes", level.drc_bytes},
+          {"skyline_edges", ToJson(level.skyline_edges)}};
 }
 
 LevelReport ReadLevel(const Json& json) {
@@ -170,6 +190,7 @@ LevelReport ReadLevel(const Json& json) {
   level.skirt_triangles = json.value("skirt_triangles", std::int64_t{0});
   json.at("glb_bytes").get_to(level.glb_bytes);
   json.at("drc_bytes").get_to(level.drc_bytes);
+  level.skyline_edges = ReadSkylineEdges(json);
   return level;
 }
 

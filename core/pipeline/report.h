@@ -33,6 +33,19 @@ struct LevelAsked {
   double silhouette_m = 0;
 };
 
+/// The edges of a level that are drawn as its horizon; all 0 where no file has them.
+///
+/// edges: the DEM's horizon edges that the level has, and the others that have the level's own
+/// skyline on them. carrying: how many of them a sampled line of sight has shown to have it on
+/// them. share: of the level's own skyline, in the measure of lines, on one of the edges: an
+/// estimate. bytes: of lodN-horizon.glb.
+struct SkylineEdgesReport {
+  std::int64_t edges = 0;
+  std::int64_t carrying = 0;
+  double share = 0;
+  std::int64_t bytes = 0;
+};
+
 /// One level, measured on its decoded mesh: a member of `levels` of report.json.
 ///
 /// exact: before vertices were rounded to be encoded, its skyline was the DEM's. vertical,
@@ -60,6 +73,7 @@ struct LevelReport {
   std::int64_t skirt_triangles = 0;
   std::int64_t glb_bytes = 0;
   std::int64_t drc_bytes = 0;
+  SkylineEdgesReport skyline_edges;
 };
 
 /// The contents of report.json.

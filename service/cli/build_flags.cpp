@@ -59,6 +59,9 @@ void AddBuildFlags(Command& command, BuildFlags& flags) {
   Add(command, flags, "skirt", "auto|M",
       "depth of the walls at the tile's sides and around holes, metres; 0: none (auto: as deep as "
       "the errors of the level and of the coarsest one)");
+  Add(command, flags, "edges", "WHERE",
+      "where each level's horizon is drawn: lines: a file of its own, lodN-horizon.glb; inline: in "
+      "lodN.glb, as EXT_mesh_primitive_edge_visibility; both; none (lines)");
   AddReadFlags(command, flags);
   AddWorkFlags(command, flags);
 }

@@ -16,6 +16,7 @@ void AddHorizon(Command& program, SelectedCommand& selected);
 void AddSkyline(Command& program, SelectedCommand& selected);
 void AddCompare(Command& program, SelectedCommand& selected);
 void AddVerify(Command& program, SelectedCommand& selected);
+void AddViewer(Command& program, SelectedCommand& selected);
 void AddServe(Command& program, SelectedCommand& selected);
 void AddBackup(Command& program, SelectedCommand& selected);
 void AddFsck(Command& program, SelectedCommand& selected);

@@ -31,6 +31,7 @@ int RunProgram(int argc, char** argv) {
   AddSkyline(program, selected);
   AddCompare(program, selected);
   AddVerify(program, selected);
+  AddViewer(program, selected);
   AddServe(program, selected);
   AddBackup(program, selected);
   AddFsck(program, selected);

@@ -18,6 +18,7 @@
 #include "service/http/server.h"
 #include "service/jobs/job_service.h"
 #include "service/log.h"
+#include "service/pages/asset_folder.h"
 #include "service/worker/spawner/spawner.h"
 
 namespace farhorizon {
@@ -84,6 +85,19 @@ Status StartSpawner(const Config& config, JobServiceOptions& options) {
       {{"layers", names}, {"landlock", std::int64_t{layers.landlock}}});
   options.runner.spawner = *std::move(spawner);
   return CheckSandbox(config.sandbox_require, layers);
+}
+
+// CesiumJS for the viewer; nullptr where it is not installed. A folder that the configuration names
+// has to have it.
+Result<std::shared_ptr<const AssetFolder>> ReadCesium(const Config& config) {
+  const std::filesystem::path folder = config.cesium.empty() ? InstalledCesium() : config.cesium;
+  if (folder.empty()) {
+    Log(LogLevel::kInfo, "no CesiumJS: the viewer shows numbers alone", {});
+    return std::shared_ptr<const AssetFolder>();
+  }
+  Result<AssetFolder> read = AssetFolder::Read(folder);
+  if (!read) return std::move(read.error());
+  return std::make_shared<const AssetFolder>(*std::move(read));
 }
 
 void LogStart(const LoadedConfig& loaded, const std::string& base, std::uint16_t port) {
@@ -160,6 +174,8 @@ int ServeProcess(const LoadedConfig& loaded, const std::function<Result<LoadedCo
   BlockServiceSignals();  // before any thread is started, so that all of them block
   ConfigureLog(config.log);
   const BackgroundLog log;
+  Result<std::shared_ptr<const AssetFolder>> cesium = ReadCesium(config);
+  if (!cesium) return ReportError(cesium.error());
   // The port first: a process that cannot bind it must not change the data.
   Result<std::unique_ptr<Server>> server = Server::Bind(HttpOptions(config, *address));
   if (!server) return ReportError(server.error());
@@ -169,7 +185,8 @@ int ServeProcess(const LoadedConfig& loaded, const std::function<Result<LoadedCo
   if (!jobs) return ReportError(jobs.error());
   (*jobs)->MarkEnd();
   const std::string base = BaseUrl(config, *address, (*server)->port());
-  const Router router = BuildRouter({**jobs, base, config.max_body_bytes, TermsOf(options)});
+  const Router router =
+      BuildRouter({**jobs, base, config.max_body_bytes, TermsOf(options), *std::move(cesium)});
   (*server)->Serve(router);
   LogStart(loaded, base, (*server)->port());
   LogMemory((*jobs)->Memory());

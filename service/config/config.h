@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <filesystem>
 #include <string>
 
 #include "service/http/server.h"
@@ -22,6 +23,7 @@ struct Config {
   std::chrono::seconds drain_time{8};
   std::string sandbox_require = "none";  ///< as CheckSandbox takes it
   LogOptions log;
+  std::filesystem::path cesium;  ///< the folder of CesiumJS; empty: InstalledCesium()
 };
 
 }  // namespace farhorizon

@@ -201,6 +201,9 @@ std::vector<ConfigKey> AllKeys() {
                         "the least that is logged"));
   keys.push_back(Choice("log.format", Path(&Config::log, &LogOptions::format), kLogFormatNames,
                         "auto: text on a terminal, else JSON"));
+  keys.push_back(Text("viewer.cesium", Path(&Config::cesium),
+                      "the folder of CesiumJS, as service/pages/install-cesium makes it; empty: "
+                      "cesium beside the program, or share/farhorizon/cesium beside its bin"));
   for (ConfigKey& key : keys) key.reloads = Reloads(key.name);
   return keys;
 }

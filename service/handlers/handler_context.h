@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 
 #include "service/handlers/job_terms.h"
 #include "service/jobs/job_service.h"
+#include "service/pages/asset_folder.h"
 
 namespace farhorizon {
 
@@ -14,6 +16,7 @@ struct HandlerContext {
   std::string base;  ///< the public URL, without a slash at its end
   std::int64_t max_body_bytes = 0;
   TermBounds terms = {};
+  std::shared_ptr<const AssetFolder> cesium = nullptr;  ///< for the viewer; nullptr: not installed
 };
 
 }  // namespace farhorizon

@@ -24,11 +24,14 @@ std::vector<std::string_view> Segments(std::string_view path) {
 
 bool IsVariable(std::string_view segment) { return !segment.empty() && segment[0] == '{'; }
 
+bool IsTail(std::string_view segment) { return IsVariable(segment) && segment.ends_with("*}"); }
+
 // The values of the pattern's variables; nullopt if `path` does not match.
 std::optional<std::vector<std::string>> Match(const std::string& pattern, const std::string& path) {
   const auto wanted = Segments(pattern);
   const auto given = Segments(path);
-  if (wanted.size() != given.size()) return std::nullopt;
+  const bool open = IsTail(wanted.back());
+  if (open ? wanted.size() > given.size() : wanted.size() != given.size()) return std::nullopt;
   std::vector<std::string> values;
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     if (!IsVariable(wanted[i])) {
@@ -38,6 +41,11 @@ std::optional<std::vector<std::string>> Match(const std::string& pattern, const 
     std::optional<std::string> value = PercentDecode(given[i]);
     if (!value || value->empty()) return std::nullopt;
     values.push_back(*std::move(value));
+  }
+  for (std::size_t i = wanted.size(); i < given.size(); ++i) {
+    const std::optional<std::string> value = PercentDecode(given[i]);
+    if (!value) return std::nullopt;
+    values.back() += "/" + *value;
   }
   return values;
 }

@@ -21,6 +21,7 @@ enum class WaitsFor {
 struct Route {
   std::string method;
   std::string pattern;  ///< "/jobs/{id}/results/{name}": {…} matches any one segment
+      ///< and {…*}, at the end, all that are left, of which there is one at least
   /// Decides from the head. The request outlives the exchange that this returns.
   std::function<Admission(const HttpRequest& request)> begin;
   WaitsFor waits_for = WaitsFor::kStore;

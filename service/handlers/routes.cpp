@@ -5,6 +5,7 @@
 
 #include "service/handlers/health.h"
 #include "service/handlers/jobs.h"
+#include "service/handlers/pages.h"
 #include "service/handlers/results.h"
 #include "service/handlers/submit.h"
 
@@ -13,7 +14,7 @@ namespace farhorizon {
 Router BuildRouter(const HandlerContext& context) {
   std::vector<Route> routes = {SubmitRoute(context)};
   for (const std::vector<Route>& group :
-       {JobRoutes(context), ResultRoutes(context), HealthRoutes(context)}) {
+       {JobRoutes(context), ResultRoutes(context), HealthRoutes(context), PageRoutes(context)}) {
     routes.insert(routes.end(), group.begin(), group.end());
   }
   return Router(std::move(routes));

@@ -75,11 +75,13 @@ declare -A may=(
   [service/jobs]="core/base core/io core/pipeline service service/worker service/worker/sandbox service/worker/spawner"
   # Looks at the data directory of a stopped service.
   [service/jobs/fsck]="core/base core/io service service/jobs"
-  [service/handlers]="core/base core/io core/io/file_kind core/pipeline service service/jobs"
+  # What web pages consist of: their texts, and the files of CesiumJS.
+  [service/pages]="core/base core/io core/pipeline/report_page service"
+  [service/handlers]="core/base core/io core/io/file_kind core/pipeline service service/jobs service/pages"
   [service/http]="core/base service service/handlers"
   # The configuration consists of the options of the parts, so it stands above them.
   [service/config]="core/base service service/worker service/jobs service/http"
-  [service/cli]="core/base core/geo core/io core/pipeline core/pipeline/build service service/worker service/worker/sandbox service/worker/spawner service/jobs service/jobs/fsck service/handlers service/http core/pipeline/verify core/pipeline/compare core/horizon core/horizon/search service/config"
+  [service/cli]="core/base core/geo core/io core/pipeline core/pipeline/build service service/worker service/worker/sandbox service/worker/spawner service/jobs service/jobs/fsck service/handlers service/http service/pages core/pipeline/verify core/pipeline/compare core/horizon core/horizon/search service/config"
   [service/main.cpp]="core/base service service/cli"
 )
 

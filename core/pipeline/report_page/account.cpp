@@ -4,6 +4,7 @@
 #include <string>
 
 #include "core/base/stage.h"
+#include "core/pipeline/level_edges.h"
 #include "core/pipeline/report_page/bar_table.h"
 #include "core/pipeline/report_page/figures.h"
 
@@ -28,6 +29,10 @@ std::string Each(std::uintmax_t bytes, std::int64_t count, const char* what) {
 std::string BytesEach(const Report& report, const ManifestEntry& artifact) {
   if (const LevelReport* level = LevelOf(report.levels, artifact.name)) {
     return Each(artifact.bytes, level->triangles, "triangle");
+  }
+  for (const LevelReport& level : report.levels) {
+    if (artifact.name != HorizonGlbName(level.level)) continue;
+    return Each(artifact.bytes, level.skyline_edges.edges, "horizon edge");
   }
   const bool edges = artifact.name == "horizon.geojson" || artifact.name == "horizon.fgb";
   return edges ? Each(artifact.bytes, report.horizon_edges, "horizon edge") : "";

@@ -159,8 +159,8 @@ Result<GlobeMesh> PlaceOnGlobe(const Georeference& georeference, const LocalMesh
   return globe;
 }
 
-GlobeBox BoxAround(const GlobeMesh& mesh) {
-  GlobeBox box = {mesh.vertices.front().place, mesh.vertices.front().place};
+PlaceBox BoxAround(const GlobeMesh& mesh) {
+  PlaceBox box = {mesh.vertices.front().place, mesh.vertices.front().place};
   for (const GlobeVertex& vertex : mesh.vertices) {
     if (!vertex.is_ground) continue;
     box.least = {std::min(box.least.x, vertex.place.x), std::min(box.least.y, vertex.place.y)};
@@ -170,7 +170,7 @@ GlobeBox BoxAround(const GlobeMesh& mesh) {
   return box;
 }
 
-Result<GlobePart> CoverBox(GlobeMesh& mesh, const GlobeBox& box) {
+Result<GlobePart> CoverBox(GlobeMesh& mesh, const PlaceBox& box) {
   const std::vector<Side> sides = SidesOf(mesh.ground.triangles);
   // The points that bound what is to be covered: the ground's sides, and the corners of the box.
   std::vector<std::uint32_t> ground;

@@ -50,7 +50,7 @@ struct GlobeMesh {
 };
 
 /// A rectangle of the lattice.
-struct GlobeBox {
+struct PlaceBox {
   LatticePoint least;
   LatticePoint greatest;
 };
@@ -61,7 +61,7 @@ struct GlobeBox {
 Result<GlobeMesh> PlaceOnGlobe(const Georeference& georeference, const LocalMesh& mesh);
 
 /// The least box around the ground's vertices. Requires: there are some.
-GlobeBox BoxAround(const GlobeMesh& mesh);
+PlaceBox BoxAround(const GlobeMesh& mesh);
 
 /// Covers all of `box` that is not ground: voids of the ground get triangles from side to side,
 /// the globe around it is covered at height 0, with walls between. The parts share vertices.
@@ -70,7 +70,7 @@ GlobeBox BoxAround(const GlobeMesh& mesh);
 /// Requires: the ground lies within the box and does not touch its sides.
 /// Errors: those of TriangulateInside.
 /// Cost: O(triangles + n log n), n vertices on the ground's sides.
-Result<GlobePart> CoverBox(GlobeMesh& mesh, const GlobeBox& box);
+Result<GlobePart> CoverBox(GlobeMesh& mesh, const PlaceBox& box);
 
 /// The earth-fixed direction of the ellipsoid's normal at a place.
 std::array<float, 3> UpAt(const LatticePoint& place);

@@ -111,15 +111,15 @@ class Cutter {
 
   // Makes the tiles of zooms `first` to `last` of a level, as far as there is ground in them.
   Status AddLevel(TiledLevel level, int first, int last) {
-    const GlobeBox ground = BoxAround(level.mesh);
+    const PlaceBox ground = BoxAround(level.mesh);
     int start = first;
     while (start > 0 && CountTiles(start, ground) > 4) --start;
     const std::int64_t side = TileSide(start);
     // A tile more at each side: the ground does not touch the box.
-    const GlobeBox tiles = {
+    const PlaceBox tiles = {
         {FloorDivide(ground.least.x, side) - 1, FloorDivide(ground.least.y, side) - 1},
         {FloorDivide(ground.greatest.x, side) + 2, FloorDivide(ground.greatest.y, side) + 2}};
-    const GlobeBox box = {{tiles.least.x * side, tiles.least.y * side},
+    const PlaceBox box = {{tiles.least.x * side, tiles.least.y * side},
                           {tiles.greatest.x * side, tiles.greatest.y * side}};
     Result<GlobePart> whole = CoverBox(level.mesh, box);
     if (!whole) return std::move(whole.error());

@@ -15,7 +15,7 @@ constexpr int kDeepestZoom = 22;
 
 }  // namespace
 
-std::int64_t CountTiles(int zoom, const GlobeBox& box) {
+std::int64_t CountTiles(int zoom, const PlaceBox& box) {
   const std::int64_t side = TileSide(zoom);
   return (FloorDivide(box.greatest.x, side) - FloorDivide(box.least.x, side) + 1) *
          (FloorDivide(box.greatest.y, side) - FloorDivide(box.least.y, side) + 1);
@@ -26,7 +26,7 @@ double ClientErrorAt(int zoom) {
   return std::ldexp(kZoom0, -zoom);
 }
 
-ZoomPlan PlanZooms(const std::vector<double>& errors_m, double most_height_m, const GlobeBox& box) {
+ZoomPlan PlanZooms(const std::vector<double>& errors_m, double most_height_m, const PlaceBox& box) {
   ZoomPlan plan;
   std::int64_t tiles = 0;
   for (int zoom = 0; zoom <= kDeepestZoom; ++zoom) {

@@ -16,7 +16,7 @@ inline constexpr std::int64_t kMostTerrainTiles = 800;
 double ClientErrorAt(int zoom);
 
 /// How many tiles of `zoom` a box is in.
-std::int64_t CountTiles(int zoom, const GlobeBox& box);
+std::int64_t CountTiles(int zoom, const PlaceBox& box);
 
 /// What is shown at each zoom, from 0 on: a level; nullopt where the ellipsoid will do.
 using ZoomPlan = std::vector<std::optional<std::size_t>>;
@@ -26,6 +26,6 @@ using ZoomPlan = std::vector<std::optional<std::size_t>>;
 ///
 /// errors_m: the measured error of each level, rising from level 0 on. most_height_m: of all of
 /// them, above or below the ellipsoid. box: around the ground.
-ZoomPlan PlanZooms(const std::vector<double>& errors_m, double most_height_m, const GlobeBox& box);
+ZoomPlan PlanZooms(const std::vector<double>& errors_m, double most_height_m, const PlaceBox& box);
 
 }  // namespace farhorizon

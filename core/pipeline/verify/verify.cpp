@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -14,7 +15,9 @@
 #include "core/io/horizon_features.h"
 #include "core/io/manifest.h"
 #include "core/io/tileset_reader.h"
+#include "core/pipeline/build_features.h"
 #include "core/pipeline/level_artifact.h"
+#include "core/pipeline/level_edges.h"
 #include "core/pipeline/post_places.h"
 #include "core/pipeline/report.h"
 #include "core/pipeline/terrain_input.h"
@@ -28,6 +31,21 @@ namespace farhorizon {
 namespace {
 
 namespace fs = std::filesystem;
+
+// What is known of the horizon beside the claims: as horizon.geojson has it, if there is one, and
+// as it was found again, with measures, if anything speaks of them.
+struct HorizonClaims {
+  std::optional<PublishedEdges> published;
+  std::vector<HorizonFeature> found;
+  std::vector<ClaimCheck> checks;
+  int threads = 1;  ///< to look for the edges of levels with
+};
+
+// A folder of artifacts and its report.
+struct Artifacts {
+  const fs::path& directory;
+  const Report& report;
+};
 
 Status VerifyManifest(const fs::path& directory, Claims& claims) {
   Result<std::string> text = ReadFile(directory / "manifest.json");
@@ -68,15 +86,51 @@ void VerifyAbsence(const fs::path& directory, const LevelReport& level, Claims& 
   const std::string name = "lod" + std::to_string(level.level);
   std::error_code failure;
   claims.Add(!fs::exists(directory / (name + ".glb"), failure) &&
-                 !fs::exists(directory / (name + ".drc"), failure),
+                 !fs::exists(directory / (name + ".drc"), failure) &&
+                 !fs::exists(directory / HorizonGlbName(level.level), failure),
              name + " has no bytes in the report and no file: its numbers cannot be measured");
 }
 
+// For each horizon edge the coarsest level so far that has it, as long as no finer one has lost it.
+class KeptEdges {
+ public:
+  explicit KeptEdges(const Horizon& horizon)
+      : horizon_(horizon), coarsest_(horizon.edges.size(), -1) {}
+
+  // Places of the edges that level `level` keeps, whose mesh has `edges`, rising.
+  std::vector<std::int32_t> Take(int level, const std::vector<Edge>& edges) {
+    std::vector<std::int32_t> kept;
+    for (std::size_t i = 0; i < coarsest_.size(); ++i) {
+      if (coarsest_[i] != level - 1) continue;
+      if (!std::binary_search(edges.begin(), edges.end(), horizon_.edges[i].edge)) continue;
+      coarsest_[i] = level;
+      kept.push_back(static_cast<std::int32_t>(i));
+    }
+    return kept;
+  }
+
+  // Whether `published` has this of each edge.
+  [[nodiscard]] bool Are(const PublishedEdges& published) const {
+    std::map<Edge, int> claimed;
+    for (std::size_t i = 0; i < published.edges.size(); ++i) {
+      claimed.emplace(published.edges[i], published.level_kept[i]);
+    }
+    for (std::size_t i = 0; i < coarsest_.size(); ++i) {
+      const auto at = claimed.find(horizon_.edges[i].edge);
+      if (at == claimed.end() || at->second != coarsest_[i]) return false;
+    }
+    return true;
+  }
+
+ private:
+  const Horizon& horizon_;
+  std::vector<int> coarsest_;
+};
+
 void VerifyLevels(const LevelContext& context, const fs::path& directory, const Report& report,
-                  const std::optional<PublishedEdges>& published, Claims& claims) {
+                  const HorizonClaims& horizon, Claims& claims) {
   const RunControl& control = context.control;
-  std::vector<int> kept;
-  if (published) kept.assign(published->edges.size(), -1);
+  KeptEdges kept(context.horizon);
   double finer_error_m = 0;
   for (std::size_t level = 0; level < report.levels.size(); ++level) {
     const RunControl level_control = LevelControl(control, level, report.levels.size());
@@ -87,8 +141,9 @@ void VerifyLevels(const LevelContext& context, const fs::path& directory, const 
       VerifyAbsence(directory, claimed, claims);
       continue;
     }
-    const std::vector<Edge> edges =
-        VerifyLevel(context.With(level_control), directory, claimed, claims);
+    const LevelContext level_context = context.With(level_control);
+    const std::optional<StoredLevel> stored =
+        VerifyLevel(level_context, directory, claimed, claims);
     claims.Add(
         claimed.geometric_error_m >= finer_error_m,
         "lod" + std::to_string(level) + " has no smaller geometric error than a finer level");
@@ -97,22 +152,18 @@ void VerifyLevels(const LevelContext& context, const fs::path& directory, const 
       claims.Same("lod" + std::to_string(level) + " is exact and has every horizon edge",
                   report.horizon_edges, claimed.horizon_edges);
     }
-    if (!published) continue;
-    // An edge counts as kept as long as no finer level has lost it.
-    std::int64_t here = 0;
-    for (std::size_t i = 0; i < published->edges.size(); ++i) {
-      if (kept[i] != static_cast<int>(level) - 1 ||
-          !std::binary_search(edges.begin(), edges.end(), published->edges[i])) {
-        continue;
-      }
-      kept[i] = static_cast<int>(level);
-      ++here;
-    }
-    claims.Same("lod" + std::to_string(level) + " horizon edges", claimed.horizon_edges, here);
+    if (!stored) continue;
+    const std::vector<std::int32_t> here =
+        kept.Take(static_cast<int>(level), EdgesByPost(stored->decoded.mesh));
+    claims.Same("lod" + std::to_string(level) + " horizon edges", claimed.horizon_edges,
+                std::ssize(here));
+    if (claimed.glb_bytes == 0) continue;
+    VerifyLevelEdges(level_context, directory, claimed, *stored,
+                     {here, horizon.found, horizon.threads}, claims);
   }
   const bool all_written = std::none_of(report.levels.begin(), report.levels.end(), WasNotWritten);
-  if (published && all_written) {
-    claims.Add(kept == published->level_kept,
+  if (horizon.published && all_written) {
+    claims.Add(kept.Are(*horizon.published),
                "horizon.geojson: level_kept is the coarsest level that still has the edge");
   }
 }
@@ -143,6 +194,45 @@ void VerifyTileset(const TerrainInput& input, const fs::path& directory, const R
   claims.Add(off < 1e-6, "tileset.json places the local frame where the DEM is");
 }
 
+// Checks horizon.geojson, and finds the measures of edges again where a file has some.
+Result<HorizonClaims> VerifyHorizonFiles(const TerrainInput& input, const Horizon& horizon,
+                                         const Artifacts& artifacts,
+                                         const MeasureOptions& measuring,
+                                         const RunControl& control) {
+  HorizonClaims result;
+  result.threads = measuring.threads;
+  const fs::path path = artifacts.directory / "horizon.geojson";
+  const bool published = fs::exists(path);
+  const bool drawn = std::ranges::any_of(artifacts.report.levels, [](const LevelReport& level) {
+    return level.skyline_edges.bytes > 0;
+  });
+  if (!published && !drawn) {  // no edge's lines of sight are there to be compared
+    control.Report(Stage::kLinesOfSight, 1);
+    control.Report(Stage::kEdgeMeasures, 1);
+    return result;
+  }
+  Result<std::vector<HorizonFeature>> found = BuildFeatures(input, horizon, {}, measuring, control);
+  if (!found) return std::move(found.error());
+  result.found = *std::move(found);
+  control.Report(Stage::kVerify, kVerifiedBeforeSights);
+  if (!published) return result;
+  Result<std::string> geojson = ReadFile(path);
+  if (!geojson) return std::move(geojson.error());
+  Result<std::vector<HorizonFeature>> features = ReadHorizonGeoJson(*geojson);
+  if (!features) return std::move(features.error());
+  Claims claims;
+  claims.Same("horizon.geojson features", artifacts.report.horizon_edges, std::ssize(*features));
+  result.published = VerifyFeatures(input, *features, claims);
+  VerifySet(result.published->edges, horizon, claims);
+  claims.Same("horizon.geojson edges that are undecided", artifacts.report.statistics.undecided,
+              result.published->undecided);
+  Result<std::vector<ClaimCheck>> edges = VerifyEdges(input, horizon, *features, result.found);
+  if (!edges) return std::move(edges.error());
+  claims.Append(*std::move(edges));
+  result.checks = std::move(claims).Take();
+  return result;
+}
+
 // The report's budget alone decides what is left open: where it suffices, it makes no difference
 // that it may be approximate.
 HorizonOptions OptionsAsClaimed(const Report& report, int threads) {
@@ -153,10 +243,10 @@ HorizonOptions OptionsAsClaimed(const Report& report, int threads) {
   return HorizonOptionsOf(options);
 }
 
-// True where the report says that some level has bytes of this kind: the format was asked for.
-bool Has(const std::vector<LevelReport>& levels, std::int64_t LevelReport::*bytes) {
+// True where the report says that some level has a GLB: the format was asked for.
+bool HasGlb(const std::vector<LevelReport>& levels) {
   return std::any_of(levels.begin(), levels.end(),
-                     [bytes](const LevelReport& level) { return level.*bytes > 0; });
+                     [](const LevelReport& level) { return level.glb_bytes > 0; });
 }
 
 }  // namespace
@@ -189,26 +279,11 @@ Result<std::vector<ClaimCheck>> VerifyArtifacts(const fs::path& dem, const fs::p
               static_cast<std::int64_t>(horizon->edges.size()));
 
   control.Report(Stage::kVerify, 0);
-  std::optional<PublishedEdges> published;
-  if (fs::exists(directory / "horizon.geojson")) {
-    Result<std::string> geojson = ReadFile(directory / "horizon.geojson");
-    if (!geojson) return std::move(geojson.error());
-    Result<std::vector<HorizonFeature>> features = ReadHorizonGeoJson(*geojson);
-    if (!features) return std::move(features.error());
-    claims.Same("horizon.geojson features", report->horizon_edges,
-                static_cast<std::int64_t>(features->size()));
-    published = VerifyFeatures(**input, *features, claims);
-    VerifySet(published->edges, *horizon, claims);
-    claims.Same("horizon.geojson edges that are undecided", report->statistics.undecided,
-                published->undecided);
-    Result<std::vector<ClaimCheck>> edges = VerifyEdges(
-        **input, *horizon, *features, {.budget = budget, .threads = options.threads}, control);
-    if (!edges) return std::move(edges.error());
-    claims.Append(*std::move(edges));
-  } else {  // no edge's lines of sight are there to be compared
-    control.Report(Stage::kLinesOfSight, 1);
-    control.Report(Stage::kEdgeMeasures, 1);
-  }
+  Result<HorizonClaims> horizon_claims =
+      VerifyHorizonFiles(**input, *horizon, {directory, *report},
+                         {.budget = budget, .threads = options.threads}, control);
+  if (!horizon_claims) return std::move(horizon_claims.error());
+  claims.Append(std::move(horizon_claims->checks));
   control.Report(Stage::kVerify, kVerifiedWithSights);
   Result<PostNormals> normals = FindPostNormals((*input)->terrain(), (*input)->georeference());
   if (!normals) return std::move(normals.error());
@@ -217,8 +292,8 @@ Result<std::vector<ClaimCheck>> VerifyArtifacts(const fs::path& dem, const fs::p
   MeshMeasurer measurer((*input)->terrain(), *horizon, *std::move(places));
   const LevelContext context{
       (*input)->terrain(), *horizon, (*input)->georeference(), *normals, measurer, control};
-  VerifyLevels(context, directory, *report, published, claims);
-  if (Has(report->levels, &LevelReport::glb_bytes)) {
+  VerifyLevels(context, directory, *report, *horizon_claims, claims);
+  if (HasGlb(report->levels)) {
     VerifyTileset(**input, directory, *report, claims);
   }
   control.Report(Stage::kVerify, 1);

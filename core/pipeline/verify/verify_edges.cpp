@@ -150,8 +150,7 @@ VisibilityCounts CountVisibility(const PublishedSet& set,
 
 Result<std::vector<ClaimCheck>> VerifyEdges(const TerrainInput& input, const Horizon& horizon,
                                             const std::vector<HorizonFeature>& features,
-                                            const MeasureOptions& measuring,
-                                            const RunControl& control) {
+                                            const std::vector<HorizonFeature>& found) {
   Claims claims;
   const Terrain& terrain = input.terrain();
   const Dem& dem = terrain.dem();
@@ -163,10 +162,6 @@ Result<std::vector<ClaimCheck>> VerifyEdges(const TerrainInput& input, const Hor
                  });
   claims.Add(in_order, "horizon.geojson has the horizon edges by rising posts, each once");
   if (!in_order) return std::move(claims).Take();
-  Result<std::vector<EdgeMeasures>> found =
-      MeasureEdges(terrain, horizon, input.georeference(), measuring, control);
-  if (!found) return std::move(found.error());
-  control.Report(Stage::kVerify, kVerifiedBeforeSights);
   std::vector<std::array<double, 2>> middles;
   middles.reserve(features.size());
   for (const HorizonFeature& f : features) {
@@ -177,7 +172,7 @@ Result<std::vector<ClaimCheck>> VerifyEdges(const TerrainInput& input, const Hor
 
   std::int64_t different = 0;
   for (std::size_t i = 0; i < features.size(); ++i) {
-    different += Same(features[i].measures, (*found)[i]) ? 0 : 1;
+    different += Same(features[i].measures, found[i].measures) ? 0 : 1;
   }
   claims.Same("horizon.geojson edges with other azimuths, spans or weights", std::int64_t{0},
               different);

@@ -3,10 +3,8 @@
 #include <vector>
 
 #include "core/base/result.h"
-#include "core/base/run_control.h"
 #include "core/horizon/horizon.h"
 #include "core/io/horizon_features.h"
-#include "core/pipeline/edge_measures.h"
 #include "core/pipeline/terrain_input.h"
 #include "core/pipeline/verify/verify.h"
 
@@ -23,11 +21,10 @@ inline constexpr double kVerifiedWithSights = 0.95;
 /// gap between its azimuths it is not.
 ///
 /// features: one for each edge of `horizon`, in its order; any other list is a false claim.
-/// measuring: with the budget of the run that found `horizon`, as it left it.
-/// Errors: those of MeasureEdges. Cost: that of MeasureEdges, and 2000 times the number of edges.
+/// found: the same with the measures that were found again.
+/// Errors: those of Georeference::StepsAt. Cost: 2000 times the number of edges.
 Result<std::vector<ClaimCheck>> VerifyEdges(const TerrainInput& input, const Horizon& horizon,
                                             const std::vector<HorizonFeature>& features,
-                                            const MeasureOptions& measuring,
-                                            const RunControl& control);
+                                            const std::vector<HorizonFeature>& found);
 
 }  // namespace farhorizon

@@ -181,21 +181,8 @@ void VerifyNormals(const LevelContext& context, const std::string& name, const L
   claims.Same(name + " normals a degree or more off the DEM's", std::int64_t{0}, turned);
 }
 
-std::vector<Edge> EdgesByPost(const LocalMesh& mesh) {
-  std::vector<Edge> edges;
-  for (const auto& t : mesh.triangles) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      edges.push_back(MakeEdge(static_cast<VertexId>(mesh.posts[t[k]]),
-                               static_cast<VertexId>(mesh.posts[t[(k + 1) % 3]])));
-    }
-  }
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-  return edges;
-}
-
 // The mesh of the GLB, with posts.
-std::optional<DecodedMesh> LoadGlb(const LevelContext& context,
+std::optional<StoredLevel> LoadGlb(const LevelContext& context,
                                    const std::filesystem::path& directory,
                                    const LevelReport& claimed, Claims& claims) {
   const std::string name = "lod" + std::to_string(claimed.level) + ".glb";
@@ -214,7 +201,7 @@ std::optional<DecodedMesh> LoadGlb(const LevelContext& context,
   if (!named) claims.Add(false, name + ": " + named.error().message);
   if (!named) return std::nullopt;
   VerifySkirt({context, name, claimed, *decoded}, *glb, claims);
-  return decoded;
+  return StoredLevel{*std::move(decoded), {}, std::move(glb->edges)};
 }
 
 std::optional<DecodedMesh> LoadDrc(const std::filesystem::path& directory,
@@ -231,18 +218,19 @@ std::optional<DecodedMesh> LoadDrc(const std::filesystem::path& directory,
 }
 
 // The mesh of the level's files.
-std::optional<DecodedMesh> LoadMesh(const LevelContext& context,
+std::optional<StoredLevel> LoadMesh(const LevelContext& context,
                                     const std::filesystem::path& directory,
                                     const LevelReport& claimed, Claims& claims) {
-  std::optional<DecodedMesh> glb;
+  std::optional<StoredLevel> glb;
   std::optional<DecodedMesh> drc;
   if (claimed.glb_bytes > 0) glb = LoadGlb(context, directory, claimed, claims);
   if (claimed.drc_bytes > 0) drc = LoadDrc(directory, claimed, claims);
   if (glb && drc) {
-    claims.Add(ContentsOf(glb->mesh) == ContentsOf(drc->mesh),
+    claims.Add(ContentsOf(glb->decoded.mesh) == ContentsOf(drc->mesh),
                "lod" + std::to_string(claimed.level) + ".glb and .drc hold the same mesh");
   }
-  return glb ? std::move(glb) : std::move(drc);
+  if (!glb && drc) glb = StoredLevel{*std::move(drc), {}, {}};
+  return glb;
 }
 
 // Vertices on the tile's sides lie where a neighbour's do.
@@ -259,11 +247,13 @@ void VerifySides(const LevelContext& context, const std::string& name, const Loc
               off);
 }
 
-// What is counted and measured of a decoded mesh.
-Result<LevelReport> MeasureLevel(const LevelContext& context, const LocalMesh& mesh) {
+// What is counted and measured of a decoded mesh, which is placed for that.
+Result<LevelReport> MeasureLevel(const LevelContext& context, StoredLevel& level) {
+  const LocalMesh& mesh = level.decoded.mesh;
   Result<PlacedMesh> placed = PlaceLevel(context, mesh);
   if (!placed) return std::move(placed.error());
-  Result<MeshError> error = context.measurer.Measure(*placed, context.control);
+  level.placed = *std::move(placed);
+  Result<MeshError> error = context.measurer.Measure(level.placed, context.control);
   if (!error) return std::move(error.error());
   LevelReport found;
   found.triangles = static_cast<std::int64_t>(mesh.triangles.size());
@@ -274,24 +264,38 @@ Result<LevelReport> MeasureLevel(const LevelContext& context, const LocalMesh& m
 
 }  // namespace
 
-std::vector<Edge> VerifyLevel(const LevelContext& context, const std::filesystem::path& directory,
-                              const LevelReport& claimed, Claims& claims) {
-  const std::string name = "lod" + std::to_string(claimed.level);
-  const std::optional<DecodedMesh> decoded = LoadMesh(context, directory, claimed, claims);
-  if (!decoded) {
-    claims.Add(false, name + ": no mesh to measure");
-    return {};
+std::vector<Edge> EdgesByPost(const LocalMesh& mesh) {
+  std::vector<Edge> edges;
+  for (const auto& t : mesh.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      edges.push_back(MakeEdge(static_cast<VertexId>(mesh.posts[t[k]]),
+                               static_cast<VertexId>(mesh.posts[t[(k + 1) % 3]])));
+    }
   }
-  const LocalMesh& mesh = decoded->mesh;
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  return edges;
+}
+
+std::optional<StoredLevel> VerifyLevel(const LevelContext& context,
+                                       const std::filesystem::path& directory,
+                                       const LevelReport& claimed, Claims& claims) {
+  const std::string name = "lod" + std::to_string(claimed.level);
+  std::optional<StoredLevel> level = LoadMesh(context, directory, claimed, claims);
+  if (!level) {
+    claims.Add(false, name + ": no mesh to measure");
+    return std::nullopt;
+  }
+  const LocalMesh& mesh = level->decoded.mesh;
   claims.Same(name + " lattice's step, metres", claimed.quantization_step_m,
-              decoded->lattice.step_m);
+              level->decoded.lattice.step_m);
   VerifySides(context, name, mesh, claimed.side_step_m, claims);
   claims.Add(AllTurnLeft(mesh, context.georeference.frame()),
              name + ": no triangle is flipped or without area");
-  Result<LevelReport> found = MeasureLevel(context, mesh);
+  Result<LevelReport> found = MeasureLevel(context, *level);
   claims.Add(found.has_value(),
              name + " covers the DEM without cracks" + (found ? "" : ": " + found.error().message));
-  if (!found) return {};
+  if (!found) return std::nullopt;
   VerifyNormals(context, name, mesh, claims);
   claims.Same(name + " triangles", claimed.triangles, found->triangles);
   claims.Same(name + " vertices", claimed.vertices, found->vertices);
@@ -304,7 +308,7 @@ std::vector<Edge> VerifyLevel(const LevelContext& context, const std::filesystem
                 "degrees");
   claims.AtMost(name + " needles", claimed.needle_share, found->needle_share, "of the triangles");
   claims.AtMost(name + " geometric error", claimed.geometric_error_m, found->geometric_error_m);
-  return EdgesByPost(mesh);
+  return level;
 }
 
 }  // namespace farhorizon

@@ -141,6 +141,23 @@ TEST(GlobeTransform, VerticalDatumMayComeWithTheSystemOrBesideIt) {
   EXPECT_EQ(dropped.height_m, 1000);
 }
 
+// The points of NGA's INPUT.DAT and the undulations that its program F477 makes of them, from the
+// model's harmonics; Debian's grid has 15 minutes, and PROJ interpolates it linearly.
+TEST(GlobeTransform, Egm96AgreesWithItsMakersTestPoints) {
+  struct TestPoint {
+    double lat_deg;
+    double lon_deg;
+    double undulation_m;
+  };
+  const GlobeTransform globe = MustOpen("EPSG:4326+5773");
+  for (const TestPoint& p :
+       {TestPoint{38.6281550, -90.2208450, -31.628}, TestPoint{-14.6212170, -54.9788860, -2.969},
+        TestPoint{46.8743190, 102.4487290, -43.575}, TestPoint{-23.6174460, 133.8747120, 15.871},
+        TestPoint{38.6254730, -0.0005000, 50.066}, TestPoint{-0.4667440, 0.0023000, 17.329}}) {
+    EXPECT_NEAR(OnGlobe(globe, {p.lon_deg, p.lat_deg, 0}).height_m, p.undulation_m, 0.1);
+  }
+}
+
 TEST(GlobeTransform, HeightsComeInMetresWhateverTheVerticalUnitOfTheSystem) {
   // EGM96 heights counted in US survey feet: a system of its own, by WKT.
   const std::string feet =

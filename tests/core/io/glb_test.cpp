@@ -137,6 +137,18 @@ TEST(Glb, HorizonEdgesAreInTheExtensionAndOnlyThen) {
   EXPECT_EQ(gltf["accessors"][edges["silhouetteNormals"].get<int>()]["count"], 2 * silhouettes);
 }
 
+TEST(Glb, ReadsBackTheEdgesThatItFlagged) {
+  const Encoded e = Encode(9, 8);
+  const VertexPairs edges = SomeEdges(e.decoded.mesh);
+  Result<GlbContents> contents = ReadGlb(WriteGlb(e.draco, e.decoded, edges));
+  ASSERT_TRUE(contents);
+  EdgeVisibility flagged = FlagEdges(e.decoded.mesh, edges);
+  EXPECT_GT(flagged.edge_count, 0);
+  flagged.edge_count = 0;  // not in the file
+  EXPECT_EQ(contents->edges, flagged);
+  EXPECT_TRUE(ReadGlb(WriteGlb(e.draco, e.decoded, {}))->edges.bits.empty());
+}
+
 TEST(Glb, ReadsBackWhatItWrote) {
   const Encoded e = Encode(9, 8);
   Result<GlbContents> contents = ReadGlb(WriteGlb(e.draco, e.decoded, SomeEdges(e.decoded.mesh)));

@@ -98,6 +98,16 @@ TEST(FlagOf, WritesAParameterAsTheCommandLineDoes) {
   EXPECT_EQ(FlagOf("silhouetteError"), "--silhouette-error");
 }
 
+TEST(ParseOptions, EdgesAreOneOfFourWords) {
+  EXPECT_EQ(BuildOptions().edges, EdgeFiles::kLines);
+  EXPECT_EQ(ParseOptions({{"edges", "lines"}})->edges, EdgeFiles::kLines);
+  EXPECT_EQ(ParseOptions({{"edges", "inline"}})->edges, EdgeFiles::kInline);
+  EXPECT_EQ(ParseOptions({{"edges", "both"}})->edges, EdgeFiles::kBoth);
+  EXPECT_EQ(ParseOptions({{"edges", "none"}})->edges, EdgeFiles::kNone);
+  const Error error = ParseOptions({{"edges", "some"}}).error();
+  EXPECT_NE(error.message.find("lines, inline, both, none"), std::string::npos) << error.message;
+}
+
 struct BadParameter {
   const char* name;
   const char* value;
@@ -137,7 +147,8 @@ INSTANTIATE_TEST_SUITE_P(
                     BadParameter{"triangles", "-500"}, BadParameter{"triangles", "1e9,1000000001"},
                     BadParameter{"triangles", "500,500"}, BadParameter{"triangles", "500,5e2"},
                     BadParameter{"triangles", "500,"}, BadParameter{"triangles", "0.5"},
-                    BadParameter{"triangles", "half"},
+                    BadParameter{"triangles", "half"}, BadParameter{"edges", ""},
+                    BadParameter{"edges", "Lines"}, BadParameter{"edges", "lines,inline"},
                     BadParameter{"triangles", "2,3,4,5,6,7,8,9,10,11,12,13,14"}));
 
 TEST(ParseOptions, RefusesTextsWithANul) {

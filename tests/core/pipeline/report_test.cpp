@@ -31,6 +31,7 @@ Report SomeReport() {
   finest.quantization_step_m = 0.0625;
   finest.glb_bytes = 1000;
   finest.drc_bytes = 900;
+  finest.skyline_edges = {13, 12, 0.9985, 4000};
   LevelReport coarser = finest;
   coarser.level = 1;
   coarser.exact = false;
@@ -53,6 +54,8 @@ TEST(Report, ReadsBackWhatItWrote) {
   EXPECT_EQ(read->levels[0].asked.vertical_m, 2.5);
   EXPECT_FALSE(read->levels[1].exact);
   EXPECT_EQ(read->levels[1].asked.triangles, 4);
+  EXPECT_EQ(read->levels[0].skyline_edges.carrying, 12);
+  EXPECT_EQ(read->levels[0].skyline_edges.share, 0.9985);
   EXPECT_EQ(read->dem.heights_rounded, true);
   EXPECT_EQ(read->statistics.undecided, 9);
   EXPECT_EQ(read->statistics.work_budget, 1'000'000'000'000);

@@ -7,7 +7,7 @@ namespace farhorizon {
 namespace {
 
 // A tenth of a degree in the middle of tiles.
-const GlobeBox kSmall = {
+const PlaceBox kSmall = {
     {kHalfTurn + kHalfTurn / 36, kHalfTurn / 5},
     {kHalfTurn + kHalfTurn / 36 + kHalfTurn / 1800, kHalfTurn / 5 + kHalfTurn / 1800}};
 
@@ -36,7 +36,7 @@ TEST(ZoomPlan, EachZoomHasTheCoarsestLevelThatIsGoodEnough) {
 }
 
 TEST(ZoomPlan, KeepsToItsTiles) {
-  const GlobeBox degree = {{kHalfTurn, kHalfTurn / 2},
+  const PlaceBox degree = {{kHalfTurn, kHalfTurn / 2},
                            {kHalfTurn + kHalfTurn / 180, kHalfTurn / 2 + kHalfTurn / 180}};
   const ZoomPlan plan = PlanZooms({0.1, 200}, 3000, degree);
   std::int64_t tiles = 0;

@@ -7,12 +7,14 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <tuple>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "core/io/glb.h"
 #include "core/io/horizon_features.h"
+#include "core/io/horizon_glb.h"
 #include "core/pipeline/build.h"
 #include "core/pipeline/report.h"
 #include "tests/support/temp_dir.h"
@@ -326,6 +328,66 @@ TEST_F(Verify, EveryClaimHoldsWhereOneFormatIsAskedFor) {
     EXPECT_NE(glb, std::filesystem::exists(folder_ / "out" / "lod0.drc"));
     EXPECT_TRUE(False().empty()) << format << ": " << False().front();
   }
+}
+
+TEST_F(Verify, EdgesAreInTheFilesThatAreAskedForAndNoOthers) {
+  for (const auto& [edges, lines, inlined] :
+       {std::tuple{EdgeFiles::kLines, true, false}, std::tuple{EdgeFiles::kInline, false, true},
+        std::tuple{EdgeFiles::kBoth, true, true}, std::tuple{EdgeFiles::kNone, false, false}}) {
+    std::filesystem::remove_all(folder_ / "out");
+    options_.edges = edges;
+    ASSERT_TRUE(BuildArtifacts(folder_ / "hills.asc", folder_ / "out", options_, control_));
+    EXPECT_EQ(std::filesystem::exists(folder_ / "out" / "lod1-horizon.glb"), lines);
+    const std::string glb = SlurpFile(folder_ / "out" / "lod1.glb");
+    EXPECT_EQ(glb.find("EXT_mesh_primitive_edge_visibility") != std::string::npos, inlined);
+    const Report report = *ReadReport(SlurpFile(folder_ / "out" / "report.json"));
+    const SkylineEdgesReport& level = report.levels[1].skyline_edges;
+    EXPECT_EQ(level.edges > 0, lines || inlined);
+    EXPECT_EQ(level.bytes > 0, lines);
+    if (level.edges > 0) {
+      EXPECT_GT(level.edges, report.levels[1].horizon_edges) << "a level has chords of its own";
+      EXPECT_LE(level.carrying, level.edges);
+      EXPECT_GE(level.share, 0.995);
+    }
+    EXPECT_TRUE(False().empty()) << False().front();
+  }
+}
+
+// Writes the lines of level 1 anew, one of them changed.
+TEST_F(Verify, LinesThatAreNotTheLevelsAreFound) {
+  const std::string name = "lod1-horizon.glb";
+  const std::string bytes = SlurpFile(folder_ / "out" / name);
+  const std::vector<HorizonLine> lines = ReadHorizonGlb({bytes.begin(), bytes.end()})->lines;
+  const QuantizationLattice lattice = Decode("lod1.drc").lattice;
+  const auto claim = [&](const std::function<void(std::vector<HorizonLine>&)>& change) {
+    std::vector<HorizonLine> changed = lines;
+    change(changed);
+    const std::vector<std::uint8_t> glb = WriteHorizonGlb(changed, lattice);
+    SpillFile(folder_ / "out" / name, {glb.begin(), glb.end()});
+    return Names(False(), "lod1-horizon.glb lines with other ends, posts, azimuths or weights");
+  };
+  EXPECT_FALSE(claim([](std::vector<HorizonLine>&) {}));
+  EXPECT_TRUE(claim([](std::vector<HorizonLine>& l) { l[3].ends[1][2] += 1; }));
+  EXPECT_TRUE(claim([](std::vector<HorizonLine>& l) { l[3].posts[0] -= 1; }));
+  EXPECT_TRUE(claim([](std::vector<HorizonLine>& l) { l[3].azimuths ^= 1; }));
+  EXPECT_TRUE(claim([](std::vector<HorizonLine>& l) { l[3].skyline_drop_m = 99; }));
+  EXPECT_TRUE(claim([](std::vector<HorizonLine>& l) { l[3].line_measure_m = 1e-3F; }));
+  EXPECT_TRUE(claim([](std::vector<HorizonLine>& l) { l.pop_back(); }));
+  std::filesystem::remove(folder_ / "out" / name);
+  EXPECT_TRUE(Names(False(), "lod1-horizon.glb is there: claimed 1, found 0"));
+}
+
+TEST_F(Verify, FlagsThatAreNotTheLevelsAreFound) {
+  std::filesystem::remove_all(folder_ / "out");
+  options_.edges = EdgeFiles::kInline;
+  ASSERT_TRUE(BuildArtifacts(folder_ / "hills.asc", folder_ / "out", options_, control_));
+  const std::string bytes = SlurpFile(folder_ / "out" / "lod1.glb");
+  const GlbContents contents = *ReadGlb({bytes.begin(), bytes.end()});
+  DecodedMesh decoded = *DecodeDraco(contents.surface.draco);
+  decoded.mesh.posts.resize(decoded.mesh.positions.size());
+  const std::vector<std::uint8_t> glb = WriteGlb(contents.surface.draco, decoded, {{0, 1}});
+  SpillFile(folder_ / "out" / "lod1.glb", {glb.begin(), glb.end()});
+  EXPECT_TRUE(Names(False(), "lod1.glb flags them and no others"));
 }
 
 // White noise under a budget that leaves much undecided.

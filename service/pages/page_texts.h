@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string_view>
+
+namespace farhorizon {
+
+/// The files of this folder that the pages consist of; the build puts their bytes into the program.
+/// The two .html are templates for FillTemplate.
+extern const std::string_view kIndexHtml;
+extern const std::string_view kIndexJs;
+extern const std::string_view kViewerHtml;
+/// Of the viewer, in the order in which a page runs them.
+extern const std::string_view kHorizonLinesJs;
+extern const std::string_view kSkylineJs;
+extern const std::string_view kSceneJs;
+extern const std::string_view kViewerJs;
+extern const std::string_view kPalettesCss;
+extern const std::string_view kIndexCss;
+extern const std::string_view kViewerCss;
+
+}  // namespace farhorizon

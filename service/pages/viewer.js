@@ -1,0 +1,253 @@
+'use strict';
+// The controls of the viewer and the report's numbers.
+(async () => {
+  const byId = (id) => document.getElementById(id);
+  const { results, cesium, home } = document.body.dataset;
+  const make = (tag, properties = {}, ...children) => {
+    const element = Object.assign(document.createElement(tag), properties);
+    element.append(...children);
+    return element;
+  };
+  const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+  const notice = (text, corner = true) => {
+    byId('notice').hidden = !text;
+    byId('notice').textContent = text ?? '';
+    byId('notice').classList.toggle('corner', corner);
+  };
+  const getJson = async (name) => {
+    const response = await fetch(results + name);
+    return response.ok ? response.json() : null;
+  };
+
+  // ---- The numbers, which need no CesiumJS.
+  const digits = (value) => {
+    if (value === null || value === undefined) return '–';
+    return value === 0 ? '0' : Math.abs(value) < 1000 ? String(Number(value.toPrecision(3)))
+      : Math.round(value).toLocaleString('en');
+  };
+  const fillNumbers = (report) => {
+    const heads = ['Level', 'Triangles', 'Skyline rms, m', 'Ground rms, m', 'GLB, kB'];
+    const row = (level) => make('tr', { id: `row-${level.level}` },
+      make('th', { scope: 'row' }, String(level.level)),
+      ...[level.triangles, level.silhouette_error_m.rms, level.vertical_error_m.rms,
+        level.glb_bytes && level.glb_bytes / 1000].map((value) => make('td', {}, digits(value))));
+    byId('numbers').append(
+      make('caption', {}, 'Errors against the DEM, root mean square'),
+      make('thead', {}, make('tr', {}, ...heads.map((text) => make('th', { scope: 'col' }, text)))),
+      make('tbody', {}, ...report.levels.map(row)));
+    const { columns, rows, heights_m: heights } = report.dem;
+    byId('facts').textContent = `${columns} × ${rows} posts, ${digits(heights[0])} to ` +
+      `${digits(heights[1])} m; ${report.horizon.horizon_edges.toLocaleString('en')} horizon edges`;
+  };
+  const fillHead = async () => {
+    const report = await getJson('report.json');
+    if (report) fillNumbers(report);
+    byId('links').append(...['report.html', 'report.json', 'tileset.json'].flatMap(
+      (name, i) => [i ? ' · ' : '', make('a', { href: results + name }, name)]));
+    if (!home) return;
+    byId('home').href = home;
+    byId('home').hidden = false;
+    const job = await fetch(results.replace(/\/results\/$/, '')).then((answer) => answer.json());
+    byId('title').textContent = job.filename ?? job.id;
+    document.title = `${job.filename ?? job.id}: farhorizon`;
+  };
+  byId('fold').addEventListener('click', () => {
+    const folded = byId('panel').classList.toggle('folded');
+    byId('fold').textContent = folded ? 'Show' : 'Hide';
+    byId('fold').setAttribute('aria-expanded', String(!folded));
+  });
+  await fillHead().catch((failure) => notice(`The report cannot be read: ${failure.message}`, false));
+
+  if (!cesium) {
+    byId('notice').classList.remove('corner');
+    byId('notice').replaceChildren('To see the terrain, CesiumJS has to be installed beside the ' +
+      'service: run ', make('code', {}, 'service/pages/install-cesium'), ' in its source folder, ' +
+      'which needs npm, or name a folder that has it as ', make('code', {}, 'viewer.cesium'),
+      ' of the configuration; then start the service again.');
+    return;
+  }
+
+  // ---- The scene.
+  const dark = matchMedia('(prefers-color-scheme: dark)');
+  const colours = () => ({
+    sky: dark.matches ? '#22303a' : '#c4dcea', ground: dark.matches ? '#14191c' : '#e3e7e1',
+    level: colour('--level'), reference: colour('--reference'), quiet: colour('--quiet'),
+  });
+  let scene;
+  try {
+    scene = await farhorizon.Scene.open(byId('scene'), byId('credits'), { results, cesium, ...colours() });
+  } catch (failure) {
+    notice(`The terrain cannot be shown: ${failure.message ?? failure}`, false);
+    return;
+  }
+  farhorizon.scene = scene; // for tests and the console
+  dark.addEventListener('change', () => { scene.setColours(colours().sky, colours().ground); compare(); });
+  notice(null);
+
+  const level = () => scene.shown;
+  const finest = [...scene.levels.keys()][0];
+  const manifest = await getJson('manifest.json');
+  const names = new Set((manifest?.artifacts ?? []).map(({ name }) => name));
+
+  // ---- Horizon edges.
+  const { colourOf, readGlb, readGeojson, makePrimitive } = farhorizon.horizonLines;
+  const kPlain = [214, 40, 57];
+  let geojson = null;
+  const linesOf = async (which) => {
+    const number = which === 'stream' ? finest : which;
+    const glb = `lod${number}-horizon.glb`;
+    if (names.has(glb)) {
+      const response = await fetch(results + glb);
+      return readGlb(scene.C, await response.arrayBuffer(), scene.levels.get(number)[0].matrix);
+    }
+    geojson ??= getJson('horizon.geojson');
+    const document = await geojson;
+    if (!document) throw new Error('the job has made no horizon.geojson');
+    return readGeojson(scene.C, document, number);
+  };
+  const mode = () => document.querySelector('[name="horizon"]:checked').value;
+  const showHorizon = async () => {
+    const [wanted, which] = [mode(), level()];
+    byId('wheel').hidden = wanted !== 'azimuth';
+    await scene.setInlineEdges(wanted === 'inline');
+    if (wanted === 'off' || wanted === 'inline') return scene.setLines(null);
+    notice('Reading the horizon edges…');
+    const lines = await linesOf(which);
+    notice(null);
+    if (wanted !== mode() || which !== level()) return;
+    scene.setLines(lines.azimuths.length === 0 ? null
+      : makePrimitive(scene.C, lines, wanted === 'azimuth' ? colourOf : () => kPlain));
+  };
+  {
+    const context = byId('wheel').querySelector('canvas').getContext('2d');
+    for (let x = 0; x < 360; ++x) {
+      context.fillStyle = `rgb(${colourOf(x / 2)})`;
+      context.fillRect(x, 0, 1, 24);
+    }
+  }
+
+  // ---- The skyline of the level that is shown against that of level 0.
+  const compare = async () => {
+    const on = byId('compare').checked;
+    byId('comparison').hidden = !on;
+    const over = byId('skylines');
+    over.getContext('2d').clearRect(0, 0, over.width, over.height);
+    if (!on) return;
+    const shown = level() === 'stream' || level() === finest ? null : level();
+    if (shown === null) {
+      byId('difference').textContent = 'Choose a level other than 0 to see how its skyline differs.';
+      byId('profile').hidden = true;
+      return;
+    }
+    const reference = await scene.skylineOf(finest);
+    const rows = await scene.skylineOf(shown);
+    const result = farhorizon.skyline.compare(rows, reference);
+    byId('profile').hidden = false;
+    byId('difference').textContent = result.count === 0 ? 'There is no terrain in this view.'
+      : `Level ${shown} against level ${finest}, from here: at most ${digits(result.most)} px, ` +
+        `root mean square ${digits(result.rms)} px.`;
+    farhorizon.skyline.drawOver(over, rows, reference, colours());
+    farhorizon.skyline.drawProfile(byId('profile'), result, colours());
+  };
+
+  // ---- Controls. What fails is said, and the rest goes on.
+  const act = (work) => async (...given) => {
+    try {
+      await work(...given);
+    } catch (failure) {
+      notice(`${failure.message ?? failure}`);
+    }
+  };
+  const showLevel = act(async (which) => {
+    if (which !== 'stream' && !scene.levels.has(which)) return;
+    const input = document.querySelector(`[name="level"][value="${which}"]`);
+    if (input) input.checked = true;
+    for (const row of byId('numbers').querySelectorAll('tbody tr')) {
+      row.classList.toggle('shown', row.id === `row-${which}`);
+    }
+    await scene.show(which);
+    await scene.setWireframe(byId('wireframe').checked);
+    await showHorizon();
+    await compare();
+  });
+  const pill = (value, text) => make('label', {},
+    make('input', { type: 'radio', name: 'level', value: String(value) }), make('span', {}, text));
+  byId('levels').append(
+    ...[...scene.levels.keys()].map((number) => pill(number, String(number))),
+    pill('stream', 'As streamed'));
+  byId('levels').addEventListener('change', ({ target: { value } }) => {
+    showLevel(value === 'stream' ? value : Number(value));
+  });
+  for (const input of document.querySelectorAll('[name="horizon"]')) {
+    input.addEventListener('change', act(showHorizon));
+  }
+  byId('wireframe').addEventListener('change', act(() => scene.setWireframe(byId('wireframe').checked)));
+  byId('compare').addEventListener('change', act(compare));
+  const sayAzimuth = () => {
+    byId('azimuth').value = Math.round(scene.orbit.heading);
+    byId('towards').textContent = `${Math.round(scene.orbit.heading)}°`;
+  };
+  for (const button of document.querySelectorAll('[data-look]')) {
+    button.addEventListener('click', () => {
+      if (button.dataset.look === 'fit') scene.fit();
+      else scene.look(Number(button.dataset.look));
+      sayAzimuth();
+    });
+  }
+  byId('azimuth').addEventListener('input', ({ target }) => {
+    scene.orbit.heading = Number(target.value);
+    scene.place();
+    sayAzimuth();
+  });
+  byId('controls').addEventListener('submit', (event) => event.preventDefault());
+
+  // The skylines hold for where the camera stands: they go when it moves and come when it rests.
+  const { camera } = scene.widget;
+  camera.percentageChanged = 0.001;
+  camera.changed.addEventListener(() => {
+    const over = byId('skylines');
+    over.getContext('2d').clearRect(0, 0, over.width, over.height);
+  });
+  let rest = 0;
+  camera.moveEnd.addEventListener(() => {
+    clearTimeout(rest);
+    if (byId('compare').checked) rest = setTimeout(act(compare), 150);
+  });
+
+  const cycle = () => {
+    const order = ['off', 'plain', 'azimuth'];
+    const value = order[(order.indexOf(mode()) + 1) % order.length];
+    document.querySelector(`[name="horizon"][value="${value}"]`).checked = true;
+    return showHorizon();
+  };
+  const flip = (id, work) => { byId(id).checked = !byId(id).checked; return work(); };
+  const keys = {
+    t: () => showLevel('stream'), f: () => scene.fit(), h: act(cycle),
+    w: () => flip('wireframe', act(() => scene.setWireframe(byId('wireframe').checked))),
+    c: () => flip('compare', act(compare)),
+    ArrowLeft: () => scene.turn({ heading: -5 }), ArrowRight: () => scene.turn({ heading: 5 }),
+    ArrowUp: () => scene.turn({ pitch: -2 }), ArrowDown: () => scene.turn({ pitch: 2 }),
+    '+': () => scene.turn({ zoom: 0.85 }), '=': () => scene.turn({ zoom: 0.85 }),
+    '-': () => scene.turn({ zoom: 1 / 0.85 }),
+  };
+  addEventListener('keydown', (event) => {
+    // Arrows move between choices and along sliders where those have the focus.
+    const own = event.target.matches?.('input, select, textarea, summary') && event.key.startsWith('Arrow');
+    if (own || event.ctrlKey || event.metaKey || event.altKey) return;
+    const work = /^[0-9]$/.test(event.key) ? () => showLevel(Number(event.key)) : keys[event.key];
+    if (!work) return;
+    event.preventDefault();
+    work();
+    sayAzimuth();
+  });
+
+  byId('inline').hidden = !(await usesInlineEdges());
+  async function usesInlineEdges() {
+    const report = await getJson('report.json');
+    const edges = report?.levels?.[0]?.skyline_edges;
+    return edges === undefined || edges.inline === true;
+  }
+  byId('controls').hidden = false;
+  await showLevel('stream');
+  document.body.dataset.ready = 'true';
+})();

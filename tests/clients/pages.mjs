@@ -1,0 +1,132 @@
+// The pages of the real service, used as people use them: a DEM goes in at /, its levels are looked
+// at in the viewer, in light and dark, wide and on a phone.
+import { spawn } from 'node:child_process';
+import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import { basename, join } from 'node:path';
+import { tmpdir } from 'node:os';
+import { openPage, shareOf } from './browser.mjs';
+
+// The running service, once it says where it listens.
+const startService = async (farhorizon, cesium, data) => {
+  const service = spawn(farhorizon, ['serve', '--listen', '127.0.0.1:0', '--data', data], {
+    env: { ...process.env, FARHORIZON_VIEWER_CESIUM: cesium, FARHORIZON_LOG_FORMAT: 'json' },
+    stdio: ['ignore', 'pipe', 'pipe'],
+  });
+  const port = await new Promise((done, fail) => {
+    let said = '';
+    const hear = (bytes) => {
+      said += bytes;
+      const found = /"msg":"serving".*?"port":(\d+)/.exec(said);
+      if (found) done(Number(found[1]));
+    };
+    service.stdout.on('data', hear);
+    service.stderr.on('data', hear);
+    service.on('exit', () => fail(new Error(`the service ended: ${said.slice(-500)}`)));
+  });
+  return { base: `http://127.0.0.1:${port}`, stop: () => service.kill('SIGTERM') };
+};
+
+const kKinds = [
+  { width: 1280, height: 800, scheme: 'light' }, { width: 1280, height: 800, scheme: 'dark' },
+  { width: 390, height: 844, scheme: 'light' }, { width: 390, height: 844, scheme: 'dark' },
+];
+
+// Sends the DEM by the page and waits until it is done; gives the viewer's address.
+const sendDem = async ({ browser, base, dem, report }) => {
+  const { page, faults, close } = await openPage(browser, base, kKinds[0]);
+  await page.goto(`${base}/`);
+  const began = Date.now();
+  await page.setInputFiles('#file', dem);
+  const row = page.locator('.job', { hasText: basename(dem) }).first();
+  await row.waitFor();
+  await page.waitForFunction(() => document.querySelector('.job')?.matches('.successful, .failed'),
+    null, { polling: 50 });
+  const done = Date.now();
+  if (!(await row.getAttribute('class')).includes('successful')) faults.push('the job has failed');
+  await row.getByRole('button', { name: 'Artifacts' }).click();
+  await page.locator('.artifacts a', { hasText: 'tileset.json' }).waitFor();
+  await row.getByRole('link', { name: 'View' }).click();
+  await page.waitForFunction(() => document.body.dataset.ready === 'true');
+  await page.waitForFunction(() => farhorizon.scene.tileset.tilesLoaded
+    && farhorizon.scene.tileset.statistics.selected > 0);
+  const first = Date.now();
+  report('a DEM by the page, to its first picture', faults,
+    `done after ${done - began} ms, drawn ${first - done} ms later`);
+  const address = page.url();
+  await close();
+  return address;
+};
+
+const lookAtIndex = async ({ browser, base, pictures, report }, kind) => {
+  const { page, faults, close } = await openPage(browser, base, kind);
+  await page.goto(`${base}/`);
+  await page.locator('.job').first().waitFor();
+  const wide = await page.evaluate(() => document.documentElement.scrollWidth);
+  if (wide > kind.width) faults.push(`the page is ${wide} pixels wide`);
+  await page.screenshot({ path: join(pictures, `page-${kind.scheme}-${kind.width}.png`) });
+  report(`the page, ${kind.scheme}, ${kind.width} wide`, faults);
+  await close();
+};
+
+// What is done in the viewer, by keys mostly; gives what it says of the skyline.
+const useViewer = async ({ page, faults }, address, kind, pictures) => {
+  const shoot = async (name) => {
+    const path = join(pictures, `viewer-${name}-${kind.scheme}-${kind.width}.png`);
+    writeFileSync(path, await page.screenshot());
+  };
+  await page.goto(address);
+  await page.waitForFunction(() => document.body.dataset.ready === 'true');
+  // Level 1 and its edges by azimuth.
+  await page.keyboard.press('1');
+  await page.waitForFunction(() => farhorizon.scene.shown === 1);
+  await page.keyboard.press('h');
+  await page.waitForFunction(() => farhorizon.scene.lines !== null);
+  await page.keyboard.press('h');
+  await page.waitForFunction(() => !document.getElementById('wheel').hidden
+    && document.getElementById('notice').hidden);
+  await page.waitForTimeout(1000);
+  await shoot('edges');
+  // The skyline of level 2 from outside.
+  await page.keyboard.press('2');
+  await page.getByRole('button', { name: 'Look west' }).click();
+  await page.keyboard.press('c');
+  await page.waitForFunction(() => /root mean square/.test(
+    document.getElementById('difference').textContent));
+  await page.waitForTimeout(500);
+  await shoot('skyline');
+  const said = await page.textContent('#difference');
+  await page.keyboard.press('c');
+  await page.keyboard.press('w');
+  await page.keyboard.press('f');
+  await page.waitForTimeout(1000);
+  const { colours } = await shareOf(page, await page.locator('#view').screenshot(), [0, 0, 0]);
+  if (colours < 20) faults.push('the picture is empty');
+  await shoot('wireframe');
+  faults.push(...await page.evaluate(() => farhorizon.scene.failures));
+  const wide = await page.evaluate(() => document.documentElement.scrollWidth);
+  if (wide > kind.width) faults.push(`the page is ${wide} pixels wide`);
+  return said;
+};
+const lookAtViewer = async ({ browser, base, pictures, report, address }, kind) => {
+  const opened = await openPage(browser, base, kind);
+  const said = await useViewer(opened, address, kind, pictures)
+    .catch((failure) => { opened.faults.push(failure.message.split('\n')[0]); });
+  report(`the viewer, ${kind.scheme}, ${kind.width} wide`, opened.faults, said);
+  await opened.close();
+};
+
+export const checkPages = async ({ browser, farhorizon, dem, cache, pictures, report }) => {
+  const data = mkdtempSync(join(tmpdir(), 'farhorizon-clients-'));
+  const service = await startService(farhorizon, join(cache, 'cesium'), data);
+  const common = { browser, base: service.base, dem, pictures, report };
+  try {
+    const address = await sendDem(common);
+    for (const kind of kKinds) {
+      await lookAtIndex(common, kind);
+      await lookAtViewer({ ...common, address }, kind);
+    }
+  } finally {
+    service.stop();
+    rmSync(data, { recursive: true, force: true });
+  }
+};
