@@ -101,6 +101,7 @@ def run(folder: str, verdict: Verdict, options) -> None:
     service.start(60)
     # A first job loads what is loaded once.
     service.wait(service.submit(small_dem(1))[1]["jobID"])
+    warm = os.path.getsize(log)
     for what, body in uploads(named).items():
         begin = os.path.getsize(log)
         status, document = service.submit(body, "?levels=1&filename=dem.tif&verticalDatum=ellipsoid&heightUnit=m")
@@ -121,4 +122,9 @@ def run(folder: str, verdict: Verdict, options) -> None:
     asked = len(parameters(named))
     verdict.ask(f"{asked} parameters that name files: refused, none opened", refused == asked and not wrong,
                 wrong[:2] or f"{refused} refused")
+    with open(log, encoding="utf-8", errors="replace") as lines:
+        lines.seek(warm)
+        # Of those who open it, only SQLite follows no link; PROJ looks whether it is there.
+        again = [line.strip() for line in lines if re.search(r"proj\.db.*O_NOFOLLOW", line)]
+    verdict.ask("no child opens the database of reference systems anew", not again, again[:2] or "")
     service.stop()

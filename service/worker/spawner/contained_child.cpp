@@ -2,13 +2,13 @@
 // of a namespace ignores signals that it has no handler for, so that the worker, which limits end
 // by signals, is the second; and when the first ends, the kernel ends all others.
 //
-// Both are made before there is an order, for that takes a third of the time of a look at a small
+// Both are made before there is an order, for that takes a quarter of the time of a look at a small
 // DEM. They have the database of reference systems as the spawner opened it: PROJ would open it
-// anew in each process that fork made, which takes twice as long as the look, lest children share
-// a file's offset. SQLite reads by pread here and PROJ's connections lock nothing, so that sharing
-// does no harm: _Fork and clone do not tell PROJ. The order within: the private root while the
-// worker still has the capabilities of its user namespace, then limits, capabilities, Landlock, and
-// system calls, the most powerful of all, last.
+// anew in each process that fork made, which takes longer than the look itself, lest children
+// share a file's offset. SQLite reads by pread here and PROJ's connections lock nothing, so that
+// sharing does no harm: _Fork and clone do not tell PROJ. The order within: the private root while
+// the worker still has the capabilities of its user namespace, then limits, capabilities, Landlock,
+// and system calls, the most powerful of all, last.
 #include "service/worker/spawner/contained_child.h"
 
 #include <array>
