@@ -63,12 +63,14 @@ const server = await serve([
   ...dirs.map((dir, i) => [`data${i}`, dir])]);
 try {
   for (const [i, dir] of dirs.entries()) {
-    for (const client of ['cesium', 'three']) await checkClient(browser, server.base, dir, i, client);
+    for (const client of ['cesium', 'three']) {
+      await checkClient(browser, server.base, dir, i, client);
+    }
   }
   await checkPages({ browser, farhorizon, dem, cache, pictures, report });
 } finally {
   await browser.close();
   server.close();
 }
-console.log(failed ? `${failed} failed; pictures are in ${pictures}` : `All passed; pictures are in ${pictures}`);
+console.log(`${failed ? `${failed} failed` : 'All passed'}; pictures are in ${pictures}`);
 process.exit(failed ? 1 : 0);
