@@ -3,7 +3,7 @@ import { mkdirSync, writeFileSync } from 'node:fs';
 import { basename, dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { launch, openPage, shareOf } from './browser.mjs';
-import { checkPages } from './pages.mjs';
+import { checkPages, checkStandalone } from './pages.mjs';
 import { serve } from './server.mjs';
 import { checkTileset, validateGlbs } from './validate.mjs';
 
@@ -67,6 +67,7 @@ try {
       await checkClient(browser, server.base, dir, i, client);
     }
   }
+  await checkStandalone({ browser, farhorizon, dir: dirs[0], cache, report });
   await checkPages({ browser, farhorizon, dem, cache, pictures, report });
 } finally {
   await browser.close();
