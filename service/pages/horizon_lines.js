@@ -1,6 +1,5 @@
 'use strict';
 // Horizon edges: read from lodN-horizon.glb or horizon.geojson, and drawn as lines of a width.
-const farhorizon = {};
 (() => {
   // The colours of report.html: blue, bluish green, yellow, vermilion and purple, 36 degrees apart.
   const kColours = [[0, 114, 178], [0, 158, 115], [222, 170, 0], [213, 94, 0], [176, 82, 154]];
@@ -31,12 +30,14 @@ const farhorizon = {};
     return (from + best / 2) * 180 / 64;
   };
 
+  // The JSON of a GLB.
+  const gltfOf = (bytes) => JSON.parse(new TextDecoder().decode(
+    new Uint8Array(bytes, 20, new DataView(bytes).getUint32(12, true))));
+
   // Lines as { ends: earth-fixed x, y, z of both ends of each, azimuths: of each }.
   const readGlb = (C, bytes, transform) => {
-    const view = new DataView(bytes);
-    const jsonBytes = view.getUint32(12, true);
-    const gltf = JSON.parse(new TextDecoder().decode(new Uint8Array(bytes, 20, jsonBytes)));
-    const start = 20 + jsonBytes + 8;
+    const gltf = gltfOf(bytes);
+    const start = 20 + new DataView(bytes).getUint32(12, true) + 8;
     const array = (Type, index, count) => {
       const part = gltf.bufferViews[index];
       return new Type(bytes.slice(start + (part.byteOffset ?? 0)), 0, count);
@@ -55,22 +56,31 @@ const farhorizon = {};
       C.Cartesian3.fromArray(positions, 3 * i, point);
       C.Cartesian3.pack(C.Matrix4.multiplyByPoint(matrix, point, point), ends, 3 * i);
     }
-    const table = gltf.extensions?.EXT_structural_metadata?.propertyTables?.[0]?.properties?.azimuths;
-    const masks = table && array(Uint32Array, table.values, 2 * count);
+    const table = gltf.extensions?.EXT_structural_metadata?.propertyTables?.[0];
+    const values = table?.properties?.azimuths?.values;
+    const masks = values !== undefined && array(Uint32Array, values, 2 * count);
     const azimuths = Float32Array.from(
       { length: count }, (_, i) => (masks ? middleOfMask(masks[2 * i], masks[2 * i + 1]) : 0));
     return { ends, azimuths };
   };
+  // A feature is an edge, with its azimuths as intervals and `level_kept`; or a chain of edges, with
+  // its azimuths as a mask in hexadecimal digits and `levels_kept`, a digit an edge.
+  const azimuthOf = ({ azimuths }) => (typeof azimuths === 'string'
+    ? middleOfMask(parseInt(azimuths.slice(8), 16), parseInt(azimuths.slice(0, 8), 16))
+    : middleOf(azimuths));
   const readGeojson = (C, document, level) => {
     const ends = [];
     const azimuths = [];
     for (const { geometry, properties } of document.features) {
-      if (level !== null && !(properties.level_kept >= level)) continue;
       const chains = geometry.type === 'LineString' ? [geometry.coordinates] : geometry.coordinates;
-      const azimuth = middleOf(properties.azimuths);
+      const azimuth = azimuthOf(properties);
+      let edge = 0;
       for (const chain of chains) {
-        const points = chain.map(([lon, lat, height]) => C.Cartesian3.fromDegrees(lon, lat, height ?? 0));
-        for (let i = 1; i < points.length; ++i) {
+        const points = chain.map(
+          ([longitude, latitude, height]) => C.Cartesian3.fromDegrees(longitude, latitude, height));
+        for (let i = 1; i < points.length; ++i, ++edge) {
+          const kept = properties.level_kept ?? parseInt(properties.levels_kept?.[edge], 16);
+          if (!(kept >= level)) continue;
           for (const { x, y, z } of [points[i - 1], points[i]]) ends.push(x, y, z);
           azimuths.push(azimuth);
         }
@@ -154,12 +164,13 @@ const farhorizon = {};
         }),
       }),
       appearance: new C.Appearance({
-        translucent: false, vertexShaderSource: kVertexShader, fragmentShaderSource: kFragmentShader,
+        translucent: false, vertexShaderSource: kVertexShader,
+        fragmentShaderSource: kFragmentShader,
         renderState: { depthTest: { enabled: true }, cull: { enabled: false } },
       }),
       asynchronous: false, allowPicking: false, compressVertices: false,
     });
   };
 
-  farhorizon.horizonLines = { colourOf, readGlb, readGeojson, makePrimitive };
+  farhorizon.horizonLines = { colourOf, gltfOf, readGlb, readGeojson, makePrimitive };
 })();

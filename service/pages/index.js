@@ -1,13 +1,7 @@
 'use strict';
-// The list of jobs, kept up to date, and uploads. All text from outside goes in as text, never as
-// markup.
+// The list of jobs, kept up to date. All text from outside goes in as text, never as markup.
 (() => {
-  const byId = (id) => document.getElementById(id);
-  const make = (tag, properties = {}, ...children) => {
-    const element = Object.assign(document.createElement(tag), properties);
-    element.append(...children);
-    return element;
-  };
+  const { byId, make } = farhorizon;
   const readableBytes = (bytes) => {
     const unit = [[1e9, 'GB'], [1e6, 'MB'], [1e3, 'kB']].find(([size]) => bytes >= size);
     return unit ? `${(bytes / unit[0]).toPrecision(3)} ${unit[1]}` : `${bytes} bytes`;
@@ -30,7 +24,9 @@
 
   // A job's element is made once and then filled anew, so that focus and open lists stay.
   const rows = new Map();
-  const places = (id) => ({ self: `jobs/${id}`, results: `jobs/${id}/results`, viewer: `viewer/${id}` });
+  const places = (id) => ({
+    self: `jobs/${id}`, results: `jobs/${id}/results`, viewer: `viewer/${id}`,
+  });
 
   const showArtifacts = async (row, button) => {
     const shown = row.querySelector('.artifacts');
@@ -40,8 +36,9 @@
     if (!response.ok) return trouble(await causeOf(response));
     const table = make('table', { className: 'artifacts' });
     for (const [name, artifact] of Object.entries(await response.json())) {
-      const link = make('a', { href: `${places(row.id).results}/${encodeURIComponent(name)}` }, name);
-      table.append(make('tr', {}, make('td', {}, link), make('td', {}, readableBytes(artifact.length))));
+      const href = `${places(row.id).results}/${encodeURIComponent(name)}`;
+      table.append(make('tr', {}, make('td', {}, make('a', { href }, name)),
+        make('td', {}, readableBytes(artifact.length))));
     }
     row.append(table);
   };
@@ -171,71 +168,6 @@
     refresh();
   });
 
-  // Uploads, one after another: fetch tells nothing of what has been sent, XMLHttpRequest does.
-  const send = (file, line) => new Promise((done) => {
-    const query = new URLSearchParams({ filename: file.name });
-    for (const field of byId('upload').querySelectorAll('.options [name]')) {
-      if (field.value.trim()) query.set(field.name, field.value.trim());
-    }
-    const request = new XMLHttpRequest();
-    const say = (text, bad = false) => {
-      line.firstChild.textContent = `${file.name}: ${text}`;
-      line.classList.toggle('bad', bad);
-    };
-    const fail = (text) => {
-      const close = make('button', { type: 'button' }, 'Dismiss');
-      close.addEventListener('click', () => line.remove());
-      say(text, true);
-      line.append(close);
-      done();
-    };
-    request.upload.addEventListener('progress', ({ loaded, total }) => {
-      say(loaded < total ? `${Math.floor(100 * loaded / total)} % sent` : 'is being looked at');
-    });
-    request.addEventListener('load', () => {
-      if (request.status === 201) {
-        line.remove();
-        refresh();
-        return done();
-      }
-      let problem = null;
-      try { problem = JSON.parse(request.responseText); } catch { /* no problem document */ }
-      return fail(problem?.detail ?? `the service answered ${request.status}`);
-    });
-    request.addEventListener('error', () => fail('the connection broke; send it again'));
-    request.open('POST', `jobs?${query.toString().replaceAll('+', '%20')}`);
-    request.setRequestHeader('Content-Type', 'application/octet-stream');
-    say('is being sent');
-    request.send(file);
-  });
-  let queue = Promise.resolve();
-  const take = (files) => {
-    for (const file of files) {
-      const line = make('li', {}, make('span', {}, `${file.name}: waits`));
-      byId('uploads').append(line);
-      queue = queue.then(() => send(file, line));
-    }
-  };
-  byId('file').addEventListener('change', ({ target }) => {
-    take([...target.files]);
-    target.value = '';
-  });
-  byId('upload').addEventListener('submit', (event) => event.preventDefault());
-  // The whole page takes files, so that none that misses the box replaces the page.
-  let depth = 0;
-  const over = (change) => {
-    depth = Math.max(0, depth + change);
-    document.body.classList.toggle('over', depth > 0);
-  };
-  addEventListener('dragenter', () => over(1));
-  addEventListener('dragleave', () => over(-1));
-  addEventListener('dragover', (event) => event.preventDefault());
-  addEventListener('drop', (event) => {
-    event.preventDefault();
-    depth = 0;
-    over(0);
-    take([...event.dataTransfer.files]);
-  });
-
+  farhorizon.takeUploads(refresh);
   refresh();
 })();

@@ -7,9 +7,12 @@ namespace farhorizon {
 /// The files of this folder that the pages consist of; the build puts their bytes into the program.
 /// The two .html are templates for FillTemplate.
 extern const std::string_view kIndexHtml;
+/// Of the page at "/", in the order in which it runs them.
+extern const std::string_view kUploadJs;
 extern const std::string_view kIndexJs;
 extern const std::string_view kViewerHtml;
 /// Of the viewer, in the order in which a page runs them.
+extern const std::string_view kNumbersJs;
 extern const std::string_view kHorizonLinesJs;
 extern const std::string_view kSkylineJs;
 extern const std::string_view kSceneJs;

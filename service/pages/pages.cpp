@@ -18,18 +18,21 @@ struct File {
 
 constexpr std::array<File, 2> kViewerStyles = {
     {{"palettes.css", kPalettesCss}, {"viewer.css", kViewerCss}}};
-constexpr std::array<File, 4> kViewerScripts = {{{"horizon_lines.js", kHorizonLinesJs},
+constexpr std::array<File, 5> kViewerScripts = {{{"numbers.js", kNumbersJs},
+                                                 {"horizon_lines.js", kHorizonLinesJs},
                                                  {"skyline.js", kSkylineJs},
                                                  {"scene.js", kSceneJs},
                                                  {"viewer.js", kViewerJs}}};
-constexpr std::array<File, 8> kFiles = {{{"palettes.css", kPalettesCss},
-                                         {"index.css", kIndexCss},
-                                         {"index.js", kIndexJs},
-                                         {"viewer.css", kViewerCss},
-                                         {"horizon_lines.js", kHorizonLinesJs},
-                                         {"skyline.js", kSkylineJs},
-                                         {"scene.js", kSceneJs},
-                                         {"viewer.js", kViewerJs}}};
+constexpr std::array<File, 10> kFiles = {{{"palettes.css", kPalettesCss},
+                                          {"index.css", kIndexCss},
+                                          {"upload.js", kUploadJs},
+                                          {"index.js", kIndexJs},
+                                          {"viewer.css", kViewerCss},
+                                          {"numbers.js", kNumbersJs},
+                                          {"horizon_lines.js", kHorizonLinesJs},
+                                          {"skyline.js", kSkylineJs},
+                                          {"scene.js", kSceneJs},
+                                          {"viewer.js", kViewerJs}}};
 
 Html FilledViewer(const ViewerPlaces& places, Html styles, Html scripts) {
   return Html::Markup(FillTemplate(kViewerHtml, {{"styles", std::move(styles)},

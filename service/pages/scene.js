@@ -13,7 +13,8 @@
       { rel: 'stylesheet', href: `${folder}/Widgets/CesiumWidget/CesiumWidget.css` }));
     await loadScript(`${folder}/Cesium.js`);
     if (!globalThis.Cesium) {
-      throw new Error(`${folder}/Cesium.js does not run here; let service/pages/install-cesium make it`);
+      throw new Error(
+        `${folder}/Cesium.js does not run here; let service/pages/install-cesium make it`);
     }
     return globalThis.Cesium;
   };
@@ -44,7 +45,9 @@
       const response = await fetch(url);
       if (!response.ok) throw new Error(`tileset.json: ${response.status}`);
       const scene = new Scene();
-      Object.assign(scene, { C, url, failures: [], lines: null, models: new Map(), shown: 'stream' });
+      Object.assign(scene, {
+        C, url, failures: [], lines: null, models: new Map(), shown: 'stream',
+      });
       scene.levels = levelsOf(C, await response.json());
       scene.makeWidget(container, credits);
       scene.setColours(sky, ground);
@@ -138,7 +141,9 @@
       }
     }
 
-    async drawn() { return [this.tileset, ...(await Promise.all([...this.models.values()])).flat()]; }
+    async drawn() {
+      return [this.tileset, ...(await Promise.all([...this.models.values()])).flat()];
+    }
     async setWireframe(on) {
       for (const one of await this.drawn()) one.debugWireframe = on;
       this.draw();

@@ -1,62 +1,21 @@
 'use strict';
-// The controls of the viewer and the report's numbers.
+// The controls of the viewer.
 (async () => {
-  const byId = (id) => document.getElementById(id);
-  const { results, cesium, home } = document.body.dataset;
-  const make = (tag, properties = {}, ...children) => {
-    const element = Object.assign(document.createElement(tag), properties);
-    element.append(...children);
-    return element;
-  };
+  const { byId, make, digits, getJson, fillHead } = farhorizon.numbers;
+  const { results, cesium } = document.body.dataset;
   const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
   const notice = (text, corner = true) => {
     byId('notice').hidden = !text;
     byId('notice').textContent = text ?? '';
     byId('notice').classList.toggle('corner', corner);
   };
-  const getJson = async (name) => {
-    const response = await fetch(results + name);
-    return response.ok ? response.json() : null;
-  };
-
-  // ---- The numbers, which need no CesiumJS.
-  const digits = (value) => {
-    if (value === null || value === undefined) return '–';
-    return value === 0 ? '0' : Math.abs(value) < 1000 ? String(Number(value.toPrecision(3)))
-      : Math.round(value).toLocaleString('en');
-  };
-  const fillNumbers = (report) => {
-    const heads = ['Level', 'Triangles', 'Skyline rms, m', 'Ground rms, m', 'GLB, kB'];
-    const row = (level) => make('tr', { id: `row-${level.level}` },
-      make('th', { scope: 'row' }, String(level.level)),
-      ...[level.triangles, level.silhouette_error_m.rms, level.vertical_error_m.rms,
-        level.glb_bytes && level.glb_bytes / 1000].map((value) => make('td', {}, digits(value))));
-    byId('numbers').append(
-      make('caption', {}, 'Errors against the DEM, root mean square'),
-      make('thead', {}, make('tr', {}, ...heads.map((text) => make('th', { scope: 'col' }, text)))),
-      make('tbody', {}, ...report.levels.map(row)));
-    const { columns, rows, heights_m: heights } = report.dem;
-    byId('facts').textContent = `${columns} × ${rows} posts, ${digits(heights[0])} to ` +
-      `${digits(heights[1])} m; ${report.horizon.horizon_edges.toLocaleString('en')} horizon edges`;
-  };
-  const fillHead = async () => {
-    const report = await getJson('report.json');
-    if (report) fillNumbers(report);
-    byId('links').append(...['report.html', 'report.json', 'tileset.json'].flatMap(
-      (name, i) => [i ? ' · ' : '', make('a', { href: results + name }, name)]));
-    if (!home) return;
-    byId('home').href = home;
-    byId('home').hidden = false;
-    const job = await fetch(results.replace(/\/results\/$/, '')).then((answer) => answer.json());
-    byId('title').textContent = job.filename ?? job.id;
-    document.title = `${job.filename ?? job.id}: farhorizon`;
-  };
   byId('fold').addEventListener('click', () => {
     const folded = byId('panel').classList.toggle('folded');
     byId('fold').textContent = folded ? 'Show' : 'Hide';
     byId('fold').setAttribute('aria-expanded', String(!folded));
   });
-  await fillHead().catch((failure) => notice(`The report cannot be read: ${failure.message}`, false));
+  await fillHead().catch(
+    (failure) => notice(`The report cannot be read: ${failure.message}`, false));
 
   if (!cesium) {
     byId('notice').classList.remove('corner');
@@ -70,18 +29,23 @@
   // ---- The scene.
   const dark = matchMedia('(prefers-color-scheme: dark)');
   const colours = () => ({
-    sky: dark.matches ? '#22303a' : '#c4dcea', ground: dark.matches ? '#14191c' : '#e3e7e1',
+    sky: dark.matches ? '#22303a' : '#c4dcea',
+    ground: dark.matches ? '#14191c' : '#e3e7e1',
     level: colour('--level'), reference: colour('--reference'), quiet: colour('--quiet'),
   });
   let scene;
   try {
-    scene = await farhorizon.Scene.open(byId('scene'), byId('credits'), { results, cesium, ...colours() });
+    scene = await farhorizon.Scene.open(
+      byId('scene'), byId('credits'), { results, cesium, ...colours() });
   } catch (failure) {
     notice(`The terrain cannot be shown: ${failure.message ?? failure}`, false);
     return;
   }
   farhorizon.scene = scene; // for tests and the console
-  dark.addEventListener('change', () => { scene.setColours(colours().sky, colours().ground); compare(); });
+  dark.addEventListener('change', () => {
+    scene.setColours(colours().sky, colours().ground);
+    compare();
+  });
   notice(null);
 
   const level = () => scene.shown;
@@ -90,7 +54,7 @@
   const names = new Set((manifest?.artifacts ?? []).map(({ name }) => name));
 
   // ---- Horizon edges.
-  const { colourOf, readGlb, readGeojson, makePrimitive } = farhorizon.horizonLines;
+  const { colourOf, gltfOf, readGlb, readGeojson, makePrimitive } = farhorizon.horizonLines;
   const kPlain = [214, 40, 57];
   let geojson = null;
   const linesOf = async (which) => {
@@ -135,7 +99,7 @@
     if (!on) return;
     const shown = level() === 'stream' || level() === finest ? null : level();
     if (shown === null) {
-      byId('difference').textContent = 'Choose a level other than 0 to see how its skyline differs.';
+      byId('difference').textContent = 'Choose another level to see how its skyline differs.';
       byId('profile').hidden = true;
       return;
     }
@@ -181,7 +145,8 @@
   for (const input of document.querySelectorAll('[name="horizon"]')) {
     input.addEventListener('change', act(showHorizon));
   }
-  byId('wireframe').addEventListener('change', act(() => scene.setWireframe(byId('wireframe').checked)));
+  const showWireframe = act(() => scene.setWireframe(byId('wireframe').checked));
+  byId('wireframe').addEventListener('change', showWireframe);
   byId('compare').addEventListener('change', act(compare));
   const sayAzimuth = () => {
     byId('azimuth').value = Math.round(scene.orbit.heading);
@@ -223,7 +188,7 @@
   const flip = (id, work) => { byId(id).checked = !byId(id).checked; return work(); };
   const keys = {
     t: () => showLevel('stream'), f: () => scene.fit(), h: act(cycle),
-    w: () => flip('wireframe', act(() => scene.setWireframe(byId('wireframe').checked))),
+    w: () => flip('wireframe', showWireframe),
     c: () => flip('compare', act(compare)),
     ArrowLeft: () => scene.turn({ heading: -5 }), ArrowRight: () => scene.turn({ heading: 5 }),
     ArrowUp: () => scene.turn({ pitch: -2 }), ArrowDown: () => scene.turn({ pitch: 2 }),
@@ -232,7 +197,8 @@
   };
   addEventListener('keydown', (event) => {
     // Arrows move between choices and along sliders where those have the focus.
-    const own = event.target.matches?.('input, select, textarea, summary') && event.key.startsWith('Arrow');
+    const own = event.target.matches?.('input, select, textarea, summary') &&
+      event.key.startsWith('Arrow');
     if (own || event.ctrlKey || event.metaKey || event.altKey) return;
     const work = /^[0-9]$/.test(event.key) ? () => showLevel(Number(event.key)) : keys[event.key];
     if (!work) return;
@@ -241,12 +207,13 @@
     sayAzimuth();
   });
 
-  byId('inline').hidden = !(await usesInlineEdges());
-  async function usesInlineEdges() {
-    const report = await getJson('report.json');
-    const edges = report?.levels?.[0]?.skyline_edges;
-    return edges === undefined || edges.inline === true;
-  }
+  // Whether the models have edges of their own: the coarsest is asked, for it is small.
+  const haveInlineEdges = async () => {
+    const [{ uri }] = [...scene.levels.values()].at(-1);
+    const bytes = await (await fetch(new URL(uri, scene.url))).arrayBuffer();
+    return gltfOf(bytes).extensionsUsed?.includes('EXT_mesh_primitive_edge_visibility');
+  };
+  byId('inline').hidden = !(await haveInlineEdges().catch(() => false));
   byId('controls').hidden = false;
   await showLevel('stream');
   document.body.dataset.ready = 'true';

@@ -40,7 +40,8 @@ export const openPage = async (browser, base, { width, height, scheme = 'light' 
 // The share of pixels of a picture that are not of the colour `sky`, and how many colours they
 // have; the page itself reads the picture.
 export const shareOf = (page, png, sky) => page.evaluate(async ([bytes, background]) => {
-  const blob = new Blob([Uint8Array.from(atob(bytes), (c) => c.charCodeAt(0))], { type: 'image/png' });
+  const binary = Uint8Array.from(atob(bytes), (c) => c.charCodeAt(0));
+  const blob = new Blob([binary], { type: 'image/png' });
   const picture = await createImageBitmap(blob);
   const context = new OffscreenCanvas(picture.width, picture.height).getContext('2d');
   context.drawImage(picture, 0, 0);

@@ -3,7 +3,7 @@ import { mkdirSync, writeFileSync } from 'node:fs';
 import { basename, dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { launch, openPage, shareOf } from './browser.mjs';
-import { checkPages } from './pages.mjs';
+import { checkPages, checkStandalone } from './pages.mjs';
 import { serve } from './server.mjs';
 import { checkTileset, validateGlbs } from './validate.mjs';
 
@@ -63,12 +63,15 @@ const server = await serve([
   ...dirs.map((dir, i) => [`data${i}`, dir])]);
 try {
   for (const [i, dir] of dirs.entries()) {
-    for (const client of ['cesium', 'three']) await checkClient(browser, server.base, dir, i, client);
+    for (const client of ['cesium', 'three']) {
+      await checkClient(browser, server.base, dir, i, client);
+    }
   }
+  await checkStandalone({ browser, farhorizon, dir: dirs[0], cache, report });
   await checkPages({ browser, farhorizon, dem, cache, pictures, report });
 } finally {
   await browser.close();
   server.close();
 }
-console.log(failed ? `${failed} failed; pictures are in ${pictures}` : `All passed; pictures are in ${pictures}`);
+console.log(`${failed ? `${failed} failed` : 'All passed'}; pictures are in ${pictures}`);
 process.exit(failed ? 1 : 0);

@@ -1,10 +1,11 @@
 // The pages of the real service, used as people use them: a DEM goes in at /, its levels are looked
 // at in the viewer, in light and dark, wide and on a phone.
-import { spawn } from 'node:child_process';
-import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import { spawn, spawnSync } from 'node:child_process';
+import { cpSync, mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { basename, join } from 'node:path';
 import { tmpdir } from 'node:os';
 import { openPage, shareOf } from './browser.mjs';
+import { serve } from './server.mjs';
 
 // The running service, once it says where it listens.
 const startService = async (farhorizon, cesium, data) => {
@@ -117,6 +118,23 @@ const lookAtViewer = async ({ browser, base, pictures, report, address }, kind) 
     .catch((failure) => { opened.faults.push(failure.message.split('\n')[0]); });
   report(`the viewer, ${kind.scheme}, ${kind.width} wide`, opened.faults, said);
   await opened.close();
+};
+
+// The page that `farhorizon viewer` puts beside artifacts, on a web server that knows nothing of it.
+export const checkStandalone = async ({ browser, farhorizon, dir, cache, report }) => {
+  const copy = join(cache, 'standalone');
+  rmSync(copy, { recursive: true, force: true });
+  cpSync(dir, copy, { recursive: true });
+  const made = spawnSync(farhorizon, ['viewer', copy, '--cesium', join(cache, 'cesium')]);
+  const server = await serve([['copy', copy]]);
+  const { page, faults, close } = await openPage(browser, server.base, kKinds[0]);
+  if (made.status !== 0) faults.push(made.stderr.toString());
+  await page.goto(`${server.base}/copy/viewer.html`);
+  await page.waitForFunction(() => document.body.dataset.ready === 'true')
+    .catch((failure) => { faults.push(failure.message.split('\n')[0]); });
+  report('viewer.html on its own', faults);
+  await close();
+  server.close();
 };
 
 export const checkPages = async ({ browser, farhorizon, dem, cache, pictures, report }) => {

@@ -20,7 +20,8 @@ export const serve = async (folders) => {
       response.writeHead(404);
       return response.end();
     }
-    response.writeHead(200, { 'content-type': kTypes[extname(file)] ?? 'application/octet-stream' });
+    const type = kTypes[extname(file)] ?? 'application/octet-stream';
+    response.writeHead(200, { 'content-type': type });
     return createReadStream(file).pipe(response);
   });
   await new Promise((done) => { server.listen(0, '127.0.0.1', done); });

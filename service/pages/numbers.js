@@ -1,0 +1,50 @@
+'use strict';
+// The report's numbers, which need no CesiumJS.
+const farhorizon = {};
+(() => {
+  const byId = (id) => document.getElementById(id);
+  const { results, home } = document.body.dataset;
+  const make = (tag, properties = {}, ...children) => {
+    const element = Object.assign(document.createElement(tag), properties);
+    element.append(...children);
+    return element;
+  };
+  const getJson = async (name) => {
+    const response = await fetch(results + name);
+    return response.ok ? response.json() : null;
+  };
+
+  const digits = (value) => {
+    if (value === null || value === undefined) return '–';
+    return value === 0 ? '0' : Math.abs(value) < 1000 ? String(Number(value.toPrecision(3)))
+      : Math.round(value).toLocaleString('en');
+  };
+  const fillNumbers = (report) => {
+    const heads = ['Level', 'Triangles', 'Skyline rms, m', 'Ground rms, m', 'GLB, kB'];
+    const row = (level) => make('tr', { id: `row-${level.level}` },
+      make('th', { scope: 'row' }, String(level.level)),
+      ...[level.triangles, level.silhouette_error_m.rms, level.vertical_error_m.rms,
+        level.glb_bytes && level.glb_bytes / 1000].map((value) => make('td', {}, digits(value))));
+    byId('numbers').append(
+      make('caption', {}, 'Errors against the DEM, root mean square'),
+      make('thead', {}, make('tr', {}, ...heads.map((text) => make('th', { scope: 'col' }, text)))),
+      make('tbody', {}, ...report.levels.map(row)));
+    const { columns, rows, heights_m: heights } = report.dem;
+    byId('facts').textContent = `${columns} × ${rows} posts, ${digits(heights[0])} to ` +
+      `${digits(heights[1])} m; ${report.horizon.horizon_edges.toLocaleString('en')} horizon edges`;
+  };
+  const fillHead = async () => {
+    const report = await getJson('report.json');
+    if (report) fillNumbers(report);
+    byId('links').append(...['report.html', 'report.json', 'tileset.json'].flatMap(
+      (name, i) => [i ? ' · ' : '', make('a', { href: results + name }, name)]));
+    if (!home) return;
+    byId('home').href = home;
+    byId('home').hidden = false;
+    const job = await fetch(results.replace(/\/results\/$/, '')).then((answer) => answer.json());
+    byId('title').textContent = job.filename ?? job.id;
+    document.title = `${job.filename ?? job.id}: farhorizon`;
+  };
+
+  farhorizon.numbers = { byId, make, digits, getJson, fillHead };
+})();
