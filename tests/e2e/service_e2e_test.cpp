@@ -137,6 +137,22 @@ TEST_F(ServiceE2e, SendsInGzipWhatThatMakesSmaller) {
   EXPECT_EQ(mesh.head.find("Content-Encoding"), std::string::npos);
 }
 
+// Their files are in gzip: a client that is not told so cannot read them.
+TEST_F(ServiceE2e, SendsTilesOfTerrainInGzipWhateverIsAskedFor) {
+  Start();
+  const std::string job = Submit("a.asc&levels=1&formats=quantized-mesh");
+  ASSERT_EQ(WaitForEnd(job), "successful");
+  const std::string layer = Ask(port_, "GET", job + "/results/layer.json").body;
+  EXPECT_EQ(nlohmann::json::parse(layer)["format"], "quantized-mesh-1.0");
+  for (const char* asks : {"", "Accept-Encoding: gzip\r\n"}) {
+    const RawAnswer tile = Ask(port_, "GET", job + "/results/terrain-0-0-0.terrain", asks);
+    EXPECT_EQ(tile.status, 200);
+    EXPECT_THAT(tile.head, testing::HasSubstr("Content-Type: application/vnd.quantized-mesh\r\n"));
+    EXPECT_THAT(tile.head, testing::HasSubstr("Content-Encoding: gzip\r\n"));
+    EXPECT_GT(Gunzip(tile.body).size(), tile.body.size());
+  }
+}
+
 TEST_F(ServiceE2e, ServesPartsAndKnowsWhatTheClientHas) {
   StartStandIn();
   const std::string job = Submit("good.asc");
