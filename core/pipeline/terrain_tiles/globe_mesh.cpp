@@ -123,7 +123,7 @@ std::array<float, 3> UpAt(const LatticePoint& place) {
 Result<GlobeMesh> PlaceOnGlobe(const Georeference& georeference, const LocalMesh& mesh) {
   Result<std::vector<Geodetic>> geodetic = georeference.ToGeodetic(mesh.positions);
   if (!geodetic) return std::move(geodetic.error());
-  const double middle_deg = georeference.frame().origin().lon_deg;
+  const double middle_deg = georeference.middle().lon_deg;
   std::vector<GlobeVertex> vertices;
   vertices.reserve(mesh.positions.size());
   for (std::size_t i = 0; i < geodetic->size(); ++i) {
