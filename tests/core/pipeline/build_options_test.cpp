@@ -148,7 +148,8 @@ INSTANTIATE_TEST_SUITE_P(
                     BadParameter{"triangles", "500,500"}, BadParameter{"triangles", "500,5e2"},
                     BadParameter{"triangles", "500,"}, BadParameter{"triangles", "0.5"},
                     BadParameter{"triangles", "half"}, BadParameter{"edges", ""},
-                    BadParameter{"edges", "Lines"}, BadParameter{"edges", "lines,inline"},
+                    BadParameter{"horizonDetail", "edge"}, BadParameter{"edges", "Lines"},
+                    BadParameter{"edges", "lines,inline"},
                     BadParameter{"triangles", "2,3,4,5,6,7,8,9,10,11,12,13,14"}));
 
 TEST(ParseOptions, RefusesTextsWithANul) {
