@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/horizon/find_horizon.h"
+#include "core/io/horizon_chains.h"
 #include "core/io/horizon_features.h"
 #include "core/io/horizon_vector.h"
 #include "core/io/tileset.h"
@@ -107,10 +108,14 @@ Status WriteEdges(const std::vector<HorizonFeature>& features, WrittenLevels& le
   return Ok{};
 }
 
-Status WriteFeatures(const std::vector<HorizonFeature>& features, const BuildOptions& options,
-                     ArtifactWriter& writer) {
+Status WriteFeatures(const std::vector<HorizonFeature>& features, const Georeference& georeference,
+                     const BuildOptions& options, ArtifactWriter& writer) {
   if (Asks(options, "geojson")) {
-    Status added = writer.Add("horizon.geojson", WriteHorizonGeoJson(features));
+    const double cell_m = std::min(georeference.column_step_m(), georeference.row_step_m());
+    Status added =
+        writer.Add("horizon.geojson", options.horizon_detail == HorizonDetail::kEdges
+                                          ? WriteHorizonGeoJson(features)
+                                          : WriteHorizonChains(ChainsOf(features), cell_m));
     if (!added) return added;
   }
   if (Asks(options, "flatgeobuf")) {
@@ -274,7 +279,7 @@ Status BuildArtifacts(const fs::path& dem, const fs::path& directory, const Buil
                     {.budget = budget, .threads = options.threads}, control);
   if (!features) return std::move(features.error());
   control.Report(Stage::kWrite, 0);
-  Status written = WriteFeatures(*features, options, writer);
+  Status written = WriteFeatures(*features, (*input)->georeference(), options, writer);
   if (!written) return written;
   if (HasLines(options.edges)) {
     Status lines = WriteEdges(*features, *levels, writer);

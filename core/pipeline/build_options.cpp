@@ -116,6 +116,9 @@ constexpr std::pair<std::string_view, EdgeFiles> kEdgeFiles[] = {{"lines", EdgeF
                                                                  {"both", EdgeFiles::kBoth},
                                                                  {"none", EdgeFiles::kNone}};
 
+constexpr std::pair<std::string_view, HorizonDetail> kHorizonDetails[] = {
+    {"chains", HorizonDetail::kChains}, {"edges", HorizonDetail::kEdges}};
+
 struct Parameter {
   std::string_view name;
   Status (*read)(const Given& given, BuildOptions& options);
@@ -171,6 +174,10 @@ constexpr std::array kParameters = {
               }},
     Parameter{"approximate", [](const Given& given,
                                 Options& options) { return ReadFlag(given, options.approximate); }},
+    Parameter{"horizonDetail",
+              [](const Given& given, Options& options) {
+                return ReadWord(given, kHorizonDetails, options.horizon_detail);
+              }},
     Parameter{"edges", [](const Given& given,
                           Options& options) { return ReadWord(given, kEdgeFiles, options.edges); }},
     Parameter{"skirt",

@@ -23,6 +23,10 @@ inline bool IsInline(EdgeFiles edges) {
   return edges == EdgeFiles::kInline || edges == EdgeFiles::kBoth;
 }
 
+/// What horizon.geojson has: lines of edges one behind the other, or every edge with all that is
+/// known of it.
+enum class HorizonDetail { kChains, kEdges };
+
 /// Options of `farhorizon build` and of a job. The defaults are those of proto/openapi.yaml.
 struct BuildOptions {
   int levels = 5;                     ///< at most
@@ -42,6 +46,7 @@ struct BuildOptions {
   std::optional<std::int64_t> work_budget;
   bool approximate = false;  ///< as HorizonOptions has it
   EdgeFiles edges = EdgeFiles::kLines;
+  HorizonDetail horizon_detail = HorizonDetail::kChains;
   /// How deep skirts are, metres; 0: none; unset: as SkirtDepths has it.
   std::optional<double> skirt_m;
   FrameChoice frame = {};  ///< whose axes the lattice has

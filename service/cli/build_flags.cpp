@@ -59,6 +59,9 @@ void AddBuildFlags(Command& command, BuildFlags& flags) {
   Add(command, flags, "skirt", "auto|M",
       "depth of the walls at the tile's sides and around holes, metres; 0: none (auto: as deep as "
       "the errors of the level and of the coarsest one)");
+  Add(command, flags, "horizonDetail", "HOW",
+      "what horizon.geojson has: chains: edges one behind the other as lines; edges: every edge "
+      "with all that is known of it, some five times the bytes (chains)");
   Add(command, flags, "edges", "WHERE",
       "where each level's horizon is drawn: lines: a file of its own, lodN-horizon.glb; inline: in "
       "lodN.glb, as EXT_mesh_primitive_edge_visibility; both; none (lines)");

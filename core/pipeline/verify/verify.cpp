@@ -12,6 +12,7 @@
 
 #include "core/horizon/find_horizon.h"
 #include "core/io/file.h"
+#include "core/io/horizon_chains.h"
 #include "core/io/horizon_features.h"
 #include "core/io/manifest.h"
 #include "core/io/tileset_reader.h"
@@ -22,6 +23,7 @@
 #include "core/pipeline/report.h"
 #include "core/pipeline/terrain_input.h"
 #include "core/pipeline/verify/claims.h"
+#include "core/pipeline/verify/verify_chains.h"
 #include "core/pipeline/verify/verify_edges.h"
 #include "core/pipeline/verify/verify_features.h"
 #include "core/pipeline/verify/verify_level.h"
@@ -221,15 +223,30 @@ Result<HorizonClaims> VerifyHorizonFiles(const TerrainInput& input, const Horizo
   if (!published) return result;
   Result<std::string> geojson = ReadFile(path);
   if (!geojson) return std::move(geojson.error());
-  Result<std::vector<HorizonFeature>> features = ReadHorizonGeoJson(*geojson);
-  if (!features) return std::move(features.error());
   Claims claims;
-  claims.Same("horizon.geojson features", artifacts.report.horizon_edges, std::ssize(*features));
-  result.published = VerifyFeatures(input, *features, claims);
+  std::vector<HorizonFeature> features;
+  std::string source = "horizon.geojson";
+  if (HasChains(*geojson)) {
+    Result<std::vector<HorizonChain>> chains = ReadHorizonChains(*geojson);
+    if (!chains) return std::move(chains.error());
+    result.published = VerifyChains(input, *chains, result.found, claims);
+    // Chains say nothing of single edges: what was found again is checked in its place.
+    features = result.found;
+    source = "horizon found again, of which horizon.geojson has chains:";
+    VerifyFeatures(input, features, source, claims);
+  } else {
+    Result<std::vector<HorizonFeature>> read = ReadHorizonGeoJson(*geojson);
+    if (!read) return std::move(read.error());
+    features = *std::move(read);
+    result.published = VerifyFeatures(input, features, source, claims);
+  }
+  claims.Same("horizon.geojson edges", artifacts.report.horizon_edges,
+              std::ssize(result.published->edges));
   VerifySet(result.published->edges, horizon, claims);
   claims.Same("horizon.geojson edges that are undecided", artifacts.report.statistics.undecided,
               result.published->undecided);
-  Result<std::vector<ClaimCheck>> edges = VerifyEdges(input, horizon, *features, result.found);
+  Result<std::vector<ClaimCheck>> edges =
+      VerifyEdges(input, horizon, features, result.found, source);
   if (!edges) return std::move(edges.error());
   claims.Append(*std::move(edges));
   result.checks = std::move(claims).Take();

@@ -150,7 +150,8 @@ VisibilityCounts CountVisibility(const PublishedSet& set,
 
 Result<std::vector<ClaimCheck>> VerifyEdges(const TerrainInput& input, const Horizon& horizon,
                                             const std::vector<HorizonFeature>& features,
-                                            const std::vector<HorizonFeature>& found) {
+                                            const std::vector<HorizonFeature>& found,
+                                            const std::string& source) {
   Claims claims;
   const Terrain& terrain = input.terrain();
   const Dem& dem = terrain.dem();
@@ -160,7 +161,7 @@ Result<std::vector<ClaimCheck>> VerifyEdges(const TerrainInput& input, const Hor
                    return f.a == std::array{dem.Column(e.edge.a), dem.Row(e.edge.a)} &&
                           f.b == std::array{dem.Column(e.edge.b), dem.Row(e.edge.b)};
                  });
-  claims.Add(in_order, "horizon.geojson has the horizon edges by rising posts, each once");
+  claims.Add(in_order, source + " has the horizon edges by rising posts, each once");
   if (!in_order) return std::move(claims).Take();
   std::vector<std::array<double, 2>> middles;
   middles.reserve(features.size());
@@ -174,8 +175,7 @@ Result<std::vector<ClaimCheck>> VerifyEdges(const TerrainInput& input, const Hor
   for (std::size_t i = 0; i < features.size(); ++i) {
     different += Same(features[i].measures, found[i].measures) ? 0 : 1;
   }
-  claims.Same("horizon.geojson edges with other azimuths, spans or weights", std::int64_t{0},
-              different);
+  claims.Same(source + " edges with other azimuths, spans or weights", std::int64_t{0}, different);
   const PublishedSet set(terrain, horizon);
   const LineCounts lines = CountLines(terrain, horizon, set, features, *steps);
   claims.Same(std::to_string(kRandomLines) +

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "core/base/result.h"
@@ -21,10 +22,12 @@ inline constexpr double kVerifiedWithSights = 0.95;
 /// gap between its azimuths it is not.
 ///
 /// features: one for each edge of `horizon`, in its order; any other list is a false claim.
-/// found: the same with the measures that were found again.
+/// found: the same with the measures that were found again. source: where `features` are from, for
+/// the claims' texts.
 /// Errors: those of Georeference::StepsAt. Cost: 2000 times the number of edges.
 Result<std::vector<ClaimCheck>> VerifyEdges(const TerrainInput& input, const Horizon& horizon,
                                             const std::vector<HorizonFeature>& features,
-                                            const std::vector<HorizonFeature>& found);
+                                            const std::vector<HorizonFeature>& found,
+                                            const std::string& source);
 
 }  // namespace farhorizon

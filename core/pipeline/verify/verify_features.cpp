@@ -38,7 +38,8 @@ int LinesAboveTheSet(const Terrain& terrain, const std::vector<Segment>& set) {
 }  // namespace
 
 PublishedEdges VerifyFeatures(const TerrainInput& input,
-                              const std::vector<HorizonFeature>& features, Claims& claims) {
+                              const std::vector<HorizonFeature>& features,
+                              const std::string& source, Claims& claims) {
   const Dem& dem = input.dem();
   PublishedEdges published;
   std::vector<VertexId> ends;
@@ -78,11 +79,10 @@ PublishedEdges VerifyFeatures(const TerrainInput& input,
         near((*points)[2 * i], features[i].from) && near((*points)[2 * i + 1], features[i].to);
     misplaced += there ? 0 : 1;
   }
-  claims.Same("horizon.geojson edges that are not where their posts are", std::int64_t{0},
-              misplaced);
-  claims.Same("horizon.geojson witnesses that meet higher ground", std::int64_t{0}, unwitnessed);
-  claims.Same("horizon.geojson edges without a witness that no line of sight touches",
-              std::int64_t{0}, CountOccluded(input.terrain(), without_witness));
+  claims.Same(source + " edges that are not where their posts are", std::int64_t{0}, misplaced);
+  claims.Same(source + " witnesses that meet higher ground", std::int64_t{0}, unwitnessed);
+  claims.Same(source + " edges without a witness that no line of sight touches", std::int64_t{0},
+              CountOccluded(input.terrain(), without_witness));
   claims.Same(
       std::to_string(kRandomLines) + " random lines of sight with ground above every horizon edge",
       0, LinesAboveTheSet(input.terrain(), set));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "core/horizon/horizon.h"
@@ -21,10 +22,11 @@ struct PublishedEdges {
 
 /// Checks each feature by itself: its posts and their positions, its witness, or, where that could
 /// not be written, whether a line of sight touches it; and that random lines
-/// have their skyline on the set.
+/// have their skyline on the set. source: where they are from, for the claims' texts.
 /// Cost: O(columns + rows) a witness; 1000 times the terrain's edges.
 PublishedEdges VerifyFeatures(const TerrainInput& input,
-                              const std::vector<HorizonFeature>& features, Claims& claims);
+                              const std::vector<HorizonFeature>& features,
+                              const std::string& source, Claims& claims);
 
 /// Checks that the claimed edges are those of `horizon`, in any order.
 void VerifySet(const std::vector<Edge>& claimed, const Horizon& horizon, Claims& claims);

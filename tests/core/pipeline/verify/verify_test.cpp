@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/io/glb.h"
+#include "core/io/horizon_chains.h"
 #include "core/io/horizon_features.h"
 #include "core/io/horizon_glb.h"
 #include "core/pipeline/build.h"
@@ -40,6 +41,7 @@ class Built : public ::testing::Test {
     SpillFile(folder_ / "hills.asc", text);
     options_.crs = "EPSG:32610";
     options_.levels = 2;
+    options_.horizon_detail = HorizonDetail::kEdges;
     Status built = BuildArtifacts(folder_ / "hills.asc", folder_ / "out", options_, control_);
     ASSERT_TRUE(built) << built.error().message;
   }
@@ -390,6 +392,47 @@ TEST_F(Verify, FlagsThatAreNotTheLevelsAreFound) {
   EXPECT_TRUE(Names(False(), "lod1.glb flags them and no others"));
 }
 
+// Builds with chains, of which a test changes one.
+class VerifyChains : public Built {
+ protected:
+  void SetUp() override {
+    Built::SetUp();
+    std::filesystem::remove_all(folder_ / "out");
+    options_.horizon_detail = HorizonDetail::kChains;
+    ASSERT_TRUE(BuildArtifacts(folder_ / "hills.asc", folder_ / "out", options_, control_));
+    text_ = SlurpFile(folder_ / "out" / "horizon.geojson");
+    ASSERT_TRUE(HasChains(text_));
+  }
+  // Whether some claim that does not hold names `text` after `change`.
+  bool Finds(const std::string& text, const std::function<void(HorizonChain&)>& change) {
+    std::vector<HorizonChain> chains = *ReadHorizonChains(text_);
+    change(chains[chains.size() / 2]);
+    SpillFile(folder_ / "out" / "horizon.geojson", WriteHorizonChains(chains, 30));
+    return Names(False(), text);
+  }
+
+  std::string text_;
+};
+
+TEST_F(VerifyChains, EveryClaimHolds) { EXPECT_TRUE(False().empty()) << False().front(); }
+
+TEST_F(VerifyChains, ChainsThatAreNotTheHorizonsAreFound) {
+  EXPECT_FALSE(Finds("horizon.geojson chains", [](HorizonChain&) {}));
+  EXPECT_TRUE(Finds("other azimuths or weights", [](HorizonChain& c) { c.azimuths ^= 1; }));
+  EXPECT_TRUE(
+      Finds("other azimuths or weights", [](HorizonChain& c) { c.line_measure_m *= 1.01; }));
+  EXPECT_TRUE(Finds("other azimuths or weights", [](HorizonChain& c) { c.skyline_drop_m += 1; }));
+  EXPECT_TRUE(Finds("not where their posts are", [](HorizonChain& c) { c.line[0].lat_deg += 1; }));
+  EXPECT_TRUE(Finds("level_kept is the coarsest", [](HorizonChain& c) { c.level_kept[0] = 7; }));
+  EXPECT_TRUE(Finds("horizon edges missing from horizon.geojson", [](HorizonChain& c) {
+    c.posts.pop_back();
+    c.line.pop_back();
+    c.level_kept.pop_back();
+    if (c.posts.size() == 1) c.posts.push_back({c.posts[0][0] + 1, c.posts[0][1]});
+    if (c.level_kept.empty()) c.level_kept.emplace_back();
+  }));
+}
+
 // White noise under a budget that leaves much undecided.
 class BuiltApproximately : public Built {
  protected:
@@ -407,6 +450,7 @@ class BuiltApproximately : public Built {
     options_.levels = 1;
     options_.work_budget = 20'000;
     options_.approximate = true;
+    options_.horizon_detail = HorizonDetail::kEdges;
     Status built = BuildArtifacts(folder_ / "hills.asc", folder_ / "out", options_, control_);
     ASSERT_TRUE(built) << built.error().message;
   }
@@ -421,6 +465,15 @@ TEST_F(VerifyApproximate, EveryClaimHoldsAndSaysThatTheSetIsASuperset) {
   EXPECT_TRUE(False().empty()) << False().front();
   EXPECT_NE(SlurpFile(folder_ / "out" / "report.json").find(R"("approximate": true)"),
             std::string::npos);
+  EXPECT_NE(SlurpFile(folder_ / "out" / "horizon.geojson").find(R"("undecided":true)"),
+            std::string::npos);
+}
+
+TEST_F(VerifyApproximate, EveryClaimOfChainsHolds) {
+  std::filesystem::remove_all(folder_ / "out");
+  options_.horizon_detail = HorizonDetail::kChains;
+  ASSERT_TRUE(BuildArtifacts(folder_ / "hills.asc", folder_ / "out", options_, control_));
+  EXPECT_TRUE(False().empty()) << False().front();
   EXPECT_NE(SlurpFile(folder_ / "out" / "horizon.geojson").find(R"("undecided":true)"),
             std::string::npos);
 }

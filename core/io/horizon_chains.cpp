@@ -1,0 +1,347 @@
+// Edges are joined at their ends first; then each chain is walked from an end that is joined to
+// none, and what is left over is closed.
+#include "core/io/horizon_chains.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <string_view>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "core/io/antimeridian.h"
+#include "core/io/geojson_text.h"
+
+namespace farhorizon {
+
+namespace {
+
+using Post = std::array<std::int32_t, 2>;
+
+// What `steps` has for each digit.
+constexpr std::array<Post, 6> kSteps = {Post{1, 0},  Post{1, 1},   Post{0, 1},
+                                        Post{-1, 0}, Post{-1, -1}, Post{0, -1}};
+constexpr char kHead[] = R"({"type":"FeatureCollection","detail":"chains",)";
+constexpr std::string_view kLevelDigits = "0123456789abcdef";
+constexpr int kWeightDigits = 4;
+// Coordinates are rounded to less than the cell's size over this: no one sees it.
+constexpr double kPartOfCell = 64;
+constexpr double kMetresADegree = 111320;
+
+// An end of an edge, 0 at a and 1 at b.
+struct EdgeEnd {
+  Post post;
+  std::size_t edge;
+  std::size_t end;
+};
+
+Post PostOf(const HorizonFeature& f, std::size_t end) { return end == 0 ? f.a : f.b; }
+
+// Joins the ends of edges at posts by twos.
+class Joints {
+ public:
+  explicit Joints(const std::vector<HorizonFeature>& features)
+      : features_(features), joined_(2 * features.size(), kNone) {
+    std::vector<EdgeEnd> ends;
+    ends.reserve(2 * features.size());
+    for (std::size_t i = 0; i < features.size(); ++i) {
+      for (std::size_t end = 0; end < 2; ++end) ends.push_back({PostOf(features[i], end), i, end});
+    }
+    std::ranges::stable_sort(ends, {}, &EdgeEnd::post);
+    for (std::size_t begin = 0; begin < ends.size();) {
+      std::size_t end = begin;
+      while (end < ends.size() && ends[end].post == ends[begin].post) ++end;
+      JoinAt({ends.begin() + static_cast<std::ptrdiff_t>(begin),
+              ends.begin() + static_cast<std::ptrdiff_t>(end)});
+      begin = end;
+    }
+  }
+
+  // The end that is joined to that of `edge`: 2 * edge + end; kNone: none.
+  [[nodiscard]] std::size_t At(std::size_t edge, std::size_t end) const {
+    return joined_[2 * edge + end];
+  }
+
+  static constexpr std::size_t kNone = SIZE_MAX;
+
+ private:
+  // The cosine of the angle between two edges as they leave a post.
+  [[nodiscard]] double Cosine(const EdgeEnd& p, const EdgeEnd& q) const {
+    const auto leave = [this](const EdgeEnd& e) -> std::array<double, 2> {
+      const Post far = PostOf(features_[e.edge], 1 - e.end);
+      const double dc = far[0] - e.post[0];
+      const double dr = far[1] - e.post[1];
+      const double length = std::hypot(dc, dr);
+      return {dc / length, dr / length};
+    };
+    const std::array<double, 2> a = leave(p);
+    const std::array<double, 2> b = leave(q);
+    return a[0] * b[0] + a[1] * b[1];
+  }
+
+  void JoinAt(std::vector<EdgeEnd> free) {
+    while (free.size() > 1) {
+      std::pair<std::size_t, std::size_t> best;
+      double least = 2;
+      for (std::size_t i = 0; i < free.size(); ++i) {
+        for (std::size_t j = i + 1; j < free.size(); ++j) {
+          if (features_[free[i].edge].undecided != features_[free[j].edge].undecided) continue;
+          const double cosine = Cosine(free[i], free[j]);
+          if (cosine >= least) continue;
+          least = cosine;
+          best = {i, j};
+        }
+      }
+      if (least == 2) return;
+      const EdgeEnd p = free[best.first];
+      const EdgeEnd q = free[best.second];
+      joined_[2 * p.edge + p.end] = 2 * q.edge + q.end;
+      joined_[2 * q.edge + q.end] = 2 * p.edge + p.end;
+      free.erase(free.begin() + static_cast<std::ptrdiff_t>(best.second));
+      free.erase(free.begin() + static_cast<std::ptrdiff_t>(best.first));
+    }
+  }
+
+  const std::vector<HorizonFeature>& features_;
+  std::vector<std::size_t> joined_;
+};
+
+Known Both(Known a, Known b) {
+  if (a == Known::kNotAsked || b == Known::kNotAsked) return Known::kNotAsked;
+  return a == Known::kYes ? b : a;
+}
+
+void Append(const HorizonFeature& edge, std::size_t from_end, HorizonChain& chain) {
+  chain.posts.push_back(PostOf(edge, 1 - from_end));
+  chain.line.push_back(from_end == 0 ? edge.to : edge.from);
+  chain.level_kept.push_back(edge.level_kept);
+  chain.undecided = edge.undecided;
+  const EdgeMeasures& m = edge.measures;
+  chain.sights = Both(chain.sights, m.sights);
+  chain.drop = Both(chain.drop, m.drop);
+  chain.azimuths |= MaskOf(m.azimuths);
+  chain.line_measure_m += m.line_measure_m;
+  chain.skyline_drop_m = std::max(chain.skyline_drop_m, m.skyline_drop_m);
+}
+
+int DecimalsFor(double step) { return std::max(0, static_cast<int>(std::ceil(-std::log10(step)))); }
+
+// Four digits; the text of JSON's numbers may have an exponent.
+std::string Weight(double value) {
+  std::array<char, 32> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value,
+                                 std::chars_format::general, kWeightDigits);
+  return {text.data(), end.ptr};
+}
+
+std::string Position(const Geodetic& g, const ChainRounding& rounding) {
+  return Bracketed({Rounded(g.lon_deg, rounding.degree_decimals),
+                    Rounded(g.lat_deg, rounding.degree_decimals),
+                    Rounded(g.height_m, rounding.metre_decimals)});
+}
+
+// A LineString, or where the meridian of 180 degrees cuts the line a MultiLineString of its parts.
+std::string Geometry(const std::vector<Geodetic>& line, const ChainRounding& rounding) {
+  std::vector<std::string> parts = {Position(line.front(), rounding)};
+  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+    const auto pieces = CutAtAntimeridian(line[i], line[i + 1]);
+    parts.back() += "," + Position(pieces.front()[1], rounding);
+    for (std::size_t k = 1; k < pieces.size(); ++k) {
+      parts.push_back(Position(pieces[k][0], rounding) + "," + Position(pieces[k][1], rounding));
+    }
+  }
+  std::string text;
+  for (const std::string& part : parts) text += (text.empty() ? "[" : ",[") + part + "]";
+  if (parts.size() == 1) return R"({"type":"LineString","coordinates":)" + text + "}";
+  return R"({"type":"MultiLineString","coordinates":[)" + text + "]}";
+}
+
+std::string Property(const char* name, Known known, const std::string& value) {
+  if (known == Known::kNotAsked) return {};
+  return ",\"" + std::string(name) + "\":" + (known == Known::kYes ? value : "null");
+}
+
+std::string FeatureText(const HorizonChain& chain, const ChainRounding& rounding) {
+  std::string steps;
+  for (std::size_t i = 0; i + 1 < chain.posts.size(); ++i) {
+    const Post step = {chain.posts[i + 1][0] - chain.posts[i][0],
+                       chain.posts[i + 1][1] - chain.posts[i][1]};
+    const auto digit = std::ranges::find(kSteps, step);
+    Check(digit != kSteps.end(), "an edge runs between neighbours");
+    steps += static_cast<char>('0' + (digit - kSteps.begin()));
+  }
+  std::string text = R"({"type":"Feature","geometry":)" + Geometry(chain.line, rounding) +
+                     R"(,"properties":{"start":)" +
+                     Pair(chain.posts.front()[0], chain.posts.front()[1]) + R"(,"steps":")" +
+                     steps + '"';
+  if (chain.undecided) {
+    text += R"(,"undecided":true)";
+  } else {
+    text += Property("azimuths", chain.sights, '"' + MaskText(chain.azimuths) + '"') +
+            Property("line_measure_m", chain.sights, Weight(chain.line_measure_m)) +
+            Property("skyline_drop_m", chain.drop, Weight(chain.skyline_drop_m));
+  }
+  const bool levels = std::ranges::any_of(chain.level_kept, [](const auto& l) { return !!l; });
+  if (levels) {
+    text += R"(,"levels_kept":")";
+    for (const std::optional<int>& level : chain.level_kept) {
+      text += level ? kLevelDigits[static_cast<std::size_t>(*level)] : '-';
+    }
+    text += '"';
+  }
+  return text + "}}";
+}
+
+using Json = nlohmann::json;
+
+std::vector<Geodetic> ReadLine(const Json& geometry) {
+  const Json& coordinates = geometry.at("coordinates");
+  const bool whole = geometry.at("type") == "LineString";
+  std::vector<Geodetic> line;
+  for (const Json& part : whole ? Json::array({coordinates}) : coordinates) {
+    // Where a line is cut it has the place of the cut twice, and no post.
+    if (!line.empty()) line.pop_back();
+    bool cut = !line.empty();
+    for (const Json& p : part) {
+      if (!std::exchange(cut, false)) {
+        line.push_back({p.at(0).get<double>(), p.at(1).get<double>(), p.at(2).get<double>()});
+      }
+    }
+  }
+  return line;
+}
+
+Known KnownOf(const Json& properties, const char* name) {
+  const auto found = properties.find(name);
+  if (found == properties.end()) return Known::kNotAsked;
+  return found->is_null() ? Known::kNotAfforded : Known::kYes;
+}
+
+AzimuthMask ReadMask(const std::string& text) {
+  AzimuthMask mask = 0;
+  for (const char c : text) {
+    const std::size_t digit = kLevelDigits.find(c);
+    mask = mask << 4U | (digit & 15U);
+  }
+  return mask;
+}
+
+// Throws what `at` throws where a digit is none.
+HorizonChain ReadChain(const Json& feature) {
+  const Json& properties = feature.at("properties");
+  HorizonChain chain;
+  chain.line = ReadLine(feature.at("geometry"));
+  chain.posts.push_back(properties.at("start").get<Post>());
+  for (const char c : properties.at("steps").get<std::string>()) {
+    const Post& step = kSteps.at(static_cast<std::size_t>(c - '0'));
+    chain.posts.push_back({chain.posts.back()[0] + step[0], chain.posts.back()[1] + step[1]});
+  }
+  chain.level_kept.resize(chain.posts.size() - 1);
+  if (properties.contains("levels_kept")) {
+    const auto levels = properties.at("levels_kept").get<std::string>();
+    for (std::size_t i = 0; i < chain.level_kept.size(); ++i) {
+      const std::size_t digit = kLevelDigits.find(levels.at(i));
+      if (digit != std::string_view::npos) chain.level_kept[i] = static_cast<int>(digit);
+    }
+  }
+  chain.undecided = properties.value("undecided", false);
+  if (chain.undecided) {
+    chain.sights = chain.drop = Known::kNotAfforded;
+    return chain;
+  }
+  chain.sights = KnownOf(properties, "azimuths");
+  chain.drop = KnownOf(properties, "skyline_drop_m");
+  if (chain.sights == Known::kYes) {
+    chain.azimuths = ReadMask(properties.at("azimuths").get<std::string>());
+    chain.line_measure_m = properties.at("line_measure_m").get<double>();
+  }
+  if (chain.drop == Known::kYes) {
+    chain.skyline_drop_m = properties.at("skyline_drop_m").get<double>();
+  }
+  return chain;
+}
+
+Error BadGeoJson(std::size_t feature, const std::string& message) {
+  return {ErrorCode::kUnsupportedData,
+          "no chains of horizon.geojson: feature " + std::to_string(feature) + ": " + message,
+          "bad-geojson"};
+}
+
+}  // namespace
+
+std::vector<HorizonChain> ChainsOf(const std::vector<HorizonFeature>& features) {
+  const Joints joints(features);
+  std::vector<bool> taken(features.size(), false);
+  std::vector<HorizonChain> chains;
+  const auto walk = [&](std::size_t edge, std::size_t end) {
+    HorizonChain& chain = chains.emplace_back();
+    chain.posts.push_back(PostOf(features[edge], end));
+    chain.line.push_back(end == 0 ? features[edge].from : features[edge].to);
+    for (;;) {
+      taken[edge] = true;
+      Append(features[edge], end, chain);
+      const std::size_t next = joints.At(edge, 1 - end);
+      if (next == Joints::kNone || taken[next / 2]) return;
+      edge = next / 2;
+      end = next % 2;
+    }
+  };
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    for (std::size_t end = 0; end < 2; ++end) {
+      if (!taken[i] && joints.At(i, end) == Joints::kNone) walk(i, end);
+    }
+  }
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    if (!taken[i]) walk(i, 0);
+  }
+  return chains;
+}
+
+ChainRounding RoundingOfChains(double cell_m) {
+  const double step_m = cell_m / kPartOfCell;
+  return {std::min(DecimalsFor(step_m / kMetresADegree), kDegreeDecimals),
+          std::min(DecimalsFor(step_m), kMetreDecimals)};
+}
+
+std::string WriteHorizonChains(const std::vector<HorizonChain>& chains, double cell_m) {
+  std::size_t edges = 0;
+  std::size_t undecided = 0;
+  AzimuthMask azimuths = 0;
+  for (const HorizonChain& chain : chains) {
+    edges += chain.level_kept.size();
+    undecided += chain.undecided ? chain.level_kept.size() : 0;
+    azimuths |= chain.azimuths;
+  }
+  std::string text = kHead;
+  text += R"("edges":)" + std::to_string(edges) + R"(,"azimuths":")" + MaskText(azimuths) + "\",";
+  if (undecided > 0) {
+    text += R"("approximate":true,"undecided":)" + std::to_string(undecided) + ",";
+  }
+  text += R"("features":[)";
+  const ChainRounding rounding = RoundingOfChains(cell_m);
+  const char* separator = "\n";
+  for (const HorizonChain& chain : chains) {
+    text += separator + FeatureText(chain, rounding);
+    separator = ",\n";
+  }
+  return text + "\n]}\n";
+}
+
+bool HasChains(const std::string& text) { return text.starts_with(kHead); }
+
+Result<std::vector<HorizonChain>> ReadHorizonChains(const std::string& text) {
+  std::vector<HorizonChain> chains;
+  try {
+    const Json collection = Json::parse(text);
+    for (const Json& feature : collection.at("features")) chains.push_back(ReadChain(feature));
+    return chains;
+  } catch (const Json::exception& failure) {
+    return BadGeoJson(chains.size(), failure.what());
+  } catch (const std::out_of_range&) {
+    return BadGeoJson(chains.size(), "its steps or its levels have other digits");
+  }
+}
+
+}  // namespace farhorizon
