@@ -49,8 +49,9 @@ bool ApplyLimits(const WorkerLimits& limits, bool own_user) {
          (!own_user || SetLimit(RLIMIT_NPROC, kMostThreads));
 }
 
-// The kernel weighs niceness 10 a tenth of niceness 0. More cannot be refused.
-void StandBack() { ::setpriority(PRIO_PROCESS, 0, 10); }
+// The kernel weighs ten steps of niceness a tenth, from wherever the service was put by who started
+// it. More cannot be refused.
+void StandBack() { [[maybe_unused]] const int now = ::nice(10); }
 
 // Without new privileges, a program that root starts has no more capabilities than there were.
 bool DropCapabilities() {
