@@ -69,6 +69,8 @@ try {
   }
   await checkStandalone({ browser, farhorizon, dir: dirs[0], cache, report });
   await checkPages({ browser, farhorizon, dem, cache, pictures, report });
+} catch (failure) {
+  report('the run itself', [failure.message.split('\n')[0]]);
 } finally {
   await browser.close();
   server.close();
