@@ -164,11 +164,9 @@ TEST(Draco, NormalsOfAnyDirectionPointUpwardsStill) {
   }
 }
 
-TEST(Draco, ANormalThatDoesNotPointUpwardsIsOurBug) {
+TEST(Draco, ANormalThatIsNoDirectionIsOurBug) {
   LocalMesh mesh = HillyGrid(3, 3, 10);
   const QuantizationLattice lattice = ChooseLattice(mesh.positions, 0.1);
-  mesh.normals[4] = {1, 0, 0};
-  EXPECT_THROW(static_cast<void>(EncodeDraco(mesh, lattice)), InternalError);
   mesh.normals[4] = {0, 0, 2};
   EXPECT_THROW(static_cast<void>(EncodeDraco(mesh, lattice)), InternalError);
   mesh.normals.pop_back();
