@@ -20,9 +20,10 @@ namespace {
 
 using Post = std::array<std::int32_t, 2>;
 
-// What `steps` has for each digit.
-constexpr std::array<Post, 6> kSteps = {Post{1, 0},  Post{1, 1},   Post{0, 1},
-                                        Post{-1, 0}, Post{-1, -1}, Post{0, -1}};
+// What `steps` has for each digit. The last two are the other diagonal, which a cell has where one
+// of its posts has no data.
+constexpr std::array<Post, 8> kSteps = {Post{1, 0},   Post{1, 1},  Post{0, 1},  Post{-1, 0},
+                                        Post{-1, -1}, Post{0, -1}, Post{1, -1}, Post{-1, 1}};
 constexpr char kHead[] = R"({"type":"FeatureCollection","detail":"chains",)";
 constexpr std::string_view kLevelDigits = "0123456789abcdef";
 constexpr int kWeightDigits = 4;

@@ -43,8 +43,9 @@ std::vector<HorizonChain> ChainsOf(const std::vector<HorizonFeature>& features);
 /// the collection.
 ///
 /// A chain has its posts as `start` and `steps`, a digit an edge: 0 to the next column, 1 to the
-/// next column and row, 2 to the next row, 3, 4 and 5 the other way. levels_kept: a hexadecimal
-/// digit an edge, - for none; absent where no edge has a level.
+/// next column and row, 2 to the next row, 3, 4 and 5 the other way, 6 to the next column and the
+/// row before, 7 the other way. levels_kept: a hexadecimal digit an edge, - for none; absent where
+/// no edge has a level.
 /// Coordinates are rounded to a 64th of a cell of cell_m, weights to four digits.
 std::string WriteHorizonChains(const std::vector<HorizonChain>& chains, double cell_m);
 

@@ -100,6 +100,20 @@ TEST(HorizonChains, ReadsBackWhatItWrote) {
   EXPECT_NE(text.find(R"("approximate":true,"undecided":1)"), std::string::npos) << text;
 }
 
+TEST(HorizonChains, StepAlongEveryEdgeThatACellMayHave) {
+  std::vector<HorizonFeature> edges;
+  for (const Post& step : {Post{1, 0}, Post{1, 1}, Post{0, 1}, Post{1, -1}}) {
+    const auto aside = static_cast<std::int32_t>(10 * edges.size());
+    edges.push_back(EdgeOf({aside, 5}, {aside + step[0], 5 + step[1]}));
+    edges.push_back(EdgeOf({aside + 5 + step[0], 5 + step[1]}, {aside + 5, 5}));
+  }
+  const std::vector<HorizonChain> chains = ChainsOf(edges);
+  ASSERT_EQ(chains.size(), edges.size());
+  Result<std::vector<HorizonChain>> back = ReadHorizonChains(WriteHorizonChains(chains, 90));
+  ASSERT_TRUE(back);
+  for (std::size_t i = 0; i < chains.size(); ++i) EXPECT_EQ((*back)[i].posts, chains[i].posts);
+}
+
 TEST(HorizonChains, AreCutAtTheMeridianOf180Degrees) {
   const std::vector<HorizonFeature> edges = {EdgeOf({0, 0}, {1, 0}, 179.9995),
                                              EdgeOf({1, 0}, {2, 1}, 179.9995)};
