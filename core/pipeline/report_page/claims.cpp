@@ -89,9 +89,10 @@ Html ClaimList(const Report& report, bool has_geojson) {
   Html list = "<ol class=\"claims\">"_html + HorizonClaim(report);
   if (has_geojson) {
     list += Item("Each horizon edge has a witness."_html,
-                 "<code>horizon.geojson</code> has a line of sight for each that touches it and "
-                 "nowhere meets higher ground. Anyone can shoot it. Where no number is fine enough "
-                 "to write one, it says so."_html);
+                 "For each there is a line of sight that touches it and nowhere meets higher "
+                 "ground. <code>--horizon-detail edges</code> writes them to "
+                 "<code>horizon.geojson</code>, and anyone can shoot them. Where no number is fine "
+                 "enough to write one, it says so."_html);
   }
   return list + LevelClaim(report) +
          Item("Errors are those of the files."_html,
