@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <random>
+#include <stop_token>
 
 #include <gtest/gtest.h>
 
@@ -147,10 +149,10 @@ TEST(OwnSkyline, ThreadsDoNotMatter) {
 }
 
 TEST(OwnSkyline, AStopIsAnError) {
-  std::stop_source stop;
-  stop.request_stop();
+  const auto source = std::make_unique<std::stop_source>();
+  source->request_stop();
   RunControl stopped;
-  stopped.stop = stop.get_token();
+  stopped.stop = source->get_token();
   const Dem dem = FractalDem(2, 5);
   Result<OwnSkyline> found = FindOwnSkyline(MeshOf(*Terrain::Build(dem)), {}, 1, stopped);
   ASSERT_FALSE(found);
