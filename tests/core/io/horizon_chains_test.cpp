@@ -143,7 +143,7 @@ TEST(HorizonChains, OtherTextIsAnErrorWithTheFeature) {
     Result<std::vector<HorizonChain>> read = ReadHorizonChains(other);
     return read ? "" : read.error().message;
   };
-  EXPECT_THAT(changed(R"("steps":"00")", R"("steps":"07")"), ::testing::HasSubstr("feature 0"));
+  EXPECT_THAT(changed(R"("steps":"00")", R"("steps":"08")"), ::testing::HasSubstr("feature 0"));
   EXPECT_THAT(changed(R"("steps":"22")", R"("stops":"22")"), ::testing::HasSubstr("feature 1"));
   EXPECT_FALSE(ReadHorizonChains("{}"));
   EXPECT_FALSE(ReadHorizonChains(text.substr(0, text.size() / 2)));
