@@ -114,7 +114,8 @@ class ChainBuilder {
       share *= kNextLevel;
     }
     const bool was_exact = level == 0 || levels_.back().exact;
-    if (was_exact && budget >= ExactTriangles() && SidePosts::ShareOf(share) >= 1) {
+    const bool fits = budget >= ExactTriangles() || budget >= Triangles();
+    if (was_exact && fits && SidePosts::ShareOf(share) >= 1) {
       BeginExact(std::numeric_limits<float>::infinity(), 0, control);
       Status simplified = Simplify(budget, control);
       if (!simplified || Triangles() <= budget) return simplified;

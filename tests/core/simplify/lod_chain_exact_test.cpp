@@ -149,6 +149,20 @@ TEST(LodChainExact, ALevelOfTrianglesIsExactWhereTheHorizonFits) {
   EXPECT_GT(exact, Rounds(15));
 }
 
+TEST(LodChainExact, ALevelThatMayHaveAllTrianglesIsExactOnAnyGround) {
+  std::mt19937 random(8);
+  const Dem dem = MakeDem(14, 11, [&random](std::int32_t, std::int32_t) {
+    return static_cast<std::int32_t>(random() % 50);
+  });
+  const Terrain terrain = *Terrain::Build(dem);
+  const Horizon horizon = *FindHorizon(terrain, {}, {});
+  LodPlan plan;
+  plan.triangles = {std::ssize(terrain.Triangles())};
+  const std::vector<Lod> levels = *BuildLodChain(terrain, horizon, plan, {});
+  Figures figures;
+  ExpectExact(terrain, horizon, levels[0], 500, random, figures);
+}
+
 TEST(LodChainExact, AValleyBetweenTwoRidgesIsNotFilled) {
   // Both ridges kept, triangles from one to the other would be a skyline that the DEM lacks
   // (core/simplify/README.md, section 2).
