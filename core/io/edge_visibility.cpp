@@ -96,21 +96,51 @@ std::array<std::int8_t, 3> NormalOf(const LocalMesh& mesh, std::uint32_t t) {
   return {byte(n[0]), byte(n[1]), byte(n[2])};
 }
 
+constexpr std::size_t kNormalBytes = 6;  // of both triangles
+
+std::size_t BytesOf(std::size_t triangles) { return (6 * triangles + 7) / 8; }
+
+// The value of a side, counted through all triangles.
+std::uint8_t ValueOf(const EdgeVisibility& edges, std::size_t side) {
+  return static_cast<std::uint8_t>(edges.bits[side / 4] >> (2 * (side % 4)) & 3U);
+}
+
+void SetValue(EdgeVisibility& edges, std::size_t side, std::uint8_t value) {
+  std::uint8_t& bits = edges.bits[side / 4];
+  bits = static_cast<std::uint8_t>(bits | (unsigned{value} << (2 * (side % 4))));
+}
+
+// Copies `count` triangles from a first side on, and their normals from `normals` on, which is then
+// behind the last; false where there are not so many.
+bool Copy(const EdgeVisibility& from, std::size_t first_side, std::size_t count,
+          std::size_t& normals, EdgeVisibility& to, std::size_t to_side) {
+  for (std::size_t i = 0; i < 3 * count; ++i) {
+    const std::uint8_t value = ValueOf(from, first_side + i);
+    if (value == 0) continue;
+    SetValue(to, to_side + i, value);
+    ++to.edge_count;
+    if (value != kSilhouette) continue;
+    if (normals + kNormalBytes > from.normals.size()) return false;
+    const auto at = from.normals.begin() + static_cast<std::ptrdiff_t>(normals);
+    to.normals.insert(to.normals.end(), at, at + kNormalBytes);
+    normals += kNormalBytes;
+  }
+  return true;
+}
+
 }  // namespace
 
 EdgeVisibility FlagEdges(const LocalMesh& mesh, const std::vector<VertexPair>& edges) {
   FlaggedEdges flagged(mesh, edges);
   EdgeVisibility result;
-  result.bits.assign((6 * mesh.triangles.size() + 7) / 8, 0);
+  result.bits.assign(BytesOf(mesh.triangles.size()), 0);
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     for (std::size_t side = 0; side < 3; ++side) {
       const Flagged* found = flagged.Find(t, side);
       if (found == nullptr || found->triangles[0] != t) continue;
       const bool shared = found->triangles[1] != kNone;
       const std::size_t index = 3 * std::size_t{t} + side;
-      const unsigned value = shared ? kSilhouette : kHard;
-      result.bits[index / 4] =
-          static_cast<std::uint8_t>(result.bits[index / 4] | (value << (2 * (index % 4))));
+      SetValue(result, index, shared ? kSilhouette : kHard);
       ++result.edge_count;
       if (!shared) continue;
       for (const std::uint32_t neighbour : found->triangles) {
@@ -120,6 +150,43 @@ EdgeVisibility FlagEdges(const LocalMesh& mesh, const std::vector<VertexPair>& e
     }
   }
   return result;
+}
+
+std::vector<EdgeVisibility> SplitEdges(const EdgeVisibility& edges,
+                                       const std::vector<std::size_t>& triangles) {
+  std::vector<EdgeVisibility> parts;
+  std::size_t first = 0;
+  std::size_t normals = 0;
+  for (const std::size_t count : triangles) {
+    EdgeVisibility& part = parts.emplace_back();
+    part.bits.assign(BytesOf(count), 0);
+    Check(Copy(edges, 3 * first, count, normals, part, 0), "a silhouette edge without normals");
+    first += count;
+  }
+  return parts;
+}
+
+std::optional<EdgeVisibility> JoinEdges(const std::vector<EdgeVisibility>& parts,
+                                        const std::vector<std::size_t>& triangles) {
+  EdgeVisibility joined;
+  joined.bits.assign(BytesOf(std::accumulate(triangles.begin(), triangles.end(), std::size_t{0})),
+                     0);
+  std::size_t first = 0;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const EdgeVisibility& part = parts[i];
+    const std::size_t count = triangles[i];
+    // A part in which no edge is flagged has no bits at all.
+    if (!part.bits.empty()) {
+      std::size_t normals = 0;
+      const bool fits = part.bits.size() == BytesOf(count) &&
+                        (6 * count % 8 == 0 || part.bits.back() >> (6 * count % 8) == 0);
+      if (!fits) return std::nullopt;
+      if (!Copy(part, 0, count, normals, joined, 3 * first)) return std::nullopt;
+      if (normals != part.normals.size()) return std::nullopt;
+    }
+    first += count;
+  }
+  return joined;
 }
 
 }  // namespace farhorizon

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -30,5 +32,16 @@ struct EdgeVisibility {
 /// Cost: O(n log n).
 EdgeVisibility FlagEdges(const LocalMesh& mesh,
                          const std::vector<std::pair<std::uint32_t, std::uint32_t>>& edges);
+
+/// What `edges` says of a mesh, for parts that have its triangles in turn, so many each. An edge
+/// between two parts is flagged in the first of them, with the normals of both.
+/// Requires: the parts have all triangles.
+std::vector<EdgeVisibility> SplitEdges(const EdgeVisibility& edges,
+                                       const std::vector<std::size_t>& triangles);
+/// The opposite: of parts that have so many triangles each, what they say of all in turn. A part
+/// without bits flags nothing. nullopt where one has bits or normals for more or fewer triangles.
+/// Flagged edges are counted anew.
+std::optional<EdgeVisibility> JoinEdges(const std::vector<EdgeVisibility>& parts,
+                                        const std::vector<std::size_t>& triangles);
 
 }  // namespace farhorizon

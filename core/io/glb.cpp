@@ -174,16 +174,14 @@ std::array<double, 16> GltfMatrix(const QuantizationLattice& lattice) {
   return {s, 0, 0, 0, 0, 0, -s, 0, 0, s, 0, 0, east, up, -north, 1};
 }
 
-std::vector<std::uint8_t> WriteGlb(
-    const std::vector<std::uint8_t>& draco, const DecodedMesh& decoded,
-    const std::vector<std::pair<std::uint32_t, std::uint32_t>>& horizon_edges,
-    const EncodedMesh* skirt) {
+std::vector<std::uint8_t> WriteGlb(const std::vector<std::uint8_t>& draco,
+                                   const DecodedMesh& decoded, const EdgeVisibility& edges,
+                                   const EncodedMesh* skirt) {
   Binary binary;
   Json accessors = Json::array();
   Json primitive = Primitive(draco, decoded, accessors, binary);
   Json materials = Json::array({Material("terrain", {0.62, 0.6, 0.55, 1})});
   Json used = Json::array({kDraco});
-  const EdgeVisibility edges = FlagEdges(decoded.mesh, horizon_edges);
   if (edges.edge_count > 0) {
     primitive["extensions"][kEdges] = EdgeExtension(edges, accessors, binary);
     materials.push_back(Material("horizon edge", {1, 0.25, 0, 1}));

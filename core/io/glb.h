@@ -3,7 +3,6 @@
 #include <array>
 #include <cstdint>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "core/base/result.h"
@@ -28,15 +27,14 @@ struct EncodedMesh {
 ///
 /// decoded: what `draco` decodes to. Accessors have its counts, and its least and greatest
 ///   positions in lattice numbers.
-/// horizon_edges: pairs of vertices of `decoded`, flagged as FlagEdges says
-///   [EXT_mesh_primitive_edge_visibility]. The extension is left out where there are none.
+/// edges: what is flagged of its triangles' sides [EXT_mesh_primitive_edge_visibility]; without any
+///   the extension is left out.
 /// skirt: walls on the same lattice, a second primitive of the mesh with the same material, so that
 /// renderers place a post of the rim bit for bit alike in both; its `extras` are {"skirt": true}.
 /// Posts are no attribute of the glTF primitives.
-std::vector<std::uint8_t> WriteGlb(
-    const std::vector<std::uint8_t>& draco, const DecodedMesh& decoded,
-    const std::vector<std::pair<std::uint32_t, std::uint32_t>>& horizon_edges,
-    const EncodedMesh* skirt = nullptr);
+std::vector<std::uint8_t> WriteGlb(const std::vector<std::uint8_t>& draco,
+                                   const DecodedMesh& decoded, const EdgeVisibility& edges,
+                                   const EncodedMesh* skirt = nullptr);
 
 /// The Draco bitstream of a primitive of WriteGlb, and what its accessors claim of it. min, max:
 /// lattice numbers.

@@ -4,36 +4,43 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/base/result.h"
-
 namespace farhorizon {
 
-std::string WriteTileset(const std::vector<TilesetLevel>& levels, const BoundingRegion& region,
-                         double root_error_m, const std::array<double, 16>& transform) {
-  Check(!levels.empty(), "a tileset without levels");
-  using Json = nlohmann::ordered_json;
-  const Json volume = {{"region",
-                        {region.west, region.south, region.east, region.north, region.min_height_m,
-                         region.max_height_m}}};
-  // Builds from the finest tile, the leaf, to the root. A coarser tile states at least the error of
-  // the finer ones: clients refine while the error is too great, and would stop at a smaller one.
-  Json tile;
-  double error = 0;
-  for (std::size_t i = 0; i < levels.size(); ++i) {
-    error = std::max(error, levels[i].geometric_error_m);
-    Json around;
-    if (i + 1 == levels.size()) around["transform"] = transform;
-    around["boundingVolume"] = volume;
-    around["geometricError"] = error;
-    around["refine"] = "REPLACE";
-    around["content"] = {{"uri", levels[i].uri}};
-    if (i > 0) around["children"] = Json::array({std::move(tile)});
-    tile = std::move(around);
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// A tile and all below it, as deep as there are levels. error_m: gets the tile's.
+Json ToJson(const TilesetTile& tile, double& error_m) {
+  error_m = tile.geometric_error_m;
+  Json children = Json::array();
+  for (const TilesetTile& child : tile.children) {
+    double error_of_child_m = 0;
+    children.push_back(ToJson(child, error_of_child_m));
+    error_m = std::max(error_m, error_of_child_m);
   }
+  const BoundingRegion& r = tile.region;
+  Json json;
+  json["boundingVolume"] = {
+      {"region", {r.west, r.south, r.east, r.north, r.min_height_m, r.max_height_m}}};
+  json["geometricError"] = error_m;
+  json["refine"] = "REPLACE";
+  if (!tile.uri.empty()) json["content"] = {{"uri", tile.uri}};
+  if (!children.empty()) json["children"] = std::move(children);
+  return json;
+}
+
+}  // namespace
+
+std::string WriteTileset(const TilesetTile& root, double root_error_m,
+                         const std::array<double, 16>& transform) {
+  double error_m = 0;
+  const Json tile = ToJson(root, error_m);
   Json tileset;
   tileset["asset"] = {{"version", "1.1"}};
-  tileset["geometricError"] = std::max(error, root_error_m);
-  tileset["root"] = std::move(tile);
+  tileset["geometricError"] = std::max(error_m, root_error_m);
+  tileset["root"]["transform"] = transform;
+  tileset["root"].update(tile);
   return tileset.dump(2) + "\n";
 }
 

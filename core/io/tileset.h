@@ -16,19 +16,23 @@ struct BoundingRegion {
   double max_height_m = 0;
 };
 
-/// One level of a tileset. uri: of its content, relative to the tileset.
-struct TilesetLevel {
+/// A tile and those that take its place where more detail is asked for.
+///
+/// uri: of its content, relative to the tileset; empty: it has none, and its children are always
+/// drawn.
+struct TilesetTile {
   std::string uri;
   double geometric_error_m = 0;
+  BoundingRegion region;
+  std::vector<TilesetTile> children;
 };
 
-/// The text of tileset.json [3D Tiles]: explicit tiling, refinement REPLACE, a tile for each level,
-/// the coarsest at the root.
+/// The text of tileset.json [3D Tiles]: explicit tiling, refinement REPLACE.
 ///
-/// levels: level 0 (finest) first. root_error_m: the error of drawing nothing, about the tile's
-/// size. transform: from the local frame to ECEF, column-major.
-/// Requires: at least one level.
-std::string WriteTileset(const std::vector<TilesetLevel>& levels, const BoundingRegion& region,
-                         double root_error_m, const std::array<double, 16>& transform);
+/// root_error_m: the error of drawing nothing, about the tile's size. transform: from the local
+/// frame to ECEF, column-major. Errors of tiles are raised to those of their children: clients
+/// refine while the error is too great, and would stop at a smaller one.
+std::string WriteTileset(const TilesetTile& root, double root_error_m,
+                         const std::array<double, 16>& transform);
 
 }  // namespace farhorizon

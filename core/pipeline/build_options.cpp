@@ -23,6 +23,8 @@ constexpr int kMostApron = 1000;
 // A triangulation has two triangles or more; no raster that is read has more than this.
 constexpr std::int64_t kFewestTriangles = 2;
 constexpr std::int64_t kMostTriangles = 1'000'000'000;
+// Smaller tiles are less than their headers are worth.
+constexpr std::int64_t kFewestTileTriangles = 1000;
 
 // A parameter as it is given.
 struct Given {
@@ -199,6 +201,11 @@ constexpr std::array kParameters = {
               [](const Given& given, Options& options) {
                 return ReadCount(given, "a whole number from 0 to 1000", options.apron);
               }},
+    Parameter{"tileTriangles",
+              [](const Given& given, Options& options) {
+                return ReadCount(given, "0, or a whole number from 1000 on",
+                                 options.tile_triangles);
+              }},
 };
 
 Error NoSuchParameter(const std::string& name) {
@@ -246,6 +253,10 @@ Status CheckTriangles(const std::vector<std::int64_t>& triangles) {
 
 }  // namespace
 
+bool Asks(const BuildOptions& options, std::string_view format) {
+  return std::ranges::find(options.formats, format) != options.formats.end();
+}
+
 Status CheckOptions(const BuildOptions& options) {
   if (options.levels < 1 || options.levels > kMostLevels) {
     return Given{"levels", std::to_string(options.levels)}.Expected("1 to 12");
@@ -279,6 +290,10 @@ Status CheckOptions(const BuildOptions& options) {
   }
   if (options.apron < 0 || options.apron > kMostApron) {
     return Given{"apron", std::to_string(options.apron)}.Expected("0 to 1000");
+  }
+  const std::int64_t tile = options.tile_triangles;
+  if (tile != 0 && (tile < kFewestTileTriangles || tile > kMostTriangles)) {
+    return Given{"tileTriangles", std::to_string(tile)}.Expected("0, or 1000 to 1000000000");
   }
   if (options.formats.empty()) return Given{"formats", ""}.Expected("at least one format");
   constexpr std::array kKnown = {"3dtiles", "drc", "geojson", "flatgeobuf", "quantized-mesh"};

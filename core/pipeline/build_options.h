@@ -52,8 +52,13 @@ struct BuildOptions {
   FrameChoice frame = {};  ///< whose axes the lattice has
   /// Rows and columns on each side that are the neighbours' ground: for normals, not meshed.
   int apron = 0;
+  /// Levels of more triangles are cut into parts of so many in the mean; 0: none is.
+  std::int64_t tile_triangles = 20'000;
   int threads = 1;  ///< never changes a byte of the result
 };
+
+/// Whether a format is asked for.
+bool Asks(const BuildOptions& options, std::string_view format);
 
 /// Checks options that need no DEM to be checked. Errors: kInvalidArgument, naming the flag, its
 /// value and its range.

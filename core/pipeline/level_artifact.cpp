@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/io/draco_mesh.h"
+#include "core/io/edge_visibility.h"
 #include "core/io/glb.h"
 #include "core/measure/covers.h"
 #include "core/pipeline/level_lattice.h"
@@ -71,14 +72,34 @@ void NamePosts(const LocalMesh& mesh, LocalMesh& decoded) {
 
 // The streams of a level. decoded: what is in the files, with posts.
 struct Encoded {
-  std::vector<std::uint8_t> glb_stream;
+  std::vector<EncodedPart> parts;
   std::vector<std::uint8_t> drc;
   DecodedMesh decoded;
 };
 
+// Encodes the parts and puts what they decode to together again.
+Status EncodeParts(const LocalMesh& mesh, const QuantizationLattice& lattice,
+                   std::vector<MeshPart> parts, Encoded& encoded) {
+  std::vector<LocalMesh> decoded;
+  for (const MeshPart& part : parts) {
+    Result<std::vector<std::uint8_t>> stream =
+        EncodeDraco(part.mesh, lattice, DracoPosts::kLeftOut);
+    if (!stream) return std::move(stream.error());
+    Result<DecodedMesh> contents = DecodeDraco(*stream);
+    if (!contents) return std::move(contents.error());
+    NamePosts(mesh, contents->mesh);
+    encoded.parts.push_back({part.place, *std::move(stream), contents->mesh.triangles.size()});
+    decoded.push_back(std::move(contents->mesh));
+  }
+  encoded.decoded.mesh = decoded.size() == 1 ? std::move(decoded.front()) : JoinMeshes(decoded);
+  encoded.decoded.lattice = lattice;
+  return Ok{};
+}
+
 // Requires: mesh.positions lie on the lattice.
-Result<Encoded> Encode(const LocalMesh& mesh, const QuantizationLattice& lattice,
-                       const LevelStorage& storage) {
+Result<Encoded> Encode(const LevelContext& context, const LocalMesh& mesh,
+                       const QuantizationLattice& lattice, const LevelStorage& storage,
+                       const PartDepth& depth) {
   Encoded encoded;
   if (storage.drc) {
     Result<std::vector<std::uint8_t>> drc = EncodeDraco(mesh, lattice, DracoPosts::kWritten);
@@ -86,14 +107,22 @@ Result<Encoded> Encode(const LocalMesh& mesh, const QuantizationLattice& lattice
     encoded.drc = *std::move(drc);
   }
   // Levels are measured even where no file of theirs is asked for.
-  Result<std::vector<std::uint8_t>> stream = EncodeDraco(mesh, lattice, DracoPosts::kLeftOut);
-  if (!stream) return std::move(stream.error());
-  encoded.glb_stream = *std::move(stream);
-  Result<DecodedMesh> decoded = DecodeDraco(encoded.glb_stream);
-  if (!decoded) return std::move(decoded.error());
-  encoded.decoded = *std::move(decoded);
-  NamePosts(mesh, encoded.decoded.mesh);
+  Status parts =
+      EncodeParts(mesh, lattice, CutIntoParts(mesh, context.terrain.dem(), depth), encoded);
+  if (!parts) return std::move(parts.error());
   return encoded;
+}
+
+Result<EncodedMesh> EncodeSkirt(const LevelContext& context, const DecodedMesh& surface,
+                                double skirt_m) {
+  const LocalMesh skirt =
+      SkirtOf(surface.mesh, context.georeference.frame(), surface.lattice, skirt_m);
+  Result<std::vector<std::uint8_t>> stream =
+      EncodeDraco(skirt, surface.lattice, DracoPosts::kLeftOut);
+  if (!stream) return std::move(stream.error());
+  Result<DecodedMesh> decoded = DecodeDraco(*stream);
+  if (!decoded) return std::move(decoded.error());
+  return EncodedMesh{*std::move(stream), *std::move(decoded)};
 }
 
 }  // namespace
@@ -147,10 +176,11 @@ Result<LevelArtifact> EncodeLevel(const LevelContext& context, const Lod& lod, i
   Result<QuantizationLattice> lattice = RoundToLattice(
       context.terrain.dem(), context.georeference.frame(), steps, *local, storage.skirt_room_m);
   if (!lattice) return std::move(lattice.error()).WithContext("level " + std::to_string(level));
-  Result<Encoded> encoded = Encode(*local, *lattice, storage);
+  const PartDepth depth = storage.glb ? lod.parts : PartDepth{};
+  Result<Encoded> encoded = Encode(context, *local, *lattice, storage, depth);
   if (!encoded) return std::move(encoded.error());
   LevelArtifact artifact;
-  if (storage.glb) artifact.glb_stream = std::move(encoded->glb_stream);
+  if (storage.glb) artifact.parts = std::move(encoded->parts);
   artifact.drc = std::move(encoded->drc);
   context.control.Report(Stage::kEncode, 1);
   const LocalMesh& mesh = encoded->decoded.mesh;
@@ -162,32 +192,43 @@ Result<LevelArtifact> EncodeLevel(const LevelContext& context, const Lod& lod, i
   artifact.report.side_step_m = steps.sides_m;
   artifact.report.seam_reach = seam_reach;
   artifact.report.horizon_edges = static_cast<std::int64_t>(lod.kept.size());
+  artifact.report.parts = depth;
   artifact.report.drc_bytes = static_cast<std::int64_t>(artifact.drc.size());
   artifact.decoded = std::move(encoded->decoded);
-  artifact.decoded.lattice = *lattice;  // with its room for a skirt
   return artifact;
 }
 
-Result<std::vector<std::uint8_t>> LevelGlb(const LevelContext& context, double skirt_m,
-                                           LevelArtifact& level, LocalMesh& skirt) {
-  std::optional<EncodedMesh> walls;
-  if (skirt_m > 0) {
-    const QuantizationLattice& lattice = level.decoded.lattice;
-    Result<std::vector<std::uint8_t>> stream =
-        EncodeDraco(SkirtOf(level.decoded.mesh, context.georeference.frame(), lattice, skirt_m),
-                    lattice, DracoPosts::kLeftOut);
-    if (!stream) return std::move(stream.error());
-    Result<DecodedMesh> decoded = DecodeDraco(*stream);
-    if (!decoded) return std::move(decoded.error());
-    walls = EncodedMesh{*std::move(stream), *std::move(decoded)};
+Result<std::vector<PartGlb>> LevelGlbs(const LevelContext& context, double skirt_m,
+                                       LevelArtifact& level) {
+  std::vector<std::size_t> counts;
+  for (const EncodedPart& part : level.parts) counts.push_back(part.triangles);
+  const std::vector<EdgeVisibility> flags =
+      SplitEdges(FlagEdges(level.decoded.mesh, level.flagged), counts);
+  LevelReport& report = level.report;
+  report.skirt_m = skirt_m;
+  std::vector<PartGlb> glbs;
+  for (std::size_t i = 0; i < level.parts.size(); ++i) {
+    const EncodedPart& part = level.parts[i];
+    Result<DecodedMesh> surface = DecodeDraco(part.draco);
+    if (!surface) return std::move(surface.error());
+    NamePosts(level.decoded.mesh, surface->mesh);
+    surface->lattice = level.decoded.lattice;
+    std::optional<EncodedMesh> walls;
+    if (skirt_m > 0) {
+      Result<EncodedMesh> encoded = EncodeSkirt(context, *surface, skirt_m);
+      if (!encoded) return std::move(encoded.error());
+      walls = *std::move(encoded);
+    }
+    PartGlb glb = {PartGlbName(report.level, report.parts, part.place),
+                   WriteGlb(part.draco, *surface, flags[i], walls ? &*walls : nullptr),
+                   std::move(surface->mesh),
+                   {}};
+    if (walls) glb.skirt = std::move(walls->decoded.mesh);
+    report.glb_bytes += static_cast<std::int64_t>(glb.bytes.size());
+    report.skirt_triangles += static_cast<std::int64_t>(glb.skirt.triangles.size());
+    glbs.push_back(std::move(glb));
   }
-  std::vector<std::uint8_t> glb =
-      WriteGlb(level.glb_stream, level.decoded, level.flagged, walls ? &*walls : nullptr);
-  level.report.skirt_m = skirt_m;
-  level.report.glb_bytes = static_cast<std::int64_t>(glb.size());
-  if (walls) skirt = std::move(walls->decoded.mesh);
-  level.report.skirt_triangles = static_cast<std::int64_t>(skirt.triangles.size());
-  return glb;
+  return glbs;
 }
 
 }  // namespace farhorizon

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -11,6 +13,7 @@
 #include "core/io/local_mesh.h"
 #include "core/measure/mesh_error.h"
 #include "core/pipeline/georeference.h"
+#include "core/pipeline/level_parts.h"
 #include "core/pipeline/post_normals.h"
 #include "core/pipeline/report.h"
 #include "core/simplify/lod_chain.h"
@@ -53,11 +56,20 @@ struct LevelStorage {
   bool drc = true;
 };
 
+/// The surface of a part of a level, as Draco has it, and how many triangles it is.
+struct EncodedPart {
+  PartPlace place;
+  std::vector<std::uint8_t> draco;
+  std::size_t triangles = 0;
+};
+
 /// A level as it is stored.
 struct LevelArtifact {
-  std::vector<std::uint8_t> drc;         ///< empty where it is not asked for
-  std::vector<std::uint8_t> glb_stream;  ///< likewise: the Draco stream of the GLB's surface
-  DecodedMesh decoded;                   ///< what both decode to, with posts
+  std::vector<std::uint8_t> drc;   ///< empty where it is not asked for
+  std::vector<EncodedPart> parts;  ///< likewise: the surface of each GLB
+  /// What both decode to, with posts; the triangles of the parts in turn (JoinMeshes), where the
+  /// level is cut.
+  DecodedMesh decoded;
   /// The edges that the GLB is to flag, by vertices of `decoded`; EncodeLevel leaves it empty.
   std::vector<std::pair<std::uint32_t, std::uint32_t>> flagged;
   LevelReport report;  ///< all but what is measured or of the GLB, and `asked`
@@ -68,12 +80,20 @@ struct LevelArtifact {
 Result<LevelArtifact> EncodeLevel(const LevelContext& context, const Lod& lod, int level,
                                   const LevelStorage& storage);
 
-/// The GLB of a level and its skirt, which is skirt_m deep; 0: none. `skirt` gets what the skirt
-/// decodes to, level.report what the GLB and its skirt are.
-/// Requires: the level was encoded with a GLB, and room for the skirt.
+/// The GLB of a part of a level, and what its surface and its skirt decode to.
+struct PartGlb {
+  std::string name;
+  std::vector<std::uint8_t> bytes;
+  LocalMesh surface;
+  LocalMesh skirt;
+};
+
+/// The GLBs of a level, each with a skirt along its own rim that is skirt_m deep; 0: none.
+/// level.report gets what they are.
+/// Requires: the level was encoded with GLBs, and room for the skirt.
 /// Errors: those of EncodeDraco.
-Result<std::vector<std::uint8_t>> LevelGlb(const LevelContext& context, double skirt_m,
-                                           LevelArtifact& level, LocalMesh& skirt);
+Result<std::vector<PartGlb>> LevelGlbs(const LevelContext& context, double skirt_m,
+                                       LevelArtifact& level);
 
 /// A decoded mesh as it is measured.
 /// Errors: kUnsupportedData where a vertex names no post, or the mesh has a hole or a flipped

@@ -90,6 +90,7 @@ Result<LevelPlan> PlanLevels(const TerrainInput& input, const BuildOptions& opti
   if (!reach) return std::move(reach.error());
   const double step_m = ChooseLattice(*reach, plan.finest_side_m).step_m;
   plan.lods.threads = options.threads;
+  plan.lods.part_triangles = options.tile_triangles;
   plan.lods.triangles = options.triangles;
   if (!options.triangles.empty()) return plan;
 

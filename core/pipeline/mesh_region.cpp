@@ -1,7 +1,7 @@
 // Longitudes go round, so that their least and greatest mean nothing by themselves: the widest gap
 // between those of the meshes decides where the region ends. They are gathered by whole degrees.
 // An edge is a straight line through the globe. Its longitudes lie between those of its ends, by
-// the shorter way; its latitudes may go beyond both, towards a pole.
+// the shorter way; its latitudes may go beyond both, towards a pole; its heights below both.
 #include "core/pipeline/mesh_region.h"
 
 #include <algorithm>
@@ -14,9 +14,11 @@ namespace farhorizon {
 namespace {
 
 constexpr int kDegrees = 360;
+// No section of the ellipsoid is more bent: a (1 - e^2) of WGS 84, at the equator, is 6335439 m.
+constexpr double kLeastRadiusM = 6335000;
 constexpr double kRadiansPerDegree = std::numbers::pi / 180;
-// No degree of latitude is shorter: a (1 - e^2) of WGS 84, at the equator, is 6335439 m.
-constexpr double kLeastMetresPerDegree = 6335000 * kRadiansPerDegree;
+// No degree of latitude is shorter.
+constexpr double kLeastMetresPerDegree = kLeastRadiusM * kRadiansPerDegree;
 // A point nearer to a pole than this, a tenth of a millimetre, has no longitude of its own.
 constexpr double kPoleDeg = 90 - 1e-9;
 
@@ -82,7 +84,11 @@ Status MeshRegion::Add(const LocalMesh& mesh) {
   const TangentFrame& frame = georeference_->frame();
   Result<std::vector<Geodetic>> vertices = georeference_->ToGeodetic(mesh.positions);
   if (!vertices) return std::move(vertices.error());
-  for (const Geodetic& p : *vertices) AddPoint(p);
+  for (const Geodetic& p : *vertices) {
+    AddPoint(p);
+    least_m_ = std::min(least_m_, p.height_m);
+    greatest_m_ = std::max(greatest_m_, p.height_m);
+  }
   constexpr std::size_t kBatch = 4096;
   std::vector<Enu> poleward;
   const auto flush = [&]() -> Status {
@@ -98,8 +104,11 @@ Status MeshRegion::Add(const LocalMesh& mesh) {
   for (const auto& t : mesh.triangles) {
     AddTriangle({(*vertices)[t[0]], (*vertices)[t[1]], (*vertices)[t[2]]});
     for (std::size_t k = 0; k < 3; ++k) {
-      const std::optional<Ecef> nearest = Poleward(frame.ToEcef(mesh.positions[t[k]]),
-                                                   frame.ToEcef(mesh.positions[t[(k + 1) % 3]]));
+      const Enu& from = mesh.positions[t[k]];
+      const Enu& to = mesh.positions[t[(k + 1) % 3]];
+      longest_m_ = std::max(
+          longest_m_, std::hypot(to.east - from.east, to.north - from.north, to.up - from.up));
+      const std::optional<Ecef> nearest = Poleward(frame.ToEcef(from), frame.ToEcef(to));
       if (nearest) poleward.push_back(frame.ToEnu(*nearest));
     }
     if (poleward.size() < kBatch) continue;
@@ -108,9 +117,28 @@ Status MeshRegion::Add(const LocalMesh& mesh) {
   return flush();
 }
 
-BoundingRegion MeshRegion::Sides(double slack_m) const {
-  BoundingRegion region = {-std::numbers::pi, south_ * kRadiansPerDegree, std::numbers::pi,
-                           north_ * kRadiansPerDegree};
+void MeshRegion::Add(const MeshRegion& other) {
+  for (std::size_t i = 0; i < spans_.size(); ++i) {
+    Span& span = spans_[i];
+    const Span& more = other.spans_[i];
+    span.least = std::min(span.least, more.least);
+    span.greatest = std::max(span.greatest, more.greatest);
+    span.crossed = span.crossed || more.crossed;
+  }
+  south_ = std::min(south_, other.south_);
+  north_ = std::max(north_, other.north_);
+  least_m_ = std::min(least_m_, other.least_m_);
+  greatest_m_ = std::max(greatest_m_, other.greatest_m_);
+  longest_m_ = std::max(longest_m_, other.longest_m_);
+}
+
+BoundingRegion MeshRegion::Box(double slack_m) const {
+  BoundingRegion region = {-std::numbers::pi,
+                           south_ * kRadiansPerDegree,
+                           std::numbers::pi,
+                           north_ * kRadiansPerDegree,
+                           least_m_ - longest_m_ * longest_m_ / (8 * kLeastRadiusM),
+                           greatest_m_};
   // The widest gap: `gap` degrees that no edge crosses, before degree `after`.
   int gap = 0;
   std::size_t after = 0;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <vector>
 
 #include "core/base/result.h"
@@ -10,8 +11,8 @@
 
 namespace farhorizon {
 
-/// The least region, in longitude and latitude, that holds meshes: also across the meridian of 180
-/// degrees, and around a pole.
+/// The least region, in longitude, latitude and height, that holds meshes: also across the meridian
+/// of 180 degrees, and around a pole.
 class MeshRegion {
  public:
   /// georeference: that of the meshes; outlives this object.
@@ -20,15 +21,18 @@ class MeshRegion {
   /// Extends the region by a mesh.
   /// Errors: those of Georeference::ToGeodetic. Cost: O(vertices + triangles).
   Status Add(const LocalMesh& mesh);
+  /// Extends the region by another, of the same georeference.
+  void Add(const MeshRegion& other);
 
   /// West, south, east and north, radians within [-pi, pi] and [-pi/2, pi/2]; west > east where the
   /// meshes lie on both sides of the meridian of 180 degrees, west -pi and east pi where they go
-  /// all the way round. Heights are zero.
+  /// all the way round. The least height is below all of the ground: edges are straight, so that
+  /// what is between their ends sinks below the curved Earth.
   ///
   /// slack_m: a side that is over the meridian by no more than this is put on it: vertices are
   /// rounded, those of a tile that ends there too.
   /// Requires: a mesh was added.
-  [[nodiscard]] BoundingRegion Sides(double slack_m) const;
+  [[nodiscard]] BoundingRegion Box(double slack_m) const;
 
  private:
   // The longitudes of the meshes within one degree; none where least > greatest.
@@ -46,6 +50,9 @@ class MeshRegion {
   std::array<Span, 360> spans_ = {};
   double south_ = 90;
   double north_ = -90;
+  double least_m_ = std::numeric_limits<double>::infinity();
+  double greatest_m_ = -std::numeric_limits<double>::infinity();
+  double longest_m_ = 0;  // edge
 };
 
 }  // namespace farhorizon

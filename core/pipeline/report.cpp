@@ -167,12 +167,25 @@ Json ToJson(const LevelReport& level) {
           {"seam_reach", level.seam_reach},
           {"skirt_m", level.skirt_m},
           {"skirt_triangles", level.skirt_triangles},
+          {"parts", {1 << level.parts.columns, 1 << level.parts.rows}},
           {"glb_bytes", level.glb_bytes},
           {"drc_bytes", level.drc_bytes},
           {"skyline_edges", ToJson(level.skyline_edges)}};
 }
 
-LevelReport ReadLevel(const Json& json) {
+Error BadReport(const std::string& what) {
+  return {ErrorCode::kUnsupportedData, "report.json: " + what, "bad-report"};
+}
+
+// How often a side is halved that has so many pieces; nullopt where no level's is.
+std::optional<int> HalvingsOf(int pieces) {
+  for (int depth = 0; depth <= kMostPartDepth; ++depth) {
+    if (1 << depth == pieces) return depth;
+  }
+  return std::nullopt;
+}
+
+Result<LevelReport> ReadLevel(const Json& json) {
   LevelReport level;
   json.at("level").get_to(level.level);
   json.at("exact").get_to(level.exact);
@@ -192,6 +205,12 @@ LevelReport ReadLevel(const Json& json) {
   level.seam_reach = json.value("seam_reach", 0);
   level.skirt_m = json.value("skirt_m", 0.0);
   level.skirt_triangles = json.value("skirt_triangles", std::int64_t{0});
+  // Reports of versions that cut no level have no such member.
+  const auto pieces = json.value("parts", std::array<int, 2>{1, 1});
+  const std::optional<int> columns = HalvingsOf(pieces[0]);
+  const std::optional<int> rows = HalvingsOf(pieces[1]);
+  if (!columns || !rows) return BadReport("no level has such parts");
+  level.parts = {*columns, *rows};
   json.at("glb_bytes").get_to(level.glb_bytes);
   json.at("drc_bytes").get_to(level.drc_bytes);
   level.skyline_edges = ReadSkylineEdges(json);
@@ -200,10 +219,6 @@ LevelReport ReadLevel(const Json& json) {
 
 Json ToJson(const FrameReport& frame) {
   return {{"axes", FrameText(frame.axes)}, {"transform", frame.transform}};
-}
-
-Error BadReport(const std::string& what) {
-  return {ErrorCode::kUnsupportedData, "report.json: " + what, "bad-report"};
 }
 
 Result<FrameReport> ReadFrame(const Json& json) {
@@ -240,7 +255,11 @@ Result<Report> ReadReport(const std::string& text) {
     }
     report.assumptions = ReadAssumptions(json);
     ReadHorizon(json.at("horizon"), report);
-    for (const Json& level : json.at("levels")) report.levels.push_back(ReadLevel(level));
+    for (const Json& json_of_level : json.at("levels")) {
+      Result<LevelReport> level = ReadLevel(json_of_level);
+      if (!level) return std::move(level.error());
+      report.levels.push_back(*std::move(level));
+    }
     return report;
   } catch (const nlohmann::json::exception& failure) {
     return BadReport(failure.what());

@@ -11,6 +11,7 @@
 #include "core/geo/frame_choice.h"
 #include "core/horizon/horizon.h"
 #include "core/measure/mesh_error.h"
+#include "core/terrain/part_grid.h"
 
 namespace farhorizon {
 
@@ -57,7 +58,8 @@ struct SkylineEdgesReport {
 /// quantization_step_m, side_step_m: positions are multiples of the former, those on the tile's
 /// four sides of the latter. seam_reach: as MeanNormals has it, 0 without an apron. skirt_m,
 /// skirt_triangles: how deep the skirt in the GLB is, and its triangles, which `triangles` leaves
-/// out; 0 where there is none. glb_bytes, drc_bytes: 0 where there is no such file.
+/// out; 0 where there is none. parts: into how many the GLB is cut; glb_bytes is their sum, as
+/// skirt_triangles is. glb_bytes, drc_bytes: 0 where there is no such file.
 struct LevelReport {
   int level = 0;
   bool exact = false;
@@ -76,6 +78,7 @@ struct LevelReport {
   int seam_reach = 0;
   double skirt_m = 0;
   std::int64_t skirt_triangles = 0;
+  PartDepth parts;
   std::int64_t glb_bytes = 0;
   std::int64_t drc_bytes = 0;
   SkylineEdgesReport skyline_edges;

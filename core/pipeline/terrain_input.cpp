@@ -151,21 +151,4 @@ void TerrainInput::Describe() {
   }
 }
 
-Result<std::array<double, 2>> TerrainInput::EllipsoidalHeights() const {
-  std::array<double, 2> range = {std::numeric_limits<double>::infinity(),
-                                 -std::numeric_limits<double>::infinity()};
-  std::vector<VertexId> row;
-  for (VertexId v = 0; v < terrain_->post_count(); ++v) {
-    if (dem_.HasData(v)) row.push_back(v);
-    if (dem_.Column(v) + 1 < dem_.columns || row.empty()) continue;
-    Result<std::vector<Geodetic>> points = georeference_->ToGeodetic(row);
-    if (!points) return std::move(points.error());
-    row.clear();
-    for (const Geodetic& p : *points) {
-      range = {std::min(range[0], p.height_m), std::max(range[1], p.height_m)};
-    }
-  }
-  return range;
-}
-
 }  // namespace farhorizon

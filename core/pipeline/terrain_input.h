@@ -46,10 +46,6 @@ class TerrainInput {
   /// What was assumed about the heights and their place, in the order in which it was met.
   [[nodiscard]] const Assumptions& assumptions() const { return assumptions_; }
 
-  /// The least and the greatest height of a post above the ellipsoid, metres.
-  /// Errors: those of Georeference::ToGeodetic.
-  [[nodiscard]] Result<std::array<double, 2>> EllipsoidalHeights() const;
-
  private:
   TerrainInput() = default;
   void Describe();

@@ -62,6 +62,7 @@ Lod LevelOf(const Workpiece& work, const std::vector<SidePosts::Height>& sides) 
   }
   lod.kept = work.rules.KeptIn(mesh);
   lod.exact = !work.rules.allows_rises();
+  lod.parts = work.rules.parts().depth();
   lod.vertical_rms_m = VerticalRms(mesh);
   lod.silhouette_rms_m = lod.exact ? 0 : SilhouetteRms(work.skyline);
   return lod;

@@ -63,7 +63,9 @@ class ChainBuilder {
         work_(ground_, horizon, kDirections),
         collapser_(work_),
         sides_(terrain),
-        full_(2.0 * (terrain.dem().columns - 1) * (terrain.dem().rows - 1)) {}
+        full_(2.0 * (terrain.dem().columns - 1) * (terrain.dem().rows - 1)) {
+    CutInto(PartDepthFor(Triangles(), plan.part_triangles, MostParts(1)));
+  }
 
   Result<std::vector<Lod>> Build(const RunControl& control) {
     const auto count =
@@ -75,6 +77,7 @@ class ChainBuilder {
       if (plan_.triangles.empty() && i > 0 && !HasNext()) break;
       Status built = plan_.triangles.empty() ? BuildBySize(i, piece) : BuildByCount(i, piece);
       if (!built) return std::move(built.error());
+      RelaxParts(work_.rules.parts().depth());
       levels_.push_back(LevelOf(work_, side_heights_));
       work_.mesh.Compact();
     }
@@ -91,6 +94,11 @@ class ChainBuilder {
   // Of the grid without holes, as neighbours have them.
   [[nodiscard]] double SidePostsOfGrid() const {
     return 2.0 * (ground_.columns() + ground_.rows()) - 4;
+  }
+  // How often a level may be halved of whose sides' posts this share stays.
+  [[nodiscard]] PartDepth MostParts(double side_share) const {
+    return {SidePartDepth(ground_.columns(), side_share),
+            SidePartDepth(ground_.rows(), side_share)};
   }
   [[nodiscard]] bool HasNext() const { return kNextLevel * Triangles() >= kLeastTriangles; }
 
@@ -124,6 +132,26 @@ class ChainBuilder {
     return Simplify(budget, control);
   }
 
+  void CutInto(const PartDepth& depth) {
+    work_.rules.Cut(PartGrid(ground_.columns(), ground_.rows(), depth));
+  }
+
+  // The fewer triangles, the fewer parts, `most` at most. What a line has held may go when it is
+  // none any more.
+  void RelaxParts(PartDepth most) {
+    const PartGrid before = work_.rules.parts();
+    most.columns = std::min(most.columns, before.depth().columns);
+    most.rows = std::min(most.rows, before.depth().rows);
+    const PartDepth depth = PartDepthFor(Triangles(), plan_.part_triangles, most);
+    if (depth == before.depth()) return;
+    CutInto(depth);
+    for (std::int32_t v = 0; v < work_.mesh.vertices(); ++v) {
+      if (!work_.mesh.IsVertex(v)) continue;
+      const Place& p = work_.mesh.at(v);
+      if (before.IsOnLine(p.x, p.y) && !work_.rules.parts().IsOnLine(p.x, p.y)) work_.Touch(v, 0);
+    }
+  }
+
   void BeginExact(double most_m, double rise_m, const RunControl& control) {
     work_.mesh.measure().SetMost(static_cast<float>(most_m));
     work_.rules.BeginExact(rise_m);
@@ -141,8 +169,10 @@ class ChainBuilder {
     work_.mesh.measure().SetMost(std::numeric_limits<float>::infinity());
     work_.rules.BeginSoft(work_.mesh);
     work_.price.AllowRises(true);
+    const double side_share = SidePosts::ShareOf(share);
+    RelaxParts(MostParts(side_share));
     Weigh();
-    side_heights_ = sides_.At(SidePosts::ShareOf(share));
+    side_heights_ = sides_.At(side_share);
     SideThinner thinner(work_, collapser_);
     thinner.Thin(side_heights_);
     if (was_exact || levels_.empty()) ConsiderAll(control);
@@ -167,7 +197,10 @@ class ChainBuilder {
   }
 
   Status Collapse(std::int32_t budget, const RunControl& control) {
-    const auto weigh = [this] { Weigh(); };
+    const auto weigh = [this] {
+      RelaxParts(work_.rules.parts().depth());
+      Weigh();
+    };
     if (work_.rules.exact() && !work_.rules.allows_rises()) {
       const auto asked = static_cast<std::int32_t>(kAskedAtTheEnd * full_);
       Status done = collapser_.Run(std::max(budget, asked), control.Between(0, 0.3), weigh);

@@ -7,6 +7,7 @@
 #include "core/base/run_control.h"
 #include "core/horizon/horizon.h"
 #include "core/terrain/mesh.h"
+#include "core/terrain/part_grid.h"
 #include "core/terrain/terrain.h"
 
 namespace farhorizon {
@@ -19,6 +20,8 @@ namespace farhorizon {
 /// max_error_m: what level 0 by size may be off at a post.
 /// silhouette_error_m: by how much level 0 by size may rise above the DEM's skyline; 0: not at all.
 /// threads: never changes the chain.
+/// part_triangles: a level of more is cut into parts of so many in the mean (PartGrid), as far as
+///   its sides allow (SidePartDepth); 0: none is.
 /// column_bend, row_bend: the Earth's drop, metres, at one column or row from the tile's middle: it
 ///   grows with the square of the distance. Edges are straight in the tile's frame.
 struct LodPlan {
@@ -28,6 +31,7 @@ struct LodPlan {
   double silhouette_error_m = 0;
   double column_bend = 0;
   double row_bend = 0;
+  std::int64_t part_triangles = 0;
   int threads = 1;
 };
 
@@ -36,6 +40,8 @@ struct LodPlan {
 /// kept: the horizon edges that are edges of this mesh in plan and of the finer ones, by their
 ///   index in horizon.edges, rising.
 /// exact: the mesh has all of them at the DEM's heights, and its skyline is the DEM's.
+/// parts: no edge of the mesh crosses a line of the PartGrid of that depth; not deeper than that of
+///   the finer level.
 /// vertical_rms_m, silhouette_rms_m: as simplifying sees them, at posts in the tile's frame and
 ///   over the lines that it samples. Estimates, for who has to round the mesh; core/measure
 ///   measures.
@@ -43,6 +49,7 @@ struct Lod {
   PostMesh mesh;
   std::vector<std::int32_t> kept;
   bool exact = false;
+  PartDepth parts;
   double vertical_rms_m = 0;
   double silhouette_rms_m = 0;
 };

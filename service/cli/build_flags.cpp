@@ -65,6 +65,9 @@ void AddBuildFlags(Command& command, BuildFlags& flags) {
   Add(command, flags, "edges", "WHERE",
       "where each level's horizon is drawn: lines: a file of its own, lodN-horizon.glb; inline: in "
       "lodN.glb, as EXT_mesh_primitive_edge_visibility; both; none (lines)");
+  Add(command, flags, "tileTriangles", "N",
+      "a level of more triangles is cut into parts of so many in the mean, lodN-X-Y.glb, so that a "
+      "look at a corner fetches a corner; 0: none is (20000)");
   AddTileFlags(command, flags);
   AddReadFlags(command, flags);
   AddWorkFlags(command, flags);

@@ -118,7 +118,7 @@ folder_of() {
     service/main.cpp) echo "$1" ;;
     core/horizon/find_horizon.* | core/horizon/candidate_decider.* | core/horizon/join_horizons.* | core/horizon/occluded_edges.*)
       echo core/horizon/search ;;
-    core/pipeline/build.*) echo core/pipeline/build ;;
+    core/pipeline/build.* | core/pipeline/write_levels.*) echo core/pipeline/build ;;
     *) dirname "$1" ;;
   esac
 }

@@ -1,7 +1,10 @@
 #include "core/pipeline/report_page/account.h"
 
 #include <algorithm>
+#include <map>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "core/base/stage.h"
 #include "core/pipeline/level_edges.h"
@@ -17,6 +20,7 @@ const LevelReport* LevelOf(const std::vector<LevelReport>& levels, const std::st
   for (const LevelReport& level : levels) {
     const std::string stem = "lod" + std::to_string(level.level);
     if (name == stem + ".glb" || name == stem + ".drc") return &level;
+    if (name.ends_with(stem + "-X-Y.glb")) return &level;
   }
   return nullptr;
 }
@@ -38,23 +42,52 @@ std::string BytesEach(const Report& report, const ManifestEntry& artifact) {
   return edges ? Each(artifact.bytes, report.horizon_edges, "horizon edge") : "";
 }
 
-// The artifacts, those of terrain tiles as one.
-std::vector<ManifestEntry> Summed(const std::vector<ManifestEntry>& artifacts) {
-  std::vector<ManifestEntry> summed;
-  ManifestEntry tiles;
-  std::int64_t count = 0;
-  for (const ManifestEntry& artifact : artifacts) {
-    if (!artifact.name.ends_with(".terrain")) {
-      summed.push_back(artifact);
-      continue;
-    }
-    tiles.bytes += artifact.bytes;
+// Where a level is cut, the number of the level whose part the artifact is; nullopt for what is
+// no such part.
+std::optional<int> CutLevelOf(const std::vector<LevelReport>& levels, const std::string& name) {
+  for (const LevelReport& level : levels) {
+    if (level.parts == PartDepth{} || !name.ends_with(".glb")) continue;
+    const std::string stem = "lod" + std::to_string(level.level) + "-";
+    if (name.starts_with(stem) && name != HorizonGlbName(level.level)) return level.level;
+  }
+  return std::nullopt;
+}
+
+// Artifacts that are shown as one, by the name that they have together.
+class Sums {
+ public:
+  void Add(const ManifestEntry& artifact, const std::string& together) {
+    auto& [count, bytes] = sums_[together];
     ++count;
+    bytes += artifact.bytes;
   }
-  if (count > 0) {
-    tiles.name = std::to_string(count) + " tiles, terrain-Z-X-Y.terrain";
-    summed.push_back(tiles);
+  void Show(std::vector<ManifestEntry>& artifacts) const {
+    for (const auto& [together, sum] : sums_) {
+      ManifestEntry& entry = artifacts.emplace_back();
+      entry.name = std::to_string(sum.first) + " tiles, " + together;
+      entry.bytes = sum.second;
+    }
   }
+
+ private:
+  std::map<std::string, std::pair<std::int64_t, std::uintmax_t>> sums_;
+};
+
+// The artifacts, terrain tiles as one, and the parts of a level.
+std::vector<ManifestEntry> Summed(const std::vector<LevelReport>& levels,
+                                  const std::vector<ManifestEntry>& artifacts) {
+  std::vector<ManifestEntry> summed;
+  Sums sums;
+  for (const ManifestEntry& artifact : artifacts) {
+    if (artifact.name.ends_with(".terrain")) {
+      sums.Add(artifact, "terrain-Z-X-Y.terrain");
+    } else if (const std::optional<int> level = CutLevelOf(levels, artifact.name)) {
+      sums.Add(artifact, "lod" + std::to_string(*level) + "-X-Y.glb");
+    } else {
+      summed.push_back(artifact);
+    }
+  }
+  sums.Show(summed);
   return summed;
 }
 
@@ -64,7 +97,7 @@ Html BytesTable(const Report& report, const std::vector<ManifestEntry>& artifact
   BarTable table{"The files of this build, without this page and the manifest"_html,
                  {"File"_html, "Size"_html, "Bytes"_html},
                  {}};
-  std::vector<ManifestEntry> sorted = Summed(artifacts);
+  std::vector<ManifestEntry> sorted = Summed(report.levels, artifacts);
   std::stable_sort(
       sorted.begin(), sorted.end(),
       [](const ManifestEntry& a, const ManifestEntry& b) { return a.bytes > b.bytes; });

@@ -8,7 +8,8 @@
 namespace farhorizon {
 
 /// The most tiles of a build, those without ground aside: a deeper zoom that would need more is
-/// left out, and a tile of level 0 is larger instead. A job may have 1000 artifacts.
+/// left out, and a tile of level 0 is larger instead. Parts of levels have to fit beside them into
+/// the 4000 artifacts that a job may have.
 inline constexpr std::int64_t kMostTerrainTiles = 800;
 
 /// The error that CesiumJS takes a tile at `zoom` to have, whatever the tile says, metres: that of

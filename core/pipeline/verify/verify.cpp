@@ -15,7 +15,6 @@
 #include "core/io/horizon_chains.h"
 #include "core/io/horizon_features.h"
 #include "core/io/manifest.h"
-#include "core/io/tileset_reader.h"
 #include "core/pipeline/build_features.h"
 #include "core/pipeline/level_artifact.h"
 #include "core/pipeline/level_edges.h"
@@ -27,6 +26,7 @@
 #include "core/pipeline/verify/verify_edges.h"
 #include "core/pipeline/verify/verify_features.h"
 #include "core/pipeline/verify/verify_level.h"
+#include "core/pipeline/verify/verify_tileset.h"
 
 namespace farhorizon {
 
@@ -87,7 +87,7 @@ bool WasNotWritten(const LevelReport& level) {
 void VerifyAbsence(const fs::path& directory, const LevelReport& level, Claims& claims) {
   const std::string name = "lod" + std::to_string(level.level);
   std::error_code failure;
-  claims.Add(!fs::exists(directory / (name + ".glb"), failure) &&
+  claims.Add(!fs::exists(directory / PartGlbName(level.level, {}, {}), failure) &&
                  !fs::exists(directory / (name + ".drc"), failure) &&
                  !fs::exists(directory / HorizonGlbName(level.level), failure),
              name + " has no bytes in the report and no file: its numbers cannot be measured");
@@ -129,8 +129,13 @@ class KeptEdges {
   std::vector<int> coarsest_;
 };
 
-void VerifyLevels(const LevelContext& context, const fs::path& directory, const Report& report,
-                  const HorizonClaims& horizon, Claims& claims) {
+// Returns the GLBs of the levels, those of a level without any being none.
+std::vector<std::vector<TileContentRegion>> VerifyLevels(const LevelContext& context,
+                                                         const Artifacts& artifacts,
+                                                         const HorizonClaims& horizon,
+                                                         Claims& claims) {
+  const auto& [directory, report] = artifacts;
+  std::vector<std::vector<TileContentRegion>> contents(report.levels.size());
   const RunControl& control = context.control;
   KeptEdges kept(context.horizon);
   double finer_error_m = 0;
@@ -144,8 +149,7 @@ void VerifyLevels(const LevelContext& context, const fs::path& directory, const 
       continue;
     }
     const LevelContext level_context = context.With(level_control);
-    const std::optional<StoredLevel> stored =
-        VerifyLevel(level_context, directory, claimed, claims);
+    std::optional<StoredLevel> stored = VerifyLevel(level_context, directory, claimed, claims);
     claims.Add(
         claimed.geometric_error_m >= finer_error_m,
         "lod" + std::to_string(level) + " has no smaller geometric error than a finer level");
@@ -162,41 +166,14 @@ void VerifyLevels(const LevelContext& context, const fs::path& directory, const 
     if (claimed.glb_bytes == 0) continue;
     VerifyLevelEdges(level_context, directory, claimed, *stored,
                      {here, horizon.found, horizon.threads}, claims);
+    contents[level] = std::move(stored->contents);
   }
   const bool all_written = std::none_of(report.levels.begin(), report.levels.end(), WasNotWritten);
   if (horizon.published && all_written) {
     claims.Add(kept.Are(*horizon.published),
                "horizon.geojson: level_kept is the coarsest level that still has the edge");
   }
-}
-
-bool IsFrame(const std::array<double, 16>& claimed, const TerrainInput& input) {
-  const std::array<double, 16> transform = input.georeference().frame().EnuToEcef();
-  double off = 0;
-  for (std::size_t i = 0; i < 16; ++i) off = std::max(off, std::abs(claimed[i] - transform[i]));
-  // Far above what writing a double rounds, far below any rounding of vertices.
-  return off < 1e-6;
-}
-
-void VerifyTileset(const TerrainInput& input, const fs::path& directory, const Report& report,
-                   Claims& claims) {
-  Result<std::string> text = ReadFile(directory / "tileset.json");
-  if (!text) {
-    claims.Add(false, "tileset.json: " + text.error().message);
-    return;
-  }
-  Result<TilesetContents> tileset = ReadTileset(*text);
-  claims.Add(tileset.has_value(), "tileset.json is a tileset with a tile for each level" +
-                                      (tileset ? "" : ": " + tileset.error().message));
-  if (!tileset) return;
-  bool same = tileset->levels.size() == report.levels.size();
-  for (std::size_t i = 0; same && i < report.levels.size(); ++i) {
-    same = tileset->levels[i].uri == "lod" + std::to_string(i) + ".glb" &&
-           tileset->levels[i].geometric_error_m == report.levels[i].geometric_error_m;
-  }
-  claims.Add(same, "tileset.json has the measured geometric errors");
-  claims.Add(IsFrame(tileset->transform, input),
-             "tileset.json places the local frame where the DEM is");
+  return contents;
 }
 
 // Checks horizon.geojson, and finds the measures of edges again where a file has some.
@@ -263,12 +240,6 @@ HorizonOptions OptionsAsClaimed(const Report& report, int threads) {
   return HorizonOptionsOf(options);
 }
 
-// True where the report says that some level has a GLB: the format was asked for.
-bool HasGlb(const std::vector<LevelReport>& levels) {
-  return std::any_of(levels.begin(), levels.end(),
-                     [](const LevelReport& level) { return level.glb_bytes > 0; });
-}
-
 }  // namespace
 
 Result<std::vector<ClaimCheck>> VerifyArtifacts(const fs::path& dem, const fs::path& directory,
@@ -291,7 +262,7 @@ Result<std::vector<ClaimCheck>> VerifyArtifacts(const fs::path& dem, const fs::p
   control.Report(Stage::kRead, 1);
   VerifyDem(report->dem, (*input)->report(), claims);
   if (report->frame) {
-    claims.Add(IsFrame(report->frame->transform, **input),
+    claims.Add(PlacesFrame(report->frame->transform, **input),
                "report.json places the local frame where the DEM is");
   }
   if (report->dem.columns != (*input)->dem().columns || report->dem.rows != (*input)->dem().rows) {
@@ -321,10 +292,9 @@ Result<std::vector<ClaimCheck>> VerifyArtifacts(const fs::path& dem, const fs::p
   MeshMeasurer measurer((*input)->terrain(), *horizon, *std::move(places));
   const LevelContext context{
       (*input)->terrain(), *horizon, (*input)->georeference(), *normals, measurer, control};
-  VerifyLevels(context, directory, *report, *horizon_claims, claims);
-  if (HasGlb(report->levels)) {
-    VerifyTileset(**input, directory, *report, claims);
-  }
+  const std::vector<std::vector<TileContentRegion>> contents =
+      VerifyLevels(context, {directory, *report}, *horizon_claims, claims);
+  VerifyTileset(**input, directory, report->levels, contents, claims);
   control.Report(Stage::kVerify, 1);
   return std::move(claims).Take();
 }

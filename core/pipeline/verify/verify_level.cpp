@@ -1,63 +1,25 @@
-// A level from its files: the Draco streams of the GLB and of the .drc, decoded, compared with one
-// another and with the GLB's own numbers; the mesh measured by the code that the build measures
-// with, and compared with the report.
+// A level from its files: the Draco streams of its GLBs (verify_glbs) and of the .drc, decoded and
+// compared with one another; the mesh measured by the code that the build measures with, and
+// compared with the report.
 #include "core/pipeline/verify/verify_level.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <string>
 #include <tuple>
 #include <utility>
 
 #include "core/geo/ellipsoid_normal.h"
-#include "core/io/file.h"
-#include "core/io/glb.h"
 #include "core/pipeline/mesh_orientation.h"
-#include "core/pipeline/skirt.h"
+#include "core/pipeline/verify/stored_mesh.h"
+#include "core/pipeline/verify/verify_glbs.h"
 #include "core/terrain/border.h"
 
 namespace farhorizon {
 
 namespace {
-
-std::optional<std::vector<std::uint8_t>> Load(const std::filesystem::path& path, Claims& claims) {
-  Result<std::string> text = ReadFile(path);
-  if (!text) {
-    claims.Add(false, path.filename().string() + ": " + text.error().message);
-    return std::nullopt;
-  }
-  return std::vector<std::uint8_t>(text->begin(), text->end());
-}
-
-// A vertex that is not near any post of the DEM stands for none.
-constexpr std::uint32_t kNoPost = std::numeric_limits<std::uint32_t>::max();
-
-// Names the vertices of a mesh whose stream has no posts: each stands for the nearest one.
-Status NamePosts(const LevelContext& context, LocalMesh& mesh) {
-  const Dem& dem = context.terrain.dem();
-  Result<std::vector<GridPoint>> points = context.georeference.ToGrid(mesh.positions);
-  if (!points) return std::move(points.error());
-  mesh.posts.clear();
-  for (const GridPoint& p : *points) {
-    const double column = std::nearbyint(p.column);
-    const double row = std::nearbyint(p.row);
-    const bool inside = column >= 0 && column < dem.columns && row >= 0 && row < dem.rows;
-    mesh.posts.push_back(inside ? static_cast<std::uint32_t>(row * dem.columns + column) : kNoPost);
-  }
-  return Ok{};
-}
-
-std::optional<DecodedMesh> Decode(const std::string& name, const std::vector<std::uint8_t>& bytes,
-                                  Claims& claims) {
-  Result<DecodedMesh> decoded = DecodeDraco(bytes);
-  claims.Add(decoded.has_value(),
-             name + " decodes as Draco" + (decoded ? "" : ": " + decoded.error().message));
-  if (!decoded) return std::nullopt;
-  return *std::move(decoded);
-}
 
 // Triangles by post, each from its least one on, and the places of all posts: what two streams of
 // one mesh share, whatever their order.
@@ -85,87 +47,6 @@ MeshContents ContentsOf(const LocalMesh& mesh) {
   return contents;
 }
 
-void VerifyAccessors(const std::string& name, const GlbPrimitive& glb, const DecodedMesh& decoded,
-                     Claims& claims) {
-  const LocalMesh& mesh = decoded.mesh;
-  claims.Same(name + " POSITION count", glb.vertex_count,
-              static_cast<std::int64_t>(mesh.positions.size()));
-  claims.Same(name + " NORMAL count", glb.normal_count,
-              static_cast<std::int64_t>(mesh.normals.size()));
-  claims.Same(name + " indices count", glb.index_count,
-              static_cast<std::int64_t>(3 * mesh.triangles.size()));
-  const LatticeBox box = LatticeBoxOf(mesh.positions, decoded.lattice);
-  claims.Add(glb.min == box.least && glb.max == box.greatest,
-             name + " POSITION min and max are those of the decoded mesh");
-}
-
-void VerifyMatrix(const std::string& name, const GlbContents& glb, const DecodedMesh& decoded,
-                  Claims& claims) {
-  claims.Add(glb.matrix == GltfMatrix(decoded.lattice),
-             name + " has the lattice of its Draco stream in the node's matrix");
-}
-
-// Triangles by the places of their corners, each from its least one on, rising.
-using Corner = std::array<double, 3>;
-std::vector<std::array<Corner, 3>> CornersOf(const LocalMesh& mesh) {
-  std::vector<std::array<Corner, 3>> result;
-  result.reserve(mesh.triangles.size());
-  for (const auto& t : mesh.triangles) {
-    std::array<Corner, 3>& corners = result.emplace_back();
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Enu& p = mesh.positions[t[k]];
-      corners[k] = {p.east, p.north, p.up};
-    }
-    std::ranges::rotate(corners, std::ranges::min_element(corners));
-  }
-  std::ranges::sort(result);
-  return result;
-}
-
-// For each place its normal, rising.
-std::vector<std::pair<Corner, UnitNormal>> NormalsByPlace(const LocalMesh& mesh) {
-  std::vector<std::pair<Corner, UnitNormal>> result;
-  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-    const Enu& p = mesh.positions[i];
-    result.push_back({{p.east, p.north, p.up}, mesh.normals[i]});
-  }
-  std::ranges::sort(result);
-  const auto repeated = std::ranges::unique(result);
-  result.erase(repeated.begin(), repeated.end());
-  return result;
-}
-
-// A level's surface, as decoded, with posts.
-struct LevelSurface {
-  const LevelContext& context;
-  const std::string& name;
-  const LevelReport& claimed;
-  const DecodedMesh& decoded;
-};
-
-// The skirt is the one that hangs from the surface's rim as deep as claimed: its tops are the rim's
-// vertices bit for bit, and it is lit as they are.
-void VerifySkirt(const LevelSurface& surface, const GlbContents& glb, Claims& claims) {
-  const LevelReport& claimed = surface.claimed;
-  const std::string name = surface.name + " skirt";
-  claims.Add(glb.skirt.has_value() == (claimed.skirt_m > 0),
-             name + " is there where the report has one");
-  if (!glb.skirt || !(claimed.skirt_m > 0)) return;
-  const std::optional<DecodedMesh> skirt = Decode(name, glb.skirt->draco, claims);
-  if (!skirt) return;
-  VerifyAccessors(name, *glb.skirt, *skirt, claims);
-  claims.Add(skirt->lattice.origin == surface.decoded.lattice.origin &&
-                 skirt->lattice.step_m == surface.decoded.lattice.step_m,
-             name + " has the surface's lattice");
-  claims.Same(name + " triangles", claimed.skirt_triangles,
-              static_cast<std::int64_t>(skirt->mesh.triangles.size()));
-  const LocalMesh due = SkirtOf(surface.decoded.mesh, surface.context.georeference.frame(),
-                                surface.decoded.lattice, claimed.skirt_m);
-  claims.Add(CornersOf(due) == CornersOf(skirt->mesh),
-             name + " hangs from every edge of the rim, bit for bit, as deep as claimed");
-  claims.Add(NormalsByPlace(due) == NormalsByPlace(skirt->mesh), name + " is lit as the rim is");
-}
-
 // Every decoded normal is the mean of the DEM's, as nearly as Draco's bits tell.
 void VerifyNormals(const LevelContext& context, const LevelReport& claimed, const LocalMesh& mesh,
                    Claims& claims) {
@@ -190,36 +71,13 @@ void VerifyNormals(const LevelContext& context, const LevelReport& claimed, cons
   claims.Same(name + " normals a degree or more off the DEM's", std::int64_t{0}, turned);
 }
 
-// The mesh of the GLB, with posts.
-std::optional<StoredLevel> LoadGlb(const LevelContext& context,
-                                   const std::filesystem::path& directory,
-                                   const LevelReport& claimed, Claims& claims) {
-  const std::string name = "lod" + std::to_string(claimed.level) + ".glb";
-  const auto bytes = Load(directory / name, claims);
-  if (!bytes) return std::nullopt;
-  claims.Same(name + " bytes", claimed.glb_bytes, static_cast<std::int64_t>(bytes->size()));
-  Result<GlbContents> glb = ReadGlb(*bytes);
-  claims.Add(glb.has_value(), name + " is a binary glTF with a Draco mesh" +
-                                  (glb ? "" : ": " + glb.error().message));
-  if (!glb) return std::nullopt;
-  std::optional<DecodedMesh> decoded = Decode(name, glb->surface.draco, claims);
-  if (!decoded) return std::nullopt;
-  VerifyAccessors(name, glb->surface, *decoded, claims);
-  VerifyMatrix(name, *glb, *decoded, claims);
-  Status named = NamePosts(context, decoded->mesh);
-  if (!named) claims.Add(false, name + ": " + named.error().message);
-  if (!named) return std::nullopt;
-  VerifySkirt({context, name, claimed, *decoded}, *glb, claims);
-  return StoredLevel{*std::move(decoded), {}, std::move(glb->edges)};
-}
-
 std::optional<DecodedMesh> LoadDrc(const std::filesystem::path& directory,
                                    const LevelReport& claimed, Claims& claims) {
   const std::string name = "lod" + std::to_string(claimed.level) + ".drc";
-  const auto bytes = Load(directory / name, claims);
+  const auto bytes = LoadBytes(directory / name, claims);
   if (!bytes) return std::nullopt;
   claims.Same(name + " bytes", claimed.drc_bytes, static_cast<std::int64_t>(bytes->size()));
-  std::optional<DecodedMesh> decoded = Decode(name, *bytes, claims);
+  std::optional<DecodedMesh> decoded = DecodeStored(name, *bytes, claims);
   if (!decoded) return std::nullopt;
   const bool posts = !decoded->mesh.posts.empty();
   claims.Add(posts, name + " has its vertices' posts");
@@ -232,13 +90,13 @@ std::optional<StoredLevel> LoadMesh(const LevelContext& context,
                                     const LevelReport& claimed, Claims& claims) {
   std::optional<StoredLevel> glb;
   std::optional<DecodedMesh> drc;
-  if (claimed.glb_bytes > 0) glb = LoadGlb(context, directory, claimed, claims);
+  if (claimed.glb_bytes > 0) glb = LoadGlbs(context, directory, claimed, claims);
   if (claimed.drc_bytes > 0) drc = LoadDrc(directory, claimed, claims);
   if (glb && drc) {
     claims.Add(ContentsOf(glb->decoded.mesh) == ContentsOf(drc->mesh),
                "lod" + std::to_string(claimed.level) + ".glb and .drc hold the same mesh");
   }
-  if (!glb && drc) glb = StoredLevel{*std::move(drc), {}, {}};
+  if (!glb && drc) glb = StoredLevel{*std::move(drc), {}, {}, {}};
   return glb;
 }
 

@@ -9,15 +9,18 @@
 #include "core/io/horizon_features.h"
 #include "core/measure/mesh_error.h"
 #include "core/pipeline/level_artifact.h"
+#include "core/pipeline/level_tree.h"
 #include "core/pipeline/verify/claims.h"
 
 namespace farhorizon {
 
-/// A level as its files have it. inlined: the edges in its GLB; empty where it has none.
+/// A level as its files have it. inlined: the edges in its GLBs; empty where they have none.
+/// contents: the GLBs and what they cover.
 struct StoredLevel {
   DecodedMesh decoded;
   PlacedMesh placed;
   EdgeVisibility inlined;
+  std::vector<TileContentRegion> contents;
 };
 
 /// What is known of the edges of a level without its files: the horizon edges that it keeps, by

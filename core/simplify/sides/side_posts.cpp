@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/simplify/sides/ranking.h"
+#include "core/terrain/part_grid.h"
 
 namespace farhorizon {
 
@@ -18,15 +19,14 @@ void SidePosts::FindRuns(VertexId first, std::int32_t step, std::int32_t count) 
   std::int32_t begin = 0;
   for (std::int32_t i = 0; i <= count; ++i) {
     if (i < count && terrain_->dem().HasData(first + i * step)) continue;
-    if (i > begin) AddRun(first + begin * step, step, i - begin);
+    if (i > begin) AddRun({first + begin * step, step, begin, count, {}, {}}, i - begin);
     begin = i + 1;
   }
 }
 
-void SidePosts::AddRun(VertexId first, std::int32_t step, std::int32_t count) {
-  Run run{first, step, {}, {}};
+void SidePosts::AddRun(Run run, std::int32_t count) {
   for (std::int32_t i = 0; i < count; ++i) {
-    run.m.push_back(terrain_->dem().HeightM(first + i * step));
+    run.m.push_back(terrain_->dem().HeightM(run.first + i * run.step));
   }
   run.leave = RankRun(run.m);
   runs_.push_back(std::move(run));
@@ -39,9 +39,13 @@ double SidePosts::ShareOf(double triangles) {
 }
 
 std::vector<std::size_t> SidePosts::Staying(const Run& run, double share) const {
+  const int depth = SidePartDepth(run.side, share);
   std::vector<std::size_t> staying;
   for (std::size_t i = 0; i < run.leave.size(); ++i) {
-    if (run.leave[i] > 1 - share) staying.push_back(i);
+    const std::int64_t on_side = run.offset + static_cast<std::int64_t>(i);
+    if (run.leave[i] > 1 - share || PartGrid::IsCutAt(on_side, run.side, depth)) {
+      staying.push_back(i);
+    }
   }
   return staying;
 }

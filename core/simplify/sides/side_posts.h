@@ -12,7 +12,8 @@ namespace farhorizon {
 /// share.
 ///
 /// A side is taken piece by piece: a run of posts with data from one gap, or corner, to the next.
-/// The ends of runs always stay, at their own heights.
+/// The ends of runs always stay, at their own heights. Posts at which a level may be cut into parts
+/// stay, too (SidePartDepth).
 class SidePosts {
  public:
   /// Requires: `terrain` outlives it. Cost: O(m^2) for a side of m posts at worst, O(m log m) on
@@ -35,11 +36,13 @@ class SidePosts {
   struct Run {
     VertexId first = 0;
     std::int32_t step = 1;      // from a post to the next
+    std::int32_t offset = 0;    // of its first post, from the side's
+    std::int32_t side = 0;      // posts of the whole side
     std::vector<double> m;      // heights, metres
     std::vector<double> leave;  // for each post the share of the run that has gone when it goes
   };
   void FindRuns(VertexId first, std::int32_t step, std::int32_t count);
-  void AddRun(VertexId first, std::int32_t step, std::int32_t count);
+  void AddRun(Run run, std::int32_t count);
   [[nodiscard]] std::vector<std::size_t> Staying(const Run& run, double share) const;
 
   const Terrain* terrain_;

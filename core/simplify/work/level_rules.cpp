@@ -103,18 +103,18 @@ bool LevelRules::IsOccluded(const Place& p, const Place& q) const {
 }
 
 bool LevelRules::Allows(const Place& p, const Place& q) const {
-  if (Has(p, q, 1)) return false;
+  if (IsBarred(p, q)) return false;
   return !exact_ || trusts_ || IsOccluded(p, q);
 }
 
 bool LevelRules::AllowsChord(const Ring& ring, const Place& centre, std::int32_t i,
                              std::int32_t j) const {
-  if (Has(ring.at(i), ring.at(j), 1)) return false;
+  if (IsBarred(ring.at(i), ring.at(j))) return false;
   return !exact_ || trusts_ || RunsBelow(ring, centre, i, j) || IsOccluded(ring.at(i), ring.at(j));
 }
 
 bool LevelRules::AllowsMove(const Place& from, const Place& to, const Place& other) const {
-  if (Has(to, other, 1)) return false;
+  if (IsBarred(to, other)) return false;
   const bool lowered = from.x == to.x && from.y == to.y && to.plan <= from.plan;
   return !exact_ || lowered || guard_.IsSurelyOccluded(LoweredEdge(to, other));
 }

@@ -6,6 +6,7 @@
 #include "core/horizon/guard/skyline_guard.h"
 #include "core/horizon/horizon.h"
 #include "core/simplify/mesh/half_edge_mesh.h"
+#include "core/terrain/part_grid.h"
 
 namespace farhorizon {
 
@@ -13,7 +14,8 @@ namespace farhorizon {
 ///
 /// At an exact level: the ends of horizon edges stay at their posts and heights, horizon edges are
 /// not flipped, no new edge rises above the DEM's skyline. At every level: a horizon edge that the
-/// finer level does not have does not come back.
+/// finer level does not have does not come back; no edge crosses a line along which the level is to
+/// be cut into parts. None does at first, so such a line is covered by edges all along.
 class LevelRules {
  public:
   /// Requires: all outlive it.
@@ -25,6 +27,10 @@ class LevelRules {
   void Trust(bool trust) { trusts_ = trust; }
   /// mesh: the finer level, whose horizon edges may stay.
   void BeginSoft(const HalfEdgeMesh& mesh);
+
+  /// Where no new edge may cross from now on. Requires: no edge crosses a line.
+  void Cut(const PartGrid& parts) { parts_ = parts; }
+  [[nodiscard]] const PartGrid& parts() const { return parts_; }
 
   /// Whether the level is an exact one, but for the rises that it was allowed.
   [[nodiscard]] bool exact() const { return exact_; }
@@ -64,6 +70,9 @@ class LevelRules {
   [[nodiscard]] Segment LoweredEdge(const Place& p, const Place& q) const {
     return Lowered({Scaled(p), Scaled(q)}, rise_steps_);
   }
+  [[nodiscard]] bool IsBarred(const Place& p, const Place& q) const {
+    return parts_.IsCrossedBy(p.x, p.y, q.x, q.y) || Has(p, q, 1);
+  }
   [[nodiscard]] bool IsOccluded(const Place& p, const Place& q) const;
   [[nodiscard]] bool RunsBelow(const Ring& ring, const Place& centre, std::int32_t i,
                                std::int32_t j) const;
@@ -74,6 +83,7 @@ class LevelRules {
   const Ground* ground_;
   const Horizon* horizon_;
   SkylineGuard guard_;
+  PartGrid parts_;
   bool exact_ = false;
   bool trusts_ = false;
   std::int32_t rise_steps_ = 0;

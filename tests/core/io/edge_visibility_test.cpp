@@ -87,5 +87,56 @@ TEST(FlagEdges, NormalsComeInTheOrderOfTheFlagsAndPointOutOfTheGround) {
   }
 }
 
+// A strip of 2 n triangles, all of whose edges are flagged.
+EdgeVisibility AllOfAStrip(std::uint32_t n, LocalMesh& mesh) {
+  mesh = {};
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> all;
+  for (std::uint32_t i = 0; i < 2 * n + 2; ++i) {
+    mesh.positions.push_back({static_cast<double>(i / 2), static_cast<double>(i % 2), i * i * 0.1});
+    mesh.posts.push_back(i);
+    for (std::uint32_t j = i + 1; j <= i + 3; ++j) {
+      if (j < 2 * n + 2) all.emplace_back(i, j);
+    }
+  }
+  for (std::uint32_t i = 0; i < 2 * n; i += 2) {
+    mesh.triangles.push_back({i, i + 2, i + 3});
+    mesh.triangles.push_back({i, i + 3, i + 1});
+  }
+  return FlagEdges(mesh, all);
+}
+
+TEST(SplitEdges, PartsSayWhatTheWholeSaysAndJoinToIt) {
+  LocalMesh mesh;
+  const EdgeVisibility whole = AllOfAStrip(9, mesh);
+  const std::vector<std::size_t> counts = {1, 0, 4, 5, 2, 6};
+  const std::vector<EdgeVisibility> parts = SplitEdges(whole, counts);
+  ASSERT_EQ(parts.size(), counts.size());
+  std::vector<int> values;
+  std::vector<std::int8_t> normals;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    for (const int value : Values(parts[i], counts[i])) values.push_back(value);
+    normals.insert(normals.end(), parts[i].normals.begin(), parts[i].normals.end());
+  }
+  EXPECT_EQ(values, Values(whole, 18));
+  EXPECT_EQ(normals, whole.normals);
+  EXPECT_EQ(JoinEdges(parts, counts), whole);
+}
+
+TEST(JoinEdges, PartsWithBitsOrNormalsForOtherTrianglesAreRefused) {
+  LocalMesh mesh;
+  const EdgeVisibility whole = AllOfAStrip(3, mesh);
+  EXPECT_EQ(JoinEdges({whole}, {6}), whole);
+  EXPECT_FALSE(JoinEdges({whole}, {7}));
+  EdgeVisibility odd = whole;
+  odd.normals.push_back(0);
+  EXPECT_FALSE(JoinEdges({odd}, {6}));
+  odd.normals.resize(6);
+  EXPECT_FALSE(JoinEdges({odd}, {6}));
+  odd = whole;
+  odd.bits.back() = static_cast<std::uint8_t>(odd.bits.back() | 0x80U);  // of no side
+  EXPECT_FALSE(JoinEdges({odd}, {6}));
+  EXPECT_EQ(JoinEdges({{}, {}}, {3, 3})->edge_count, 0);
+}
+
 }  // namespace
 }  // namespace farhorizon

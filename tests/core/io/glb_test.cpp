@@ -46,7 +46,8 @@ VertexPairs SomeEdges(const LocalMesh& mesh) {
 
 TEST(Glb, ChunksAreAlignedAndTheHeaderTellsTheLength) {
   const Encoded e = Encode(9, 8);
-  const std::vector<std::uint8_t> glb = WriteGlb(e.draco, e.decoded, SomeEdges(e.decoded.mesh));
+  const std::vector<std::uint8_t> glb =
+      WriteGlb(e.draco, e.decoded, FlagEdges(e.decoded.mesh, SomeEdges(e.decoded.mesh)));
   EXPECT_EQ(Number(glb, 0), 0x46546C67U);
   EXPECT_EQ(Number(glb, 4), 2U);
   EXPECT_EQ(Number(glb, 8), glb.size());
@@ -120,7 +121,8 @@ TEST(Glb, HorizonEdgesAreInTheExtensionAndOnlyThen) {
   const Encoded e = Encode(9, 8);
   Json gltf = JsonOf(WriteGlb(e.draco, e.decoded, {}));
   EXPECT_EQ(gltf["extensionsUsed"], Json::array({"KHR_draco_mesh_compression"}));
-  const std::vector<std::uint8_t> glb = WriteGlb(e.draco, e.decoded, SomeEdges(e.decoded.mesh));
+  const std::vector<std::uint8_t> glb =
+      WriteGlb(e.draco, e.decoded, FlagEdges(e.decoded.mesh, SomeEdges(e.decoded.mesh)));
   gltf = JsonOf(glb);
   EXPECT_EQ(gltf["extensionsUsed"][1], "EXT_mesh_primitive_edge_visibility");
   const Json& edges =
@@ -140,7 +142,8 @@ TEST(Glb, HorizonEdgesAreInTheExtensionAndOnlyThen) {
 TEST(Glb, ReadsBackTheEdgesThatItFlagged) {
   const Encoded e = Encode(9, 8);
   const VertexPairs edges = SomeEdges(e.decoded.mesh);
-  Result<GlbContents> contents = ReadGlb(WriteGlb(e.draco, e.decoded, edges));
+  Result<GlbContents> contents =
+      ReadGlb(WriteGlb(e.draco, e.decoded, FlagEdges(e.decoded.mesh, edges)));
   ASSERT_TRUE(contents);
   EdgeVisibility flagged = FlagEdges(e.decoded.mesh, edges);
   EXPECT_GT(flagged.edge_count, 0);
@@ -151,7 +154,8 @@ TEST(Glb, ReadsBackTheEdgesThatItFlagged) {
 
 TEST(Glb, ReadsBackWhatItWrote) {
   const Encoded e = Encode(9, 8);
-  Result<GlbContents> contents = ReadGlb(WriteGlb(e.draco, e.decoded, SomeEdges(e.decoded.mesh)));
+  Result<GlbContents> contents =
+      ReadGlb(WriteGlb(e.draco, e.decoded, FlagEdges(e.decoded.mesh, SomeEdges(e.decoded.mesh))));
   ASSERT_TRUE(contents) << contents.error().message;
   EXPECT_EQ(contents->surface.draco, e.draco);
   EXPECT_EQ(contents->surface.vertex_count, 72);
@@ -166,7 +170,7 @@ TEST(Glb, TheSkirtIsASecondPrimitiveOfTheSameMeshAndMaterial) {
   const Encoded small = Encode(4, 3);
   const EncodedMesh skirt = {small.draco, small.decoded};
   const std::vector<std::uint8_t> glb =
-      WriteGlb(e.draco, e.decoded, SomeEdges(e.decoded.mesh), &skirt);
+      WriteGlb(e.draco, e.decoded, FlagEdges(e.decoded.mesh, SomeEdges(e.decoded.mesh)), &skirt);
   const Json primitives = JsonOf(glb)["meshes"][0]["primitives"];
   ASSERT_EQ(primitives.size(), 2U);
   EXPECT_FALSE(primitives[0].contains("extras"));
@@ -184,7 +188,8 @@ TEST(Glb, TheSkirtIsASecondPrimitiveOfTheSameMeshAndMaterial) {
 
 TEST(Glb, ReadingACutOrDamagedFileFailsWithAReason) {
   const Encoded e = Encode(9, 8);
-  const std::vector<std::uint8_t> glb = WriteGlb(e.draco, e.decoded, SomeEdges(e.decoded.mesh));
+  const std::vector<std::uint8_t> glb =
+      WriteGlb(e.draco, e.decoded, FlagEdges(e.decoded.mesh, SomeEdges(e.decoded.mesh)));
   for (std::size_t size = 0; size < glb.size(); size += 13) {
     Result<GlbContents> cut =
         ReadGlb({glb.begin(), glb.begin() + static_cast<std::ptrdiff_t>(size)});

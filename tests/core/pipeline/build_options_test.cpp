@@ -22,6 +22,7 @@ TEST(ParseOptions, ReadsTheParametersOfAJob) {
                                                {"workBudget", "5000000000"},
                                                {"approximate", "true"},
                                                {"skirt", "12.5"},
+                                               {"tileTriangles", "5e4"},
                                                {"frame", "7.5,-46"},
                                                {"apron", "8"}});
   ASSERT_TRUE(options);
@@ -37,6 +38,7 @@ TEST(ParseOptions, ReadsTheParametersOfAJob) {
   EXPECT_EQ(options->work_budget, 5'000'000'000);
   EXPECT_TRUE(options->approximate);
   EXPECT_EQ(options->skirt_m, 12.5);
+  EXPECT_EQ(options->tile_triangles, 50'000);
   EXPECT_EQ(options->apron, 8);
   EXPECT_EQ(options->frame, (FrameChoice{FrameAxes::kPlace, 7.5, -46}));
 }
@@ -136,12 +138,13 @@ INSTANTIATE_TEST_SUITE_P(
         BadParameter{"maxError", "0"}, BadParameter{"maxError", "-1"},
         BadParameter{"maxError", "nan"}, BadParameter{"maxError", "inf"},
         BadParameter{"maxError", "3m"}, BadParameter{"skirt", "-1"}, BadParameter{"skirt", "deep"},
-        BadParameter{"apron", "-1"}, BadParameter{"apron", "1001"}, BadParameter{"frame", ""},
-        BadParameter{"frame", "7"}, BadParameter{"frame", "7,91"},
-        BadParameter{"frame", "7,46,500"}, BadParameter{"frame", "nan,46"},
-        BadParameter{"silhouetteError", "-0.5"}, BadParameter{"formats", ""},
-        BadParameter{"formats", "stl"}, BadParameter{"nodata", ""}, BadParameter{"nodata", "1,"},
-        BadParameter{"nodata", "none"},
+        BadParameter{"tileTriangles", "999"}, BadParameter{"tileTriangles", "-1"},
+        BadParameter{"tileTriangles", "all"}, BadParameter{"apron", "-1"},
+        BadParameter{"apron", "1001"}, BadParameter{"frame", ""}, BadParameter{"frame", "7"},
+        BadParameter{"frame", "7,91"}, BadParameter{"frame", "7,46,500"},
+        BadParameter{"frame", "nan,46"}, BadParameter{"silhouetteError", "-0.5"},
+        BadParameter{"formats", ""}, BadParameter{"formats", "stl"}, BadParameter{"nodata", ""},
+        BadParameter{"nodata", "1,"}, BadParameter{"nodata", "none"},
         BadParameter{"nodata", "1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16,17"},
         BadParameter{"workBudget", "0"}, BadParameter{"workBudget", "1.5e0"},
         BadParameter{"workBudget", "1e19"}, BadParameter{"workBudget", "inf"},

@@ -250,5 +250,20 @@ TEST(LodChainSides, NoPostOfASideIsStuck) {
   EXPECT_EQ(levels, Rounds(1000) * 7);
 }
 
+// One tile is cut, the other, of less ground, is not.
+TEST(LodChainSides, TwoNeighboursAgreeHoweverDeepEitherIsCut) {
+  const Dem whole = FractalDem(193, 2000, 100, 3);
+  LodPlan plan;
+  plan.part_triangles = 1000;
+  const Tile west(Crop(whole, 0, 160, false), plan);
+  plan.part_triangles = 0;
+  const Tile east(Crop(whole, 159, 34, false), plan);
+  EXPECT_GT(west.levels[0].parts.rows, 0);
+  EXPECT_GT(west.levels[1].parts.rows, 0);
+  for (std::size_t i = 0; i < std::min(west.levels.size(), east.levels.size()); ++i) {
+    EXPECT_EQ(west.On(i, 159, false), east.On(i, 0, false)) << "level " << i;
+  }
+}
+
 }  // namespace
 }  // namespace farhorizon

@@ -25,7 +25,7 @@ TEST(BuildFlags, AreTheParametersOfAJob) {
       "a.tif --levels 3 --max-error 2.5 --silhouette-error 1 --formats drc,geojson "
       "--crs EPSG:32611 --vertical-datum EPSG:5703 --height-unit ft --datum-operation EPSG:1693 "
       "--nodata -9999 --work-budget 1000 --approximate --skirt 20 "
-      "--frame -122.5,37.75 --apron 8");
+      "--tile-triangles 50000 --frame -122.5,37.75 --apron 8");
   EXPECT_EQ(arguments.path, "a.tif");
   EXPECT_EQ(arguments.flags.parameters, (Parameters{{"levels", "3"},
                                                     {"maxError", "2.5"},
@@ -39,6 +39,7 @@ TEST(BuildFlags, AreTheParametersOfAJob) {
                                                     {"workBudget", "1000"},
                                                     {"approximate", "true"},
                                                     {"skirt", "20"},
+                                                    {"tileTriangles", "50000"},
                                                     {"frame", "-122.5,37.75"},
                                                     {"apron", "8"}}));
 }
