@@ -1,5 +1,3 @@
-// Edges are joined at their ends first; then each chain is walked from an end that is joined to
-// none, and what is left over is closed.
 #include "core/io/horizon_chains.h"
 
 #include <algorithm>
@@ -13,6 +11,7 @@
 
 #include "core/io/antimeridian.h"
 #include "core/io/geojson_text.h"
+#include "core/io/join_edges.h"
 
 namespace farhorizon {
 
@@ -31,92 +30,18 @@ constexpr int kWeightDigits = 4;
 constexpr double kPartOfCell = 64;
 constexpr double kMetresADegree = 111320;
 
-// An end of an edge, 0 at a and 1 at b.
-struct EdgeEnd {
-  Post post;
-  std::size_t edge;
-  std::size_t end;
-};
-
-Post PostOf(const HorizonFeature& f, std::size_t end) { return end == 0 ? f.a : f.b; }
-
-// Joins the ends of edges at posts by twos.
-class Joints {
- public:
-  explicit Joints(const std::vector<HorizonFeature>& features)
-      : features_(features), joined_(2 * features.size(), kNone) {
-    std::vector<EdgeEnd> ends;
-    ends.reserve(2 * features.size());
-    for (std::size_t i = 0; i < features.size(); ++i) {
-      for (std::size_t end = 0; end < 2; ++end) ends.push_back({PostOf(features[i], end), i, end});
-    }
-    std::ranges::stable_sort(ends, {}, &EdgeEnd::post);
-    for (std::size_t begin = 0; begin < ends.size();) {
-      std::size_t end = begin;
-      while (end < ends.size() && ends[end].post == ends[begin].post) ++end;
-      JoinAt({ends.begin() + static_cast<std::ptrdiff_t>(begin),
-              ends.begin() + static_cast<std::ptrdiff_t>(end)});
-      begin = end;
-    }
-  }
-
-  // The end that is joined to that of `edge`: 2 * edge + end; kNone: none.
-  [[nodiscard]] std::size_t At(std::size_t edge, std::size_t end) const {
-    return joined_[2 * edge + end];
-  }
-
-  static constexpr std::size_t kNone = SIZE_MAX;
-
- private:
-  // The cosine of the angle between two edges as they leave a post.
-  [[nodiscard]] double Cosine(const EdgeEnd& p, const EdgeEnd& q) const {
-    const auto leave = [this](const EdgeEnd& e) -> std::array<double, 2> {
-      const Post far = PostOf(features_[e.edge], 1 - e.end);
-      const double dc = far[0] - e.post[0];
-      const double dr = far[1] - e.post[1];
-      const double length = std::hypot(dc, dr);
-      return {dc / length, dr / length};
-    };
-    const std::array<double, 2> a = leave(p);
-    const std::array<double, 2> b = leave(q);
-    return a[0] * b[0] + a[1] * b[1];
-  }
-
-  void JoinAt(std::vector<EdgeEnd> free) {
-    while (free.size() > 1) {
-      std::pair<std::size_t, std::size_t> best;
-      double least = 2;
-      for (std::size_t i = 0; i < free.size(); ++i) {
-        for (std::size_t j = i + 1; j < free.size(); ++j) {
-          if (features_[free[i].edge].undecided != features_[free[j].edge].undecided) continue;
-          const double cosine = Cosine(free[i], free[j]);
-          if (cosine >= least) continue;
-          least = cosine;
-          best = {i, j};
-        }
-      }
-      if (least == 2) return;
-      const EdgeEnd p = free[best.first];
-      const EdgeEnd q = free[best.second];
-      joined_[2 * p.edge + p.end] = 2 * q.edge + q.end;
-      joined_[2 * q.edge + q.end] = 2 * p.edge + p.end;
-      free.erase(free.begin() + static_cast<std::ptrdiff_t>(best.second));
-      free.erase(free.begin() + static_cast<std::ptrdiff_t>(best.first));
-    }
-  }
-
-  const std::vector<HorizonFeature>& features_;
-  std::vector<std::size_t> joined_;
-};
-
 Known Both(Known a, Known b) {
   if (a == Known::kNotAsked || b == Known::kNotAsked) return Known::kNotAsked;
   return a == Known::kYes ? b : a;
 }
 
-void Append(const HorizonFeature& edge, std::size_t from_end, HorizonChain& chain) {
-  chain.posts.push_back(PostOf(edge, 1 - from_end));
-  chain.line.push_back(from_end == 0 ? edge.to : edge.from);
+void Append(const HorizonFeature& edge, bool reversed, HorizonChain& chain) {
+  if (chain.posts.empty()) {
+    chain.posts.push_back(reversed ? edge.b : edge.a);
+    chain.line.push_back(reversed ? edge.to : edge.from);
+  }
+  chain.posts.push_back(reversed ? edge.a : edge.b);
+  chain.line.push_back(reversed ? edge.from : edge.to);
   chain.level_kept.push_back(edge.level_kept);
   chain.undecided = edge.undecided;
   const EdgeMeasures& m = edge.measures;
@@ -273,29 +198,16 @@ Error BadGeoJson(std::size_t feature, const std::string& message) {
 }  // namespace
 
 std::vector<HorizonChain> ChainsOf(const std::vector<HorizonFeature>& features) {
-  const Joints joints(features);
-  std::vector<bool> taken(features.size(), false);
-  std::vector<HorizonChain> chains;
-  const auto walk = [&](std::size_t edge, std::size_t end) {
-    HorizonChain& chain = chains.emplace_back();
-    chain.posts.push_back(PostOf(features[edge], end));
-    chain.line.push_back(end == 0 ? features[edge].from : features[edge].to);
-    for (;;) {
-      taken[edge] = true;
-      Append(features[edge], end, chain);
-      const std::size_t next = joints.At(edge, 1 - end);
-      if (next == Joints::kNone || taken[next / 2]) return;
-      edge = next / 2;
-      end = next % 2;
-    }
-  };
-  for (std::size_t i = 0; i < features.size(); ++i) {
-    for (std::size_t end = 0; end < 2; ++end) {
-      if (!taken[i] && joints.At(i, end) == Joints::kNone) walk(i, end);
-    }
+  std::vector<PlanEdge> edges;
+  edges.reserve(features.size());
+  const auto point = [](const Post& p) { return std::array<double, 2>{1.0 * p[0], 1.0 * p[1]}; };
+  for (const HorizonFeature& f : features) {
+    edges.push_back({point(f.a), point(f.b), f.undecided ? 1 : 0});
   }
-  for (std::size_t i = 0; i < features.size(); ++i) {
-    if (!taken[i]) walk(i, 0);
+  std::vector<HorizonChain> chains;
+  for (const std::vector<ChainedEdge>& links : JoinEdges(edges)) {
+    HorizonChain& chain = chains.emplace_back();
+    for (const ChainedEdge& link : links) Append(features[link.edge], link.reversed, chain);
   }
   return chains;
 }

@@ -11,7 +11,9 @@
 #include "core/horizon/find_horizon.h"
 #include "core/io/horizon_chains.h"
 #include "core/io/horizon_features.h"
+#include "core/io/horizon_glb.h"
 #include "core/io/horizon_vector.h"
+#include "core/io/line_chains.h"
 #include "core/io/tileset.h"
 #include "core/pipeline/artifact_writer.h"
 #include "core/pipeline/build_features.h"
@@ -100,7 +102,7 @@ Status WriteEdges(const std::vector<HorizonFeature>& features, WrittenLevels& le
   for (std::size_t i = 0; i < levels.edges.size(); ++i) {
     LevelEdges& edges = levels.edges[i];
     AddMeasures(features, edges);
-    const std::vector<std::uint8_t> glb = WriteHorizonGlb(edges.lines, edges.lattice);
+    const std::vector<std::uint8_t> glb = WriteHorizonGlb(LineChainsOf(edges.lines), edges.lattice);
     levels.reports[i].skyline_edges.bytes = std::ssize(glb);
     Status added = writer.Add(HorizonGlbName(static_cast<int>(i)), AsText(glb));
     if (!added) return added;

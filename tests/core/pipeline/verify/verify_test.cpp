@@ -16,6 +16,7 @@
 #include "core/io/horizon_chains.h"
 #include "core/io/horizon_features.h"
 #include "core/io/horizon_glb.h"
+#include "core/io/horizon_glb_reader.h"
 #include "core/pipeline/build.h"
 #include "core/pipeline/report.h"
 #include "tests/support/temp_dir.h"
@@ -355,26 +356,28 @@ TEST_F(Verify, EdgesAreInTheFilesThatAreAskedForAndNoOthers) {
   }
 }
 
-// Writes the lines of level 1 anew, one of them changed.
+// Writes the lines of level 1 anew, one chain of them changed.
 TEST_F(Verify, LinesThatAreNotTheLevelsAreFound) {
   const std::string name = "lod1-horizon.glb";
   const std::string bytes = SlurpFile(folder_ / "out" / name);
-  const std::vector<HorizonLine> lines = ReadHorizonGlb({bytes.begin(), bytes.end()})->lines;
+  const std::vector<LineChain> chains = ReadHorizonGlb({bytes.begin(), bytes.end()})->chains;
   const QuantizationLattice lattice = Decode("lod1.drc").lattice;
-  const auto claim = [&](const std::function<void(std::vector<HorizonLine>&)>& change) {
-    std::vector<HorizonLine> changed = lines;
+  const auto claim = [&](const std::function<void(std::vector<LineChain>&)>& change) {
+    std::vector<LineChain> changed = chains;
     change(changed);
     const std::vector<std::uint8_t> glb = WriteHorizonGlb(changed, lattice);
     SpillFile(folder_ / "out" / name, {glb.begin(), glb.end()});
-    return Names(False(), "lod1-horizon.glb lines with other ends, posts, azimuths or weights");
+    return False();
   };
-  EXPECT_FALSE(claim([](std::vector<HorizonLine>&) {}));
-  EXPECT_TRUE(claim([](std::vector<HorizonLine>& l) { l[3].ends[1][2] += 1; }));
-  EXPECT_TRUE(claim([](std::vector<HorizonLine>& l) { l[3].posts[0] -= 1; }));
-  EXPECT_TRUE(claim([](std::vector<HorizonLine>& l) { l[3].azimuths ^= 1; }));
-  EXPECT_TRUE(claim([](std::vector<HorizonLine>& l) { l[3].skyline_drop_m = 99; }));
-  EXPECT_TRUE(claim([](std::vector<HorizonLine>& l) { l[3].line_measure_m = 1e-3F; }));
-  EXPECT_TRUE(claim([](std::vector<HorizonLine>& l) { l.pop_back(); }));
+  const std::string others = "lod1-horizon.glb chains with other points, azimuths or weights";
+  using Chains = std::vector<LineChain>;
+  EXPECT_FALSE(Names(claim([](Chains&) {}), "lod1-horizon.glb"));
+  EXPECT_TRUE(Names(claim([](Chains& c) { c[3].points[1][2] += 1; }), others));
+  EXPECT_TRUE(Names(claim([](Chains& c) { std::swap(c[3], c[4]); }), others));
+  EXPECT_TRUE(Names(claim([](Chains& c) { c[3].azimuths ^= 1; }), others));
+  EXPECT_TRUE(Names(claim([](Chains& c) { c[3].skyline_drop_m = 99; }), others));
+  EXPECT_TRUE(Names(claim([](Chains& c) { c[3].line_measure_m = 1e-3F; }), others));
+  EXPECT_TRUE(Names(claim([](Chains& c) { c.pop_back(); }), "lod1-horizon.glb lines"));
   std::filesystem::remove(folder_ / "out" / name);
   EXPECT_TRUE(Names(False(), "lod1-horizon.glb is there: claimed 1, found 0"));
 }
