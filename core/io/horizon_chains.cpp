@@ -19,10 +19,6 @@ namespace {
 
 using Post = std::array<std::int32_t, 2>;
 
-// What `steps` has for each digit. The last two are the other diagonal, which a cell has where one
-// of its posts has no data.
-constexpr std::array<Post, 8> kSteps = {Post{1, 0},   Post{1, 1},  Post{0, 1},  Post{-1, 0},
-                                        Post{-1, -1}, Post{0, -1}, Post{1, -1}, Post{-1, 1}};
 constexpr char kHead[] = R"({"type":"FeatureCollection","detail":"chains",)";
 constexpr std::string_view kLevelDigits = "0123456789abcdef";
 constexpr int kWeightDigits = 4;
@@ -90,34 +86,25 @@ std::string Property(const char* name, Known known, const std::string& value) {
 }
 
 std::string FeatureText(const HorizonChain& chain, const ChainRounding& rounding) {
-  std::string steps;
-  for (std::size_t i = 0; i + 1 < chain.posts.size(); ++i) {
-    const Post step = {chain.posts[i + 1][0] - chain.posts[i][0],
-                       chain.posts[i + 1][1] - chain.posts[i][1]};
-    const auto digit = std::ranges::find(kSteps, step);
-    Check(digit != kSteps.end(), "an edge runs between neighbours");
-    steps += static_cast<char>('0' + (digit - kSteps.begin()));
-  }
-  std::string text = R"({"type":"Feature","geometry":)" + Geometry(chain.line, rounding) +
-                     R"(,"properties":{"start":)" +
-                     Pair(chain.posts.front()[0], chain.posts.front()[1]) + R"(,"steps":")" +
-                     steps + '"';
+  std::string properties;
   if (chain.undecided) {
-    text += R"(,"undecided":true)";
+    properties += R"(,"undecided":true)";
   } else {
-    text += Property("azimuths", chain.sights, '"' + MaskText(chain.azimuths) + '"') +
-            Property("line_measure_m", chain.sights, Weight(chain.line_measure_m)) +
-            Property("skyline_drop_m", chain.drop, Weight(chain.skyline_drop_m));
+    properties += Property("azimuths", chain.sights, '"' + MaskText(chain.azimuths) + '"') +
+                  Property("line_measure_m", chain.sights, Weight(chain.line_measure_m)) +
+                  Property("skyline_drop_m", chain.drop, Weight(chain.skyline_drop_m));
   }
   const bool levels = std::ranges::any_of(chain.level_kept, [](const auto& l) { return !!l; });
   if (levels) {
-    text += R"(,"levels_kept":")";
+    properties += R"(,"levels_kept":")";
     for (const std::optional<int>& level : chain.level_kept) {
-      text += level ? kLevelDigits[static_cast<std::size_t>(*level)] : '-';
+      properties += level ? kLevelDigits[static_cast<std::size_t>(*level)] : '-';
     }
-    text += '"';
+    properties += '"';
   }
-  return text + "}}";
+  if (!properties.empty()) properties.front() = '{';
+  return R"({"type":"Feature","geometry":)" + Geometry(chain.line, rounding) +
+         R"(,"properties":)" + (properties.empty() ? "{" : properties) + "}}";
 }
 
 using Json = nlohmann::json;
@@ -154,21 +141,18 @@ AzimuthMask ReadMask(const std::string& text) {
   return mask;
 }
 
-// Throws what `at` throws where a digit is none.
+// Throws std::out_of_range where its levels are not those of so many edges.
 HorizonChain ReadChain(const Json& feature) {
   const Json& properties = feature.at("properties");
   HorizonChain chain;
   chain.line = ReadLine(feature.at("geometry"));
-  chain.posts.push_back(properties.at("start").get<Post>());
-  for (const char c : properties.at("steps").get<std::string>()) {
-    const Post& step = kSteps.at(static_cast<std::size_t>(c - '0'));
-    chain.posts.push_back({chain.posts.back()[0] + step[0], chain.posts.back()[1] + step[1]});
-  }
-  chain.level_kept.resize(chain.posts.size() - 1);
+  if (chain.line.size() < 2) throw std::out_of_range("a line has two points");
+  chain.level_kept.resize(chain.line.size() - 1);
   if (properties.contains("levels_kept")) {
     const auto levels = properties.at("levels_kept").get<std::string>();
+    if (levels.size() != chain.level_kept.size()) throw std::out_of_range("a level an edge");
     for (std::size_t i = 0; i < chain.level_kept.size(); ++i) {
-      const std::size_t digit = kLevelDigits.find(levels.at(i));
+      const std::size_t digit = kLevelDigits.find(levels[i]);
       if (digit != std::string_view::npos) chain.level_kept[i] = static_cast<int>(digit);
     }
   }
@@ -253,7 +237,7 @@ Result<std::vector<HorizonChain>> ReadHorizonChains(const std::string& text) {
   } catch (const Json::exception& failure) {
     return BadGeoJson(chains.size(), failure.what());
   } catch (const std::out_of_range&) {
-    return BadGeoJson(chains.size(), "its steps or its levels have other digits");
+    return BadGeoJson(chains.size(), "it is no line, or has other levels than edges");
   }
 }
 

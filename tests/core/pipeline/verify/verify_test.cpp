@@ -427,12 +427,11 @@ TEST_F(VerifyChains, ChainsThatAreNotTheHorizonsAreFound) {
   EXPECT_TRUE(Finds("other azimuths or weights", [](HorizonChain& c) { c.skyline_drop_m += 1; }));
   EXPECT_TRUE(Finds("not where their posts are", [](HorizonChain& c) { c.line[0].lat_deg += 1; }));
   EXPECT_TRUE(Finds("level_kept is the coarsest", [](HorizonChain& c) { c.level_kept[0] = 7; }));
+  EXPECT_TRUE(Finds("edges that join no two posts", [](HorizonChain& c) {
+    c.line[1] = c.line[0];
+  }));
   EXPECT_TRUE(Finds("horizon edges missing from horizon.geojson", [](HorizonChain& c) {
-    c.posts.pop_back();
-    c.line.pop_back();
-    c.level_kept.pop_back();
-    if (c.posts.size() == 1) c.posts.push_back({c.posts[0][0] + 1, c.posts[0][1]});
-    if (c.level_kept.empty()) c.level_kept.emplace_back();
+    c.line.back().lon_deg += 1e-3;  // three posts further east
   }));
 }
 
