@@ -103,8 +103,8 @@ std::string FeatureText(const HorizonChain& chain, const ChainRounding& rounding
     properties += '"';
   }
   if (!properties.empty()) properties.front() = '{';
-  return R"({"type":"Feature","geometry":)" + Geometry(chain.line, rounding) +
-         R"(,"properties":)" + (properties.empty() ? "{" : properties) + "}}";
+  return R"({"type":"Feature","geometry":)" + Geometry(chain.line, rounding) + R"(,"properties":)" +
+         (properties.empty() ? "{" : properties) + "}}";
 }
 
 using Json = nlohmann::json;

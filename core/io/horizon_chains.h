@@ -57,8 +57,8 @@ ChainRounding RoundingOfChains(double cell_m);
 /// Whether `text` is of WriteHorizonChains, by its head.
 bool HasChains(const std::string& text);
 
-/// Reads back the text of WriteHorizonChains; `posts` are left empty. Errors: kUnsupportedData, kind "bad-geojson", with
-/// the feature and the cause.
+/// Reads back the text of WriteHorizonChains; `posts` are left empty. Errors: kUnsupportedData,
+/// kind "bad-geojson", with the feature and the cause.
 Result<std::vector<HorizonChain>> ReadHorizonChains(const std::string& text);
 
 }  // namespace farhorizon

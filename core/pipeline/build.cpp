@@ -120,10 +120,12 @@ Status WriteFeatures(const std::vector<HorizonFeature>& features, const Georefer
                                           : WriteHorizonChains(ChainsOf(features), cell_m));
     if (!added) return added;
   }
-  if (Asks(options, "flatgeobuf")) {
-    Status written = WriteHorizonVector(features, writer.PathOf("horizon.fgb"));
+  for (const auto& [format, name] :
+       {std::pair{"flatgeobuf", "horizon.fgb"}, {"geopackage", "horizon.gpkg"}}) {
+    if (!Asks(options, format)) continue;
+    Status written = WriteHorizonVector(features, writer.PathOf(name));
     if (!written) return written;
-    return writer.AddWritten("horizon.fgb");
+    if (Status added = writer.AddWritten(name); !added) return added;
   }
   return Ok{};
 }

@@ -92,11 +92,20 @@ TEST_F(Verify, EveryClaimOfABuildHolds) { EXPECT_TRUE(False().empty()) << False(
 
 // Levels are planned and measured whatever is written: without files, nothing of them is claimed.
 TEST_F(Verify, LevelsThatWereNotWrittenClaimNothing) {
-  for (const std::vector<std::string>& formats :
-       {std::vector<std::string>{"geojson"}, {"flatgeobuf"}, {"3dtiles"}, {"drc", "geojson"}}) {
+  for (const std::vector<std::string>& formats : {std::vector<std::string>{"geojson"},
+                                                  {"flatgeobuf"},
+                                                  {"geopackage"},
+                                                  {"3dtiles"},
+                                                  {"drc", "geojson"}}) {
     options_.formats = formats;
     std::filesystem::remove_all(folder_ / "out");
     ASSERT_TRUE(BuildArtifacts(folder_ / "hills.asc", folder_ / "out", options_, control_));
+    for (const auto& [format, name] : {std::pair{"geojson", "horizon.geojson"},
+                                       {"flatgeobuf", "horizon.fgb"},
+                                       {"geopackage", "horizon.gpkg"}}) {
+      const bool asked = std::find(formats.begin(), formats.end(), format) != formats.end();
+      EXPECT_EQ(std::filesystem::exists(folder_ / "out" / name), asked) << name;
+    }
     const std::vector<std::string> lines = False();
     EXPECT_TRUE(lines.empty()) << formats.front() << ": " << lines.front();
   }
@@ -427,9 +436,8 @@ TEST_F(VerifyChains, ChainsThatAreNotTheHorizonsAreFound) {
   EXPECT_TRUE(Finds("other azimuths or weights", [](HorizonChain& c) { c.skyline_drop_m += 1; }));
   EXPECT_TRUE(Finds("not where their posts are", [](HorizonChain& c) { c.line[0].lat_deg += 1; }));
   EXPECT_TRUE(Finds("level_kept is the coarsest", [](HorizonChain& c) { c.level_kept[0] = 7; }));
-  EXPECT_TRUE(Finds("edges that join no two posts", [](HorizonChain& c) {
-    c.line[1] = c.line[0];
-  }));
+  EXPECT_TRUE(
+      Finds("edges that join no two posts", [](HorizonChain& c) { c.line[1] = c.line[0]; }));
   EXPECT_TRUE(Finds("horizon edges missing from horizon.geojson", [](HorizonChain& c) {
     c.line.back().lon_deg += 1e-3;  // three posts further east
   }));
