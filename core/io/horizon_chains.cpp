@@ -1,5 +1,3 @@
-// Edges are joined at their ends first; then each chain is walked from an end that is joined to
-// none, and what is left over is closed.
 #include "core/io/horizon_chains.h"
 
 #include <algorithm>
@@ -13,6 +11,7 @@
 
 #include "core/io/antimeridian.h"
 #include "core/io/geojson_text.h"
+#include "core/io/join_edges.h"
 
 namespace farhorizon {
 
@@ -20,10 +19,6 @@ namespace {
 
 using Post = std::array<std::int32_t, 2>;
 
-// What `steps` has for each digit. The last two are the other diagonal, which a cell has where one
-// of its posts has no data.
-constexpr std::array<Post, 8> kSteps = {Post{1, 0},   Post{1, 1},  Post{0, 1},  Post{-1, 0},
-                                        Post{-1, -1}, Post{0, -1}, Post{1, -1}, Post{-1, 1}};
 constexpr char kHead[] = R"({"type":"FeatureCollection","detail":"chains",)";
 constexpr std::string_view kLevelDigits = "0123456789abcdef";
 constexpr int kWeightDigits = 4;
@@ -31,92 +26,18 @@ constexpr int kWeightDigits = 4;
 constexpr double kPartOfCell = 64;
 constexpr double kMetresADegree = 111320;
 
-// An end of an edge, 0 at a and 1 at b.
-struct EdgeEnd {
-  Post post;
-  std::size_t edge;
-  std::size_t end;
-};
-
-Post PostOf(const HorizonFeature& f, std::size_t end) { return end == 0 ? f.a : f.b; }
-
-// Joins the ends of edges at posts by twos.
-class Joints {
- public:
-  explicit Joints(const std::vector<HorizonFeature>& features)
-      : features_(features), joined_(2 * features.size(), kNone) {
-    std::vector<EdgeEnd> ends;
-    ends.reserve(2 * features.size());
-    for (std::size_t i = 0; i < features.size(); ++i) {
-      for (std::size_t end = 0; end < 2; ++end) ends.push_back({PostOf(features[i], end), i, end});
-    }
-    std::ranges::stable_sort(ends, {}, &EdgeEnd::post);
-    for (std::size_t begin = 0; begin < ends.size();) {
-      std::size_t end = begin;
-      while (end < ends.size() && ends[end].post == ends[begin].post) ++end;
-      JoinAt({ends.begin() + static_cast<std::ptrdiff_t>(begin),
-              ends.begin() + static_cast<std::ptrdiff_t>(end)});
-      begin = end;
-    }
-  }
-
-  // The end that is joined to that of `edge`: 2 * edge + end; kNone: none.
-  [[nodiscard]] std::size_t At(std::size_t edge, std::size_t end) const {
-    return joined_[2 * edge + end];
-  }
-
-  static constexpr std::size_t kNone = SIZE_MAX;
-
- private:
-  // The cosine of the angle between two edges as they leave a post.
-  [[nodiscard]] double Cosine(const EdgeEnd& p, const EdgeEnd& q) const {
-    const auto leave = [this](const EdgeEnd& e) -> std::array<double, 2> {
-      const Post far = PostOf(features_[e.edge], 1 - e.end);
-      const double dc = far[0] - e.post[0];
-      const double dr = far[1] - e.post[1];
-      const double length = std::hypot(dc, dr);
-      return {dc / length, dr / length};
-    };
-    const std::array<double, 2> a = leave(p);
-    const std::array<double, 2> b = leave(q);
-    return a[0] * b[0] + a[1] * b[1];
-  }
-
-  void JoinAt(std::vector<EdgeEnd> free) {
-    while (free.size() > 1) {
-      std::pair<std::size_t, std::size_t> best;
-      double least = 2;
-      for (std::size_t i = 0; i < free.size(); ++i) {
-        for (std::size_t j = i + 1; j < free.size(); ++j) {
-          if (features_[free[i].edge].undecided != features_[free[j].edge].undecided) continue;
-          const double cosine = Cosine(free[i], free[j]);
-          if (cosine >= least) continue;
-          least = cosine;
-          best = {i, j};
-        }
-      }
-      if (least == 2) return;
-      const EdgeEnd p = free[best.first];
-      const EdgeEnd q = free[best.second];
-      joined_[2 * p.edge + p.end] = 2 * q.edge + q.end;
-      joined_[2 * q.edge + q.end] = 2 * p.edge + p.end;
-      free.erase(free.begin() + static_cast<std::ptrdiff_t>(best.second));
-      free.erase(free.begin() + static_cast<std::ptrdiff_t>(best.first));
-    }
-  }
-
-  const std::vector<HorizonFeature>& features_;
-  std::vector<std::size_t> joined_;
-};
-
 Known Both(Known a, Known b) {
   if (a == Known::kNotAsked || b == Known::kNotAsked) return Known::kNotAsked;
   return a == Known::kYes ? b : a;
 }
 
-void Append(const HorizonFeature& edge, std::size_t from_end, HorizonChain& chain) {
-  chain.posts.push_back(PostOf(edge, 1 - from_end));
-  chain.line.push_back(from_end == 0 ? edge.to : edge.from);
+void Append(const HorizonFeature& edge, bool reversed, HorizonChain& chain) {
+  if (chain.posts.empty()) {
+    chain.posts.push_back(reversed ? edge.b : edge.a);
+    chain.line.push_back(reversed ? edge.to : edge.from);
+  }
+  chain.posts.push_back(reversed ? edge.a : edge.b);
+  chain.line.push_back(reversed ? edge.from : edge.to);
   chain.level_kept.push_back(edge.level_kept);
   chain.undecided = edge.undecided;
   const EdgeMeasures& m = edge.measures;
@@ -165,34 +86,25 @@ std::string Property(const char* name, Known known, const std::string& value) {
 }
 
 std::string FeatureText(const HorizonChain& chain, const ChainRounding& rounding) {
-  std::string steps;
-  for (std::size_t i = 0; i + 1 < chain.posts.size(); ++i) {
-    const Post step = {chain.posts[i + 1][0] - chain.posts[i][0],
-                       chain.posts[i + 1][1] - chain.posts[i][1]};
-    const auto digit = std::ranges::find(kSteps, step);
-    Check(digit != kSteps.end(), "an edge runs between neighbours");
-    steps += static_cast<char>('0' + (digit - kSteps.begin()));
-  }
-  std::string text = R"({"type":"Feature","geometry":)" + Geometry(chain.line, rounding) +
-                     R"(,"properties":{"start":)" +
-                     Pair(chain.posts.front()[0], chain.posts.front()[1]) + R"(,"steps":")" +
-                     steps + '"';
+  std::string properties;
   if (chain.undecided) {
-    text += R"(,"undecided":true)";
+    properties += R"(,"undecided":true)";
   } else {
-    text += Property("azimuths", chain.sights, '"' + MaskText(chain.azimuths) + '"') +
-            Property("line_measure_m", chain.sights, Weight(chain.line_measure_m)) +
-            Property("skyline_drop_m", chain.drop, Weight(chain.skyline_drop_m));
+    properties += Property("azimuths", chain.sights, '"' + MaskText(chain.azimuths) + '"') +
+                  Property("line_measure_m", chain.sights, Weight(chain.line_measure_m)) +
+                  Property("skyline_drop_m", chain.drop, Weight(chain.skyline_drop_m));
   }
   const bool levels = std::ranges::any_of(chain.level_kept, [](const auto& l) { return !!l; });
   if (levels) {
-    text += R"(,"levels_kept":")";
+    properties += R"(,"levels_kept":")";
     for (const std::optional<int>& level : chain.level_kept) {
-      text += level ? kLevelDigits[static_cast<std::size_t>(*level)] : '-';
+      properties += level ? kLevelDigits[static_cast<std::size_t>(*level)] : '-';
     }
-    text += '"';
+    properties += '"';
   }
-  return text + "}}";
+  if (!properties.empty()) properties.front() = '{';
+  return R"({"type":"Feature","geometry":)" + Geometry(chain.line, rounding) + R"(,"properties":)" +
+         (properties.empty() ? "{" : properties) + "}}";
 }
 
 using Json = nlohmann::json;
@@ -229,21 +141,18 @@ AzimuthMask ReadMask(const std::string& text) {
   return mask;
 }
 
-// Throws what `at` throws where a digit is none.
+// Throws std::out_of_range where its levels are not those of so many edges.
 HorizonChain ReadChain(const Json& feature) {
   const Json& properties = feature.at("properties");
   HorizonChain chain;
   chain.line = ReadLine(feature.at("geometry"));
-  chain.posts.push_back(properties.at("start").get<Post>());
-  for (const char c : properties.at("steps").get<std::string>()) {
-    const Post& step = kSteps.at(static_cast<std::size_t>(c - '0'));
-    chain.posts.push_back({chain.posts.back()[0] + step[0], chain.posts.back()[1] + step[1]});
-  }
-  chain.level_kept.resize(chain.posts.size() - 1);
+  if (chain.line.size() < 2) throw std::out_of_range("a line has two points");
+  chain.level_kept.resize(chain.line.size() - 1);
   if (properties.contains("levels_kept")) {
     const auto levels = properties.at("levels_kept").get<std::string>();
+    if (levels.size() != chain.level_kept.size()) throw std::out_of_range("a level an edge");
     for (std::size_t i = 0; i < chain.level_kept.size(); ++i) {
-      const std::size_t digit = kLevelDigits.find(levels.at(i));
+      const std::size_t digit = kLevelDigits.find(levels[i]);
       if (digit != std::string_view::npos) chain.level_kept[i] = static_cast<int>(digit);
     }
   }
@@ -273,29 +182,16 @@ Error BadGeoJson(std::size_t feature, const std::string& message) {
 }  // namespace
 
 std::vector<HorizonChain> ChainsOf(const std::vector<HorizonFeature>& features) {
-  const Joints joints(features);
-  std::vector<bool> taken(features.size(), false);
-  std::vector<HorizonChain> chains;
-  const auto walk = [&](std::size_t edge, std::size_t end) {
-    HorizonChain& chain = chains.emplace_back();
-    chain.posts.push_back(PostOf(features[edge], end));
-    chain.line.push_back(end == 0 ? features[edge].from : features[edge].to);
-    for (;;) {
-      taken[edge] = true;
-      Append(features[edge], end, chain);
-      const std::size_t next = joints.At(edge, 1 - end);
-      if (next == Joints::kNone || taken[next / 2]) return;
-      edge = next / 2;
-      end = next % 2;
-    }
-  };
-  for (std::size_t i = 0; i < features.size(); ++i) {
-    for (std::size_t end = 0; end < 2; ++end) {
-      if (!taken[i] && joints.At(i, end) == Joints::kNone) walk(i, end);
-    }
+  std::vector<PlanEdge> edges;
+  edges.reserve(features.size());
+  const auto point = [](const Post& p) { return std::array<double, 2>{1.0 * p[0], 1.0 * p[1]}; };
+  for (const HorizonFeature& f : features) {
+    edges.push_back({point(f.a), point(f.b), f.undecided ? 1 : 0});
   }
-  for (std::size_t i = 0; i < features.size(); ++i) {
-    if (!taken[i]) walk(i, 0);
+  std::vector<HorizonChain> chains;
+  for (const std::vector<ChainedEdge>& links : JoinEdges(edges)) {
+    HorizonChain& chain = chains.emplace_back();
+    for (const ChainedEdge& link : links) Append(features[link.edge], link.reversed, chain);
   }
   return chains;
 }
@@ -341,7 +237,7 @@ Result<std::vector<HorizonChain>> ReadHorizonChains(const std::string& text) {
   } catch (const Json::exception& failure) {
     return BadGeoJson(chains.size(), failure.what());
   } catch (const std::out_of_range&) {
-    return BadGeoJson(chains.size(), "its steps or its levels have other digits");
+    return BadGeoJson(chains.size(), "it is no line, or has other levels than edges");
   }
 }
 

@@ -42,11 +42,9 @@ std::vector<HorizonChain> ChainsOf(const std::vector<HorizonFeature>& features);
 /// the members `detail`, "chains", `edges`, their number, and `azimuths`, those of all chains, on
 /// the collection.
 ///
-/// A chain has its posts as `start` and `steps`, a digit an edge: 0 to the next column, 1 to the
-/// next column and row, 2 to the next row, 3, 4 and 5 the other way, 6 to the next column and the
-/// row before, 7 the other way. levels_kept: a hexadecimal digit an edge, - for none; absent where
-/// no edge has a level.
-/// Coordinates are rounded to a 64th of a cell of cell_m, weights to four digits.
+/// Posts are not named: those of a chain are the nearest to its points, which are rounded to a 64th
+/// of a cell of cell_m. levels_kept: a hexadecimal digit an edge, - for none; absent where no edge
+/// has a level. Weights are rounded to four digits.
 std::string WriteHorizonChains(const std::vector<HorizonChain>& chains, double cell_m);
 
 /// By how much WriteHorizonChains may move a post: degrees of longitude and latitude, and metres.
@@ -59,8 +57,8 @@ ChainRounding RoundingOfChains(double cell_m);
 /// Whether `text` is of WriteHorizonChains, by its head.
 bool HasChains(const std::string& text);
 
-/// Reads back the text of WriteHorizonChains. Errors: kUnsupportedData, kind "bad-geojson", with
-/// the feature and the cause.
+/// Reads back the text of WriteHorizonChains; `posts` are left empty. Errors: kUnsupportedData,
+/// kind "bad-geojson", with the feature and the cause.
 Result<std::vector<HorizonChain>> ReadHorizonChains(const std::string& text);
 
 }  // namespace farhorizon

@@ -11,7 +11,9 @@
 #include "core/horizon/find_horizon.h"
 #include "core/io/horizon_chains.h"
 #include "core/io/horizon_features.h"
+#include "core/io/horizon_glb.h"
 #include "core/io/horizon_vector.h"
+#include "core/io/line_chains.h"
 #include "core/io/tileset.h"
 #include "core/pipeline/artifact_writer.h"
 #include "core/pipeline/build_features.h"
@@ -61,7 +63,7 @@ Status WriteEdges(const std::vector<HorizonFeature>& features, WrittenLevels& le
   for (std::size_t i = 0; i < levels.edges.size(); ++i) {
     LevelEdges& edges = levels.edges[i];
     AddMeasures(features, edges);
-    const std::vector<std::uint8_t> glb = WriteHorizonGlb(edges.lines, edges.lattice);
+    const std::vector<std::uint8_t> glb = WriteHorizonGlb(LineChainsOf(edges.lines), edges.lattice);
     levels.reports[i].skyline_edges.bytes = std::ssize(glb);
     Status added = writer.Add(HorizonGlbName(static_cast<int>(i)), AsText(glb));
     if (!added) return added;
@@ -79,10 +81,12 @@ Status WriteFeatures(const std::vector<HorizonFeature>& features, const Georefer
                                           : WriteHorizonChains(ChainsOf(features), cell_m));
     if (!added) return added;
   }
-  if (Asks(options, "flatgeobuf")) {
-    Status written = WriteHorizonVector(features, writer.PathOf("horizon.fgb"));
+  for (const auto& [format, name] :
+       {std::pair{"flatgeobuf", "horizon.fgb"}, {"geopackage", "horizon.gpkg"}}) {
+    if (!Asks(options, format)) continue;
+    Status written = WriteHorizonVector(features, writer.PathOf(name));
     if (!written) return written;
-    return writer.AddWritten("horizon.fgb");
+    if (Status added = writer.AddWritten(name); !added) return added;
   }
   return Ok{};
 }

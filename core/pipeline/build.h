@@ -12,8 +12,8 @@ namespace farhorizon {
 /// the encoded levels, and leaves tileset.json, lodN.glb, lodN.drc, horizon.geojson, report.json,
 /// report.html and manifest.json in `directory` (made if missing), as far as options.formats asks
 /// for them.
-/// With "flatgeobuf" among the formats there is horizon.fgb, too, with "quantized-mesh" layer.json
-/// and the tiles that it lists.
+/// With "flatgeobuf" among the formats there is horizon.fgb, too, with "geopackage" horizon.gpkg,
+/// with "quantized-mesh" layer.json and the tiles that it lists.
 ///
 /// Same input and options, same bytes, except that report.html has the times of control.timings
 /// where there are any. Nothing is left behind on failure.

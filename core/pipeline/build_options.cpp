@@ -296,11 +296,12 @@ Status CheckOptions(const BuildOptions& options) {
     return Given{"tileTriangles", std::to_string(tile)}.Expected("0, or 1000 to 1000000000");
   }
   if (options.formats.empty()) return Given{"formats", ""}.Expected("at least one format");
-  constexpr std::array kKnown = {"3dtiles", "drc", "geojson", "flatgeobuf", "quantized-mesh"};
+  constexpr std::array kKnown = {"3dtiles",    "drc",        "geojson",
+                                 "flatgeobuf", "geopackage", "quantized-mesh"};
   for (const std::string& format : options.formats) {
     if (std::find(kKnown.begin(), kKnown.end(), format) == kKnown.end()) {
       return Given{"formats", format}.Expected(
-          "of 3dtiles, drc, geojson, flatgeobuf and quantized-mesh");
+          "of 3dtiles, drc, geojson, flatgeobuf, geopackage and quantized-mesh");
     }
   }
   if (options.threads < 1 || options.threads > 1024) {

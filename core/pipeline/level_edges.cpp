@@ -96,12 +96,11 @@ Result<LevelEdges> FindLevelEdges(const LevelContext& context,
     HorizonLine& line = edges.lines.emplace_back();
     line.ends = {NumbersOf(decoded.positions[a], lattice),
                  NumbersOf(decoded.positions[b], lattice)};
-    line.posts = {decoded.posts[a], decoded.posts[b]};
     edges.vertices.emplace_back(a, b);
     const auto place = places.find({side.a, side.b});
     edges.horizon_edges.push_back(place == places.end() ? -1 : place->second);
-    const auto p = static_cast<VertexId>(line.posts[0]);
-    const auto q = static_cast<VertexId>(line.posts[1]);
+    const auto p = static_cast<VertexId>(decoded.posts[a]);
+    const auto q = static_cast<VertexId>(decoded.posts[b]);
     middles.push_back({(dem.Column(p) + dem.Column(q)) / 2.0, (dem.Row(p) + dem.Row(q)) / 2.0});
     edges.report.carrying += side.lines > 0 ? 1 : 0;
   }

@@ -8,7 +8,8 @@
 #include "core/base/result.h"
 #include "core/io/draco_mesh.h"
 #include "core/io/horizon_features.h"
-#include "core/io/horizon_glb.h"
+#include "core/io/line_chains.h"
+#include "core/io/quantization_lattice.h"
 #include "core/measure/mesh_error.h"
 #include "core/pipeline/report.h"
 

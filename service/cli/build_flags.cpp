@@ -55,7 +55,7 @@ void AddBuildFlags(Command& command, BuildFlags& flags) {
       "instead of the three above: a level for each number, with at most that many triangles, in "
       "any order; exact where every horizon edge fits in");
   Add(command, flags, "formats", "a,b,...",
-      "of 3dtiles, drc, geojson, flatgeobuf, quantized-mesh (3dtiles,drc,geojson)");
+      "of 3dtiles, drc, geojson, flatgeobuf, geopackage, quantized-mesh (3dtiles,drc,geojson)");
   Add(command, flags, "skirt", "auto|M",
       "depth of the walls at the tile's sides and around holes, metres; 0: none (auto: as deep as "
       "the errors of the level and of the coarsest one)");

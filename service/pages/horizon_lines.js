@@ -38,29 +38,42 @@
   const readGlb = (C, bytes, transform) => {
     const gltf = gltfOf(bytes);
     const start = 20 + new DataView(bytes).getUint32(12, true) + 8;
-    const array = (Type, index, count) => {
-      const part = gltf.bufferViews[index];
-      return new Type(bytes.slice(start + (part.byteOffset ?? 0)), 0, count);
+    const kTypes = { 5123: Uint16Array, 5125: Uint32Array, 5126: Float32Array,
+      UINT8: Uint8Array, UINT16: Uint16Array, UINT32: Uint32Array };
+    const array = (type, index) => {
+      const { byteOffset = 0, byteLength } = gltf.bufferViews[index];
+      return new kTypes[type](bytes.slice(start + byteOffset, start + byteOffset + byteLength));
     };
     const primitive = gltf.meshes[0].primitives[0];
     const accessor = gltf.accessors[primitive.attributes.POSITION];
-    const positions = array(Float32Array, accessor.bufferView, 3 * accessor.count);
+    const positions = array(accessor.componentType, accessor.bufferView);
+    // How many numbers one vertex has: those of 16 bits have a fourth, for alignment.
+    const { byteStride = 12 } = gltf.bufferViews[accessor.bufferView];
+    const stride = byteStride / positions.BYTES_PER_ELEMENT;
+    const { componentType, bufferView } = gltf.accessors[primitive.indices];
+    const indices = array(componentType, bufferView);
     const matrix = C.Matrix4.clone(transform);
     C.Matrix4.multiply(matrix, C.Axis.Y_UP_TO_Z_UP, matrix);
     const node = gltf.nodes.find((one) => one.mesh === 0);
     if (node.matrix) C.Matrix4.multiply(matrix, C.Matrix4.fromArray(node.matrix), matrix);
-    const count = accessor.count / 2;
-    const ends = new Float64Array(6 * count);
+    const ends = new Float64Array(3 * indices.length);
     const point = new C.Cartesian3();
-    for (let i = 0; i < accessor.count; ++i) {
-      C.Cartesian3.fromArray(positions, 3 * i, point);
+    for (let i = 0; i < indices.length; ++i) {
+      C.Cartesian3.fromArray(positions, stride * indices[i], point);
       C.Cartesian3.pack(C.Matrix4.multiplyByPoint(matrix, point, point), ends, 3 * i);
     }
-    const table = gltf.extensions?.EXT_structural_metadata?.propertyTables?.[0];
-    const values = table?.properties?.azimuths?.values;
-    const masks = values !== undefined && array(Uint32Array, values, 2 * count);
-    const azimuths = Float32Array.from(
-      { length: count }, (_, i) => (masks ? middleOfMask(masks[2 * i], masks[2 * i + 1]) : 0));
+    // A row of the table is a chain: so many lines, after those of the chains before it.
+    const { schema, propertyTables: [table] } = gltf.extensions.EXT_structural_metadata;
+    const column = (name) => array(
+      schema.classes[table.class].properties[name].componentType, table.properties[name].values);
+    const masks = column('azimuths');
+    const azimuths = new Float32Array(indices.length / 2);
+    let first = 0;
+    column('edges').forEach((count, chain) => {
+      azimuths.fill(
+        middleOfMask(masks[2 * chain], masks[2 * chain + 1]), first, first + count);
+      first += count;
+    });
     return { ends, azimuths };
   };
   // A feature is an edge, with its azimuths as intervals and `level_kept`; or a chain of edges, with

@@ -154,7 +154,8 @@ TEST_F(SandboxE2e, APipeForAManifestFailsTheJobAlone) {
 
 TEST_F(SandboxE2e, OurOwnWorkerDoesItsJobInAllLayers) {
   Start({"FARHORIZON_WORKER_THREADS=2"});
-  const json info = Run("hills.asc", "crs=EPSG:4326%2B5773&formats=3dtiles,drc,geojson,flatgeobuf");
+  const json info =
+      Run("hills.asc", "crs=EPSG:4326%2B5773&formats=3dtiles,drc,geojson,flatgeobuf,geopackage");
   EXPECT_EQ(info["status"], "successful") << info;
 }
 

@@ -38,7 +38,8 @@ std::string BytesEach(const Report& report, const ManifestEntry& artifact) {
     if (artifact.name != HorizonGlbName(level.level)) continue;
     return Each(artifact.bytes, level.skyline_edges.edges, "horizon edge");
   }
-  const bool edges = artifact.name == "horizon.geojson" || artifact.name == "horizon.fgb";
+  const bool edges = artifact.name == "horizon.geojson" || artifact.name == "horizon.fgb" ||
+                     artifact.name == "horizon.gpkg";
   return edges ? Each(artifact.bytes, report.horizon_edges, "horizon edge") : "";
 }
 

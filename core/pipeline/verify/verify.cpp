@@ -206,7 +206,7 @@ Result<HorizonClaims> VerifyHorizonFiles(const TerrainInput& input, const Horizo
   if (HasChains(*geojson)) {
     Result<std::vector<HorizonChain>> chains = ReadHorizonChains(*geojson);
     if (!chains) return std::move(chains.error());
-    result.published = VerifyChains(input, *chains, result.found, claims);
+    result.published = VerifyChains(input, *std::move(chains), result.found, claims);
     // Chains say nothing of single edges: what was found again is checked in its place.
     features = result.found;
     source = "horizon found again, of which horizon.geojson has chains:";

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 namespace farhorizon {
 
@@ -31,19 +32,44 @@ bool SameWeights(const HorizonChain& claimed, const HorizonChain& found) {
          Close(claimed.skyline_drop_m, found.skyline_drop_m);
 }
 
+// Names the posts of chains that were read: each is the nearest to its point.
+Status NamePosts(const Georeference& georeference, std::vector<HorizonChain>& chains) {
+  std::vector<Geodetic> points;
+  for (const HorizonChain& chain : chains) {
+    points.insert(points.end(), chain.line.begin(), chain.line.end());
+  }
+  Result<std::vector<Enu>> local = georeference.ToEnu(points);
+  if (!local) return std::move(local.error());
+  Result<std::vector<GridPoint>> grid = georeference.ToGrid(*local);
+  if (!grid) return std::move(grid.error());
+  auto next = grid->begin();
+  for (HorizonChain& chain : chains) {
+    for (std::size_t i = 0; i < chain.line.size(); ++i, ++next) {
+      chain.posts.push_back({static_cast<std::int32_t>(std::lround(next->column)),
+                             static_cast<std::int32_t>(std::lround(next->row))});
+    }
+  }
+  return Ok{};
+}
+
 }  // namespace
 
-PublishedEdges VerifyChains(const TerrainInput& input, const std::vector<HorizonChain>& chains,
+PublishedEdges VerifyChains(const TerrainInput& input, std::vector<HorizonChain> chains,
                             const std::vector<HorizonFeature>& found, Claims& claims) {
   const Dem& dem = input.dem();
   PublishedEdges published;
+  if (Status named = NamePosts(input.georeference(), chains); !named) {
+    claims.Add(false, "horizon.geojson has no posts: " + named.error().message);
+    return published;
+  }
   std::int64_t outside = 0;
   for (const HorizonChain& chain : chains) {
     for (std::size_t i = 0; i + 1 < chain.posts.size(); ++i) {
       const auto inside = [&dem](const std::array<std::int32_t, 2>& p) {
         return p[0] >= 0 && p[0] < dem.columns && p[1] >= 0 && p[1] < dem.rows;
       };
-      if (!inside(chain.posts[i]) || !inside(chain.posts[i + 1])) {
+      if (!inside(chain.posts[i]) || !inside(chain.posts[i + 1]) ||
+          chain.posts[i] == chain.posts[i + 1]) {
         ++outside;
         continue;
       }
@@ -55,7 +81,7 @@ PublishedEdges VerifyChains(const TerrainInput& input, const std::vector<Horizon
       published.undecided += chain.undecided ? 1 : 0;
     }
   }
-  claims.Same("horizon.geojson edges outside the grid", std::int64_t{0}, outside);
+  claims.Same("horizon.geojson edges that join no two posts", std::int64_t{0}, outside);
   const std::vector<HorizonChain> expected = ChainsOf(found);
   const ChainRounding rounding = RoundingOfChains(
       std::min(input.georeference().column_step_m(), input.georeference().row_step_m()));

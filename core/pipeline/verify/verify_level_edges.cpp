@@ -15,7 +15,8 @@
 
 #include "core/io/file.h"
 #include "core/io/glb.h"
-#include "core/io/horizon_glb.h"
+#include "core/io/horizon_glb_reader.h"
+#include "core/io/line_chains.h"
 #include "core/pipeline/level_edges.h"
 
 namespace farhorizon {
@@ -90,11 +91,16 @@ bool Close(const std::optional<float>& claimed, const std::optional<float>& foun
   return std::abs(*claimed - *found) <= 1e-5 * (1 + *found);
 }
 
-bool Same(const HorizonLine& claimed, const HorizonLine& found, bool has_table) {
-  if (claimed.ends != found.ends) return false;
-  return !has_table || (claimed.posts == found.posts && claimed.azimuths == found.azimuths &&
-                        Close(claimed.line_measure_m, found.line_measure_m) &&
-                        Close(claimed.skyline_drop_m, found.skyline_drop_m));
+bool Same(const LineChain& claimed, const LineChain& found) {
+  return claimed.points == found.points && claimed.azimuths == found.azimuths &&
+         Close(claimed.line_measure_m, found.line_measure_m) &&
+         Close(claimed.skyline_drop_m, found.skyline_drop_m);
+}
+
+std::int64_t EdgesOf(const std::vector<LineChain>& chains) {
+  std::int64_t edges = 0;
+  for (const LineChain& chain : chains) edges += std::ssize(chain.points) - 1;
+  return edges;
 }
 
 void VerifyFile(const std::filesystem::path& directory, const LevelReport& claimed,
@@ -113,13 +119,14 @@ void VerifyFile(const std::filesystem::path& directory, const LevelReport& claim
   claims.Add(glb->matrix == GltfMatrix(lattice),
              name + " has the lattice of the level's mesh in the node's matrix");
   claims.Add(glb->in_box, name + " POSITION min and max are those of its lines");
-  claims.Same(name + " lines", claimed.skyline_edges.edges, std::ssize(glb->lines));
-  std::int64_t different = std::abs(std::ssize(glb->lines) - std::ssize(found.lines));
-  for (std::size_t i = 0; i < std::min(glb->lines.size(), found.lines.size()); ++i) {
-    different += Same(glb->lines[i], found.lines[i], glb->has_table) ? 0 : 1;
+  claims.Same(name + " lines", claimed.skyline_edges.edges, EdgesOf(glb->chains));
+  const std::vector<LineChain> expected = LineChainsOf(found.lines);
+  claims.Same(name + " chains", glb->chains.size(), expected.size());
+  std::int64_t different = 0;
+  for (std::size_t i = 0; i < std::min(glb->chains.size(), expected.size()); ++i) {
+    different += Same(glb->chains[i], expected[i]) ? 0 : 1;
   }
-  claims.Same(name + " lines with other ends, posts, azimuths or weights", std::int64_t{0},
-              different);
+  claims.Same(name + " chains with other points, azimuths or weights", std::int64_t{0}, different);
 }
 
 }  // namespace

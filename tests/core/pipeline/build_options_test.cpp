@@ -13,7 +13,7 @@ TEST(ParseOptions, ReadsTheParametersOfAJob) {
   Result<BuildOptions> options = ParseOptions({{"levels", "3"},
                                                {"maxError", "2.5"},
                                                {"silhouetteError", "1"},
-                                               {"formats", "drc,geojson"},
+                                               {"formats", "drc,geopackage"},
                                                {"crs", "EPSG:32610"},
                                                {"verticalDatum", "EPSG:5773"},
                                                {"heightUnit", "us-ft"},
@@ -29,7 +29,7 @@ TEST(ParseOptions, ReadsTheParametersOfAJob) {
   EXPECT_EQ(options->levels, 3);
   EXPECT_EQ(options->max_error_m, 2.5);
   EXPECT_EQ(options->silhouette_error_m, 1);
-  EXPECT_EQ(options->formats, (std::vector<std::string>{"drc", "geojson"}));
+  EXPECT_EQ(options->formats, (std::vector<std::string>{"drc", "geopackage"}));
   EXPECT_EQ(options->crs, "EPSG:32610");
   EXPECT_EQ(options->vertical_datum, "EPSG:5773");
   EXPECT_EQ(options->height_unit, "us-ft");

@@ -16,6 +16,7 @@
 #include "core/io/horizon_chains.h"
 #include "core/io/horizon_features.h"
 #include "core/io/horizon_glb.h"
+#include "core/io/horizon_glb_reader.h"
 #include "core/pipeline/build.h"
 #include "core/pipeline/report.h"
 #include "tests/support/temp_dir.h"
@@ -91,11 +92,20 @@ TEST_F(Verify, EveryClaimOfABuildHolds) { EXPECT_TRUE(False().empty()) << False(
 
 // Levels are planned and measured whatever is written: without files, nothing of them is claimed.
 TEST_F(Verify, LevelsThatWereNotWrittenClaimNothing) {
-  for (const std::vector<std::string>& formats :
-       {std::vector<std::string>{"geojson"}, {"flatgeobuf"}, {"3dtiles"}, {"drc", "geojson"}}) {
+  for (const std::vector<std::string>& formats : {std::vector<std::string>{"geojson"},
+                                                  {"flatgeobuf"},
+                                                  {"geopackage"},
+                                                  {"3dtiles"},
+                                                  {"drc", "geojson"}}) {
     options_.formats = formats;
     std::filesystem::remove_all(folder_ / "out");
     ASSERT_TRUE(BuildArtifacts(folder_ / "hills.asc", folder_ / "out", options_, control_));
+    for (const auto& [format, name] : {std::pair{"geojson", "horizon.geojson"},
+                                       {"flatgeobuf", "horizon.fgb"},
+                                       {"geopackage", "horizon.gpkg"}}) {
+      const bool asked = std::find(formats.begin(), formats.end(), format) != formats.end();
+      EXPECT_EQ(std::filesystem::exists(folder_ / "out" / name), asked) << name;
+    }
     const std::vector<std::string> lines = False();
     EXPECT_TRUE(lines.empty()) << formats.front() << ": " << lines.front();
   }
@@ -355,26 +365,28 @@ TEST_F(Verify, EdgesAreInTheFilesThatAreAskedForAndNoOthers) {
   }
 }
 
-// Writes the lines of level 1 anew, one of them changed.
+// Writes the lines of level 1 anew, one chain of them changed.
 TEST_F(Verify, LinesThatAreNotTheLevelsAreFound) {
   const std::string name = "lod1-horizon.glb";
   const std::string bytes = SlurpFile(folder_ / "out" / name);
-  const std::vector<HorizonLine> lines = ReadHorizonGlb({bytes.begin(), bytes.end()})->lines;
+  const std::vector<LineChain> chains = ReadHorizonGlb({bytes.begin(), bytes.end()})->chains;
   const QuantizationLattice lattice = Decode("lod1.drc").lattice;
-  const auto claim = [&](const std::function<void(std::vector<HorizonLine>&)>& change) {
-    std::vector<HorizonLine> changed = lines;
+  const auto claim = [&](const std::function<void(std::vector<LineChain>&)>& change) {
+    std::vector<LineChain> changed = chains;
     change(changed);
     const std::vector<std::uint8_t> glb = WriteHorizonGlb(changed, lattice);
     SpillFile(folder_ / "out" / name, {glb.begin(), glb.end()});
-    return Names(False(), "lod1-horizon.glb lines with other ends, posts, azimuths or weights");
+    return False();
   };
-  EXPECT_FALSE(claim([](std::vector<HorizonLine>&) {}));
-  EXPECT_TRUE(claim([](std::vector<HorizonLine>& l) { l[3].ends[1][2] += 1; }));
-  EXPECT_TRUE(claim([](std::vector<HorizonLine>& l) { l[3].posts[0] -= 1; }));
-  EXPECT_TRUE(claim([](std::vector<HorizonLine>& l) { l[3].azimuths ^= 1; }));
-  EXPECT_TRUE(claim([](std::vector<HorizonLine>& l) { l[3].skyline_drop_m = 99; }));
-  EXPECT_TRUE(claim([](std::vector<HorizonLine>& l) { l[3].line_measure_m = 1e-3F; }));
-  EXPECT_TRUE(claim([](std::vector<HorizonLine>& l) { l.pop_back(); }));
+  const std::string others = "lod1-horizon.glb chains with other points, azimuths or weights";
+  using Chains = std::vector<LineChain>;
+  EXPECT_FALSE(Names(claim([](Chains&) {}), "lod1-horizon.glb"));
+  EXPECT_TRUE(Names(claim([](Chains& c) { c[3].points[1][2] += 1; }), others));
+  EXPECT_TRUE(Names(claim([](Chains& c) { std::swap(c[3], c[4]); }), others));
+  EXPECT_TRUE(Names(claim([](Chains& c) { c[3].azimuths ^= 1; }), others));
+  EXPECT_TRUE(Names(claim([](Chains& c) { c[3].skyline_drop_m = 99; }), others));
+  EXPECT_TRUE(Names(claim([](Chains& c) { c[3].line_measure_m = 1e-3F; }), others));
+  EXPECT_TRUE(Names(claim([](Chains& c) { c.pop_back(); }), "lod1-horizon.glb lines"));
   std::filesystem::remove(folder_ / "out" / name);
   EXPECT_TRUE(Names(False(), "lod1-horizon.glb is there: claimed 1, found 0"));
 }
@@ -470,12 +482,10 @@ TEST_F(VerifyChains, ChainsThatAreNotTheHorizonsAreFound) {
   EXPECT_TRUE(Finds("other azimuths or weights", [](HorizonChain& c) { c.skyline_drop_m += 1; }));
   EXPECT_TRUE(Finds("not where their posts are", [](HorizonChain& c) { c.line[0].lat_deg += 1; }));
   EXPECT_TRUE(Finds("level_kept is the coarsest", [](HorizonChain& c) { c.level_kept[0] = 7; }));
+  EXPECT_TRUE(
+      Finds("edges that join no two posts", [](HorizonChain& c) { c.line[1] = c.line[0]; }));
   EXPECT_TRUE(Finds("horizon edges missing from horizon.geojson", [](HorizonChain& c) {
-    c.posts.pop_back();
-    c.line.pop_back();
-    c.level_kept.pop_back();
-    if (c.posts.size() == 1) c.posts.push_back({c.posts[0][0] + 1, c.posts[0][1]});
-    if (c.level_kept.empty()) c.level_kept.emplace_back();
+    c.line.back().lon_deg += 1e-3;  // three posts further east
   }));
 }
 
