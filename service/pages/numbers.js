@@ -14,17 +14,29 @@ const farhorizon = {};
     return response.ok ? response.json() : null;
   };
 
+  let manifest = null;
+  const getManifest = async () => {
+    manifest ??= getJson('manifest.json').catch(() => null);
+    return (await manifest)?.artifacts ?? [];
+  };
+
   const digits = (value) => {
     if (value === null || value === undefined) return '–';
     return value === 0 ? '0' : Math.abs(value) < 1000 ? String(Number(value.toPrecision(3)))
       : Math.round(value).toLocaleString('en');
   };
-  const fillNumbers = (report) => {
+  // The bytes of all contents of a level, which may be in parts: lodN.glb, or lodN-X-Y.glb.
+  const glbBytesOf = (level, artifacts) => {
+    const parts = artifacts.filter(({ name }) => /^lod(\d+)(-\d+-\d+)?\.glb$/.exec(name)?.[1]
+      === String(level.level));
+    return parts.length ? parts.reduce((sum, { bytes }) => sum + bytes, 0) : level.glb_bytes;
+  };
+  const fillNumbers = (report, artifacts) => {
     const heads = ['Level', 'Triangles', 'Skyline rms, m', 'Ground rms, m', 'GLB, kB'];
     const row = (level) => make('tr', { id: `row-${level.level}` },
       make('th', { scope: 'row' }, String(level.level)),
       ...[level.triangles, level.silhouette_error_m.rms, level.vertical_error_m.rms,
-        level.glb_bytes && level.glb_bytes / 1000].map((value) => make('td', {}, digits(value))));
+        glbBytesOf(level, artifacts) / 1000].map((value) => make('td', {}, digits(value))));
     byId('numbers').append(
       make('caption', {}, 'Errors against the DEM, root mean square'),
       make('thead', {}, make('tr', {}, ...heads.map((text) => make('th', { scope: 'col' }, text)))),
@@ -35,7 +47,7 @@ const farhorizon = {};
   };
   const fillHead = async () => {
     const report = await getJson('report.json');
-    if (report) fillNumbers(report);
+    if (report) fillNumbers(report, await getManifest());
     byId('links').append(...['report.html', 'report.json', 'tileset.json'].flatMap(
       (name, i) => [i ? ' · ' : '', make('a', { href: results + name }, name)]));
     if (!home) return;
@@ -46,5 +58,5 @@ const farhorizon = {};
     document.title = `${job.filename ?? job.id}: farhorizon`;
   };
 
-  farhorizon.numbers = { byId, make, digits, getJson, fillHead };
+  farhorizon.numbers = { byId, make, digits, getJson, getManifest, fillHead };
 })();

@@ -19,17 +19,18 @@
     return globalThis.Cesium;
   };
 
-  // Contents of a tileset by level, finest first, with the transforms above them: lodN in a name is
-  // level N.
+  const matrixOf = (C, tile, above) => (tile.transform
+    ? C.Matrix4.multiply(above, C.Matrix4.fromArray(tile.transform), new C.Matrix4()) : above);
+  // Contents of a tileset by level, finest first, with the transforms above them. A level is all
+  // contents, of however many tiles, whose names begin with lodN.
   const levelsOf = (C, tileset) => {
     const levels = new Map();
     const open = [{ tile: tileset.root, above: C.Matrix4.IDENTITY }];
     while (open.length) {
       const { tile, above } = open.pop();
-      const matrix = tile.transform
-        ? C.Matrix4.multiply(above, C.Matrix4.fromArray(tile.transform), new C.Matrix4()) : above;
+      const matrix = matrixOf(C, tile, above);
       for (const { uri } of [...(tile.content ? [tile.content] : []), ...(tile.contents ?? [])]) {
-        const level = Number(/lod(\d+)[^/]*\.glb$/.exec(uri)?.[1] ?? NaN);
+        const level = Number(/(?:^|\/)lod(\d+)[^/]*\.glb$/.exec(uri)?.[1] ?? NaN);
         if (Number.isNaN(level)) continue;
         levels.set(level, [...(levels.get(level) ?? []), { uri, matrix }]);
       }
@@ -48,7 +49,9 @@
       Object.assign(scene, {
         C, url, failures: [], lines: null, models: new Map(), shown: 'stream',
       });
-      scene.levels = levelsOf(C, await response.json());
+      const tileset = await response.json();
+      scene.levels = levelsOf(C, tileset);
+      scene.frame = matrixOf(C, tileset.root, C.Matrix4.IDENTITY); // lines lie in it, too
       scene.makeWidget(container, credits);
       scene.setColours(sky, ground);
       await scene.addTileset();
@@ -72,6 +75,16 @@
       // A skyline is looked at from afar, and a camera may stand anywhere.
       scene.screenSpaceCameraController.enableCollisionDetection = false;
       scene.renderError.addEventListener((_, failure) => this.failures.push(String(failure)));
+      new ResizeObserver(() => this.keepWidth()).observe(container);
+      this.keepWidth();
+    }
+    // The same 60 degrees over the picture's width, however high it is: CesiumJS gives its field of
+    // view to the longer side, which on a phone is a matter of whether the panel is folded.
+    keepWidth() {
+      const { clientWidth, clientHeight } = this.widget.canvas;
+      const half = Math.tan(this.C.Math.toRadians(30));
+      this.widget.camera.frustum.fov = 2 * Math.atan(half * Math.max(1, clientHeight / clientWidth));
+      this.draw();
     }
 
     async addTileset() {
@@ -85,10 +98,10 @@
       });
       this.widget.scene.primitives.add(this.tileset);
       this.sphere = this.tileset.boundingSphere;
-      this.frame = C.Transforms.eastNorthUpToFixedFrame(this.sphere.center);
       // From the north-west, as on maps.
       const light = C.Matrix4.multiplyByPointAsVector(
-        this.frame, new C.Cartesian3(0.55, -0.55, -0.62), new C.Cartesian3());
+        C.Transforms.eastNorthUpToFixedFrame(this.sphere.center),
+        new C.Cartesian3(0.55, -0.55, -0.62), new C.Cartesian3());
       this.widget.scene.light = new C.DirectionalLight(
         { direction: C.Cartesian3.normalize(light, light), intensity: 2.4 });
     }
@@ -103,27 +116,42 @@
 
     draw() { this.widget.scene.requestRender(); }
 
-    // All models of a level, once all of them are there.
-    async modelsOf(level) {
+    // A content as a model by itself, hidden, once it can be drawn.
+    async load({ uri, matrix }) {
       const { C } = this;
-      if (!this.models.has(level)) {
-        const loads = this.levels.get(level).map(async ({ uri, matrix }) => {
-          const model = await C.Model.fromGltfAsync({
-            url: new URL(uri, this.url).href, modelMatrix: matrix, forwardAxis: C.Axis.X,
-            enableDebugWireframe: true,
-          });
-          this.widget.scene.primitives.add(model);
-          await new Promise((done, fail) => {
-            model.readyEvent.addEventListener(done);
-            model.errorEvent.addEventListener(fail);
-            this.draw();
-          });
-          model.show = false;
-          return model;
+      const { primitives } = this.widget.scene;
+      const model = primitives.add(await C.Model.fromGltfAsync({
+        url: new URL(uri, this.url).href, modelMatrix: matrix, forwardAxis: C.Axis.X, show: false,
+        enableDebugWireframe: true,
+      }));
+      try {
+        await new Promise((done, fail) => {
+          model.readyEvent.addEventListener(done);
+          model.errorEvent.addEventListener(fail);
+          this.draw();
         });
-        this.models.set(level, Promise.all(loads));
+      } catch (failure) {
+        primitives.remove(model);
+        throw failure;
+      }
+      return model;
+    }
+    // All models of a level, hidden, once all of them are there. Where one fails none stays, so that
+    // the level can be asked for again.
+    modelsOf(level) {
+      if (!this.models.has(level)) {
+        const models = this.loadAll(level);
+        this.models.set(level, models);
+        models.catch(() => this.models.delete(level));
       }
       return this.models.get(level);
+    }
+    async loadAll(level) {
+      const loads = await Promise.allSettled(this.levels.get(level).map((one) => this.load(one)));
+      const failed = loads.find(({ status }) => status === 'rejected');
+      if (!failed) return loads.map(({ value }) => value);
+      for (const { value } of loads) if (value) this.widget.scene.primitives.remove(value);
+      throw failed.reason;
     }
 
     // level: a number, or 'stream': the tileset as a client draws it.
@@ -161,11 +189,9 @@
       this.draw();
     }
 
-    // From the south, half above. On a narrow picture from farther away, for the tile's width.
+    // From the south, half above.
     fit() {
-      const { canvas } = this.widget;
-      const narrow = Math.max(1, 0.9 * canvas.clientHeight / canvas.clientWidth);
-      this.orbit = { heading: 0, pitch: -40, range: 1.75 * narrow * this.sphere.radius };
+      this.orbit = { heading: 0, pitch: -40, range: 1.75 * this.sphere.radius };
       this.place();
     }
     // From outside the tile, nearly level, as its skyline is seen from afar.

@@ -1,7 +1,7 @@
 'use strict';
 // The controls of the viewer.
 (async () => {
-  const { byId, make, digits, getJson, fillHead } = farhorizon.numbers;
+  const { byId, make, digits, getJson, getManifest, fillHead } = farhorizon.numbers;
   const { results, cesium } = document.body.dataset;
   const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
   const notice = (text, corner = true) => {
@@ -50,8 +50,7 @@
 
   const level = () => scene.shown;
   const finest = [...scene.levels.keys()][0];
-  const manifest = await getJson('manifest.json');
-  const names = new Set((manifest?.artifacts ?? []).map(({ name }) => name));
+  const names = new Set((await getManifest()).map(({ name }) => name));
 
   // ---- Horizon edges.
   const { colourOf, gltfOf, readGlb, readGeojson, makePrimitive } = farhorizon.horizonLines;
@@ -62,7 +61,7 @@
     const glb = `lod${number}-horizon.glb`;
     if (names.has(glb)) {
       const response = await fetch(results + glb);
-      return readGlb(scene.C, await response.arrayBuffer(), scene.levels.get(number)[0].matrix);
+      return readGlb(scene.C, await response.arrayBuffer(), scene.frame);
     }
     geojson ??= getJson('horizon.geojson');
     const document = await geojson;

@@ -1,12 +1,16 @@
 // Chromium without a GPU, and what is asked of every page: no error in its console, no request that
-// fails or goes elsewhere, and a picture with terrain.
+// fails or goes elsewhere.
 import { createRequire } from 'node:module';
 import { join } from 'node:path';
+import { readPng } from './picture.mjs';
 
 const kFlags = [
   '--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader',
   '--ignore-gpu-blocklist', '--disable-background-networking', '--disable-component-update',
 ];
+
+// Milliseconds that anything may take, on a machine that does much else.
+const kPatience = 300_000;
 
 export const launch = (packages, executablePath) => {
   const { chromium } = createRequire(join(packages, 'x.js'))('playwright-core');
@@ -17,7 +21,7 @@ export const launch = (packages, executablePath) => {
 export const openPage = async (browser, base, { width, height, scheme = 'light' }) => {
   const context = await browser.newContext({ viewport: { width, height }, colorScheme: scheme });
   const page = await context.newPage();
-  page.setDefaultTimeout(120_000);
+  page.setDefaultTimeout(kPatience);
   const faults = [];
   page.on('console', (message) => { if (message.type() === 'error') faults.push(message.text()); });
   page.on('pageerror', (failure) => faults.push(String(failure)));
@@ -37,23 +41,24 @@ export const openPage = async (browser, base, { width, height, scheme = 'light' 
   return { page, faults, close: () => context.close() };
 };
 
-// The share of pixels of a picture that are not of the colour `sky`, and how many colours they
-// have; the page itself reads the picture.
-export const shareOf = (page, png, sky) => page.evaluate(async ([bytes, background]) => {
-  const binary = Uint8Array.from(atob(bytes), (c) => c.charCodeAt(0));
-  const blob = new Blob([binary], { type: 'image/png' });
-  const picture = await createImageBitmap(blob);
-  const context = new OffscreenCanvas(picture.width, picture.height).getContext('2d');
-  context.drawImage(picture, 0, 0);
-  const { data } = context.getImageData(0, 0, picture.width, picture.height);
-
-  const colours = new Set();
-  let count = 0;
-  for (let at = 0; at < data.length; at += 4) {
-    const off = background.reduce((sum, value, k) => sum + Math.abs(data[at + k] - value), 0);
-    if (off < 24) continue;
-    count += 1;
-    colours.add((data[at] << 16) | (data[at + 1] << 8) | data[at + 2]);
-  }
-  return { share: count / (data.length / 4), colours: colours.size };
-}, [png.toString('base64'), sky]);
+// A page of this folder with what it says of itself in `client`, and what is asked of that:
+// ask('look', view) calls client.look(view).
+export const openClient = async (browser, base, page, query) => {
+  const opened = await openPage(browser, base, { width: 1280, height: 720 });
+  await opened.page.goto(`${base}/clients/${page}?${new URLSearchParams(query)}`);
+  await opened.page.waitForFunction(() => globalThis.client);
+  const ask = (name, ...given) => Promise.race([
+    opened.page.evaluate(([what, ...rest]) => globalThis.client[what](...rest), [name, ...given]),
+    new Promise((_, fail) => {
+      setTimeout(() => fail(new Error(`${name} does not settle`)), kPatience).unref();
+    }),
+  ]);
+  return {
+    ...opened, ask, name: await opened.page.evaluate(() => globalThis.client.name),
+    // What is seen; a file keeps it.
+    shoot: async (file) => readPng(
+      await opened.page.screenshot(file === undefined ? {} : { path: file })),
+    allFaults: async () => [
+      ...await opened.page.evaluate(() => globalThis.client.failures), ...opened.faults],
+  };
+};

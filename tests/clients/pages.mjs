@@ -1,10 +1,11 @@
 // The pages of the real service, used as people use them: a DEM goes in at /, its levels are looked
 // at in the viewer, in light and dark, wide and on a phone.
 import { spawn, spawnSync } from 'node:child_process';
-import { cpSync, mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import { cpSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { basename, join } from 'node:path';
 import { tmpdir } from 'node:os';
-import { openPage, shareOf } from './browser.mjs';
+import { openPage } from './browser.mjs';
+import { readPng, shareOf } from './picture.mjs';
 import { serve } from './server.mjs';
 
 // The running service, once it says where it listens.
@@ -56,7 +57,7 @@ const sendDem = async ({ browser, base, dem, report }) => {
     && farhorizon.scene.tileset.statistics.selected > 0);
   const first = Date.now();
   report('a DEM by the page, to its first picture', faults,
-    `done after ${done - began} ms, drawn ${first - done} ms later`);
+    `done after ${done - began} ms, drawn ${first - began} ms after the file was chosen`);
   const address = page.url();
   await close();
   return address;
@@ -104,7 +105,7 @@ const useViewer = async ({ page, faults }, address, kind, pictures) => {
   await page.keyboard.press('w');
   await page.keyboard.press('f');
   await page.waitForTimeout(1000);
-  const { colours } = await shareOf(page, await page.locator('#view').screenshot(), [0, 0, 0]);
+  const { colours } = shareOf(readPng(await page.locator('#view').screenshot()), [0, 0, 0]);
   if (colours < 20) faults.push('the picture is empty');
   await shoot('wireframe');
   faults.push(...await page.evaluate(() => farhorizon.scene.failures));
@@ -121,7 +122,7 @@ const lookAtViewer = async ({ browser, base, pictures, report, address }, kind) 
 };
 
 // The page that `farhorizon viewer` puts beside artifacts, on a web server that knows nothing of it.
-export const checkStandalone = async ({ browser, farhorizon, dir, cache, report }) => {
+const openStandalone = async ({ browser, farhorizon, dir, cache }) => {
   const copy = join(cache, 'standalone');
   rmSync(copy, { recursive: true, force: true });
   cpSync(dir, copy, { recursive: true });
@@ -132,9 +133,51 @@ export const checkStandalone = async ({ browser, farhorizon, dir, cache, report 
   await page.goto(`${server.base}/copy/viewer.html`);
   await page.waitForFunction(() => document.body.dataset.ready === 'true')
     .catch((failure) => { faults.push(failure.message.split('\n')[0]); });
-  report('viewer.html on its own', faults);
+  return { page, faults, close: async () => { await close(); server.close(); } };
+};
+export const checkStandalone = async (context) => {
+  const { faults, close } = await openStandalone(context);
+  context.report('viewer.html on its own', faults);
   await close();
-  server.close();
+};
+
+// The viewer on a tileset whose level 0 is in parts: all of them are shown, and are its skyline.
+export const checkSplit = async (context) => {
+  const { page, faults, close } = await openStandalone(context);
+  await page.keyboard.press('0');
+  await page.waitForFunction(() => farhorizon.scene.shown === 0
+    && farhorizon.scene.models.has(0) && document.querySelector('#row-0.shown'));
+  const found = await page.evaluate(async () => {
+    const { scene } = farhorizon;
+    const models = await scene.modelsOf(0);
+    scene.look(0);
+    const columns = async (level) => (
+      await scene.skylineOf(level)).filter((row) => !Number.isNaN(row)).length;
+    return {
+      contents: scene.levels.get(0).length, shown: models.filter(({ show }) => show).length,
+      fine: await columns(0), coarse: await columns(1), failures: scene.failures,
+      bytes: document.querySelector('#row-0 td:last-child').textContent,
+    };
+  });
+  const { contents, shown, fine, coarse, failures, bytes } = found;
+  faults.push(...failures);
+  if (contents < 2) faults.push('level 0 is whole');
+  if (shown !== contents) faults.push(`${shown} of ${contents} contents of level 0 are shown`);
+  const { artifacts } = JSON.parse(readFileSync(join(context.dir, 'manifest.json'), 'utf8'));
+  const sum = artifacts.filter(({ name }) => /^lod0-\d/.test(name))
+    .reduce((total, one) => total + one.bytes, 0);
+  if (!(Math.abs(Number(bytes) * 1000 - sum) < sum / 100)) {
+    faults.push(`level 0 has ${sum} bytes, the page says ${bytes} kB`);
+  }
+  if (!(fine > 0 && Math.abs(fine - coarse) <= 2)) {
+    faults.push(`level 0 is seen in ${fine} columns, level 1 in ${coarse}`);
+  }
+  await page.keyboard.press('h');
+  await page.waitForFunction(() => farhorizon.scene.lines !== null);
+  await page.screenshot({ path: join(context.pictures, 'viewer-parts.png') });
+  context.report('viewer.html on a level in parts', faults,
+    `${shown} contents, ${fine} columns of a skyline, ${bytes} kB`);
+  await close();
 };
 
 export const checkPages = async ({ browser, farhorizon, dem, cache, pictures, report }) => {

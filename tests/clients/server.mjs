@@ -6,7 +6,7 @@ import { extname, join, normalize } from 'node:path';
 const kTypes = {
   '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.json': 'application/json',
   '.geojson': 'application/geo+json', '.wasm': 'application/wasm', '.glb': 'model/gltf-binary',
-  '.png': 'image/png', '.svg': 'image/svg+xml',
+  '.png': 'image/png', '.svg': 'image/svg+xml', '.terrain': 'application/vnd.quantized-mesh',
 };
 
 // folders: [name, path]; gives the address, and a function that closes the server.
@@ -21,7 +21,9 @@ export const serve = async (folders) => {
       return response.end();
     }
     const type = kTypes[extname(file)] ?? 'application/octet-stream';
-    response.writeHead(200, { 'content-type': type });
+    // Terrain is in gzip on disk, as the README tells those who serve it to say.
+    const encoding = extname(file) === '.terrain' ? { 'content-encoding': 'gzip' } : {};
+    response.writeHead(200, { 'content-type': type, ...encoding });
     return createReadStream(file).pipe(response);
   });
   await new Promise((done) => { server.listen(0, '127.0.0.1', done); });

@@ -1,8 +1,12 @@
-// What can be said of files without a client: the Khronos validator of every GLB, and of every
-// tileset what 3D Tiles 1.1 asks of its JSON.
+// What can be said of files without a client: the Khronos validator of every GLB, JSON Schemas of
+// tileset.json and layer.json, and what 3D Tiles asks of a tree that no schema can say.
 import { existsSync, readFileSync, readdirSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { dirname, join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { contentsOf, levelOfUri, levelsOf, readTileset, tilesOf } from './tileset.mjs';
+
+const kSchemas = join(dirname(fileURLToPath(import.meta.url)), 'schemas');
 
 export const validateGlbs = async (dir, packages) => {
   const validator = createRequire(join(packages, 'x.js'))('gltf-validator');
@@ -21,43 +25,43 @@ export const validateGlbs = async (dir, packages) => {
   return { count: names.length, version: validator.version(), faults };
 };
 
-const isNumber = (value) => typeof value === 'number' && Number.isFinite(value);
-const kVolumes = { region: 6, box: 12, sphere: 4 };
+// name: "tileset.json" or "layer.json"; faults by the schema of that name.
+export const schemaFaults = (dir, name, packages) => {
+  const { default: Ajv } = createRequire(join(packages, 'x.js'))('ajv/dist/2020.js');
+  const schema = join(kSchemas, name.replace('.json', '.schema.json'));
+  const check = new Ajv({ allErrors: true }).compile(JSON.parse(readFileSync(schema, 'utf8')));
+  if (check(JSON.parse(readFileSync(join(dir, name), 'utf8')))) return [];
+  return check.errors.map(({ instancePath, message }) => `${name}${instancePath} ${message}`);
+};
 
-const tileFaults = (tile, above, dir, at) => {
+const isWithin = (inner, outer) => !inner || !outer || (inner[0] >= outer[0] && inner[1] >= outer[1]
+  && inner[2] <= outer[2] && inner[3] <= outer[3] && inner[4] >= outer[4] && inner[5] <= outer[5]);
+const tileFaults = ({ tile, parent, at }, dir) => {
   const faults = [];
-  const need = (holds, text) => { if (!holds) faults.push(`${at}: ${text}`); };
-  const volume = Object.keys(tile.boundingVolume ?? {}).find((name) => name in kVolumes);
-  need(volume && tile.boundingVolume[volume].length === kVolumes[volume]
-    && tile.boundingVolume[volume].every(isNumber), 'a bounding volume');
-  need(isNumber(tile.geometricError) && tile.geometricError >= 0, 'a geometric error');
-  need(tile.geometricError <= above, 'an error not above its parent\'s');
-  need(tile.refine === undefined || ['ADD', 'REPLACE'].includes(tile.refine), 'ADD or REPLACE');
-  need(tile.transform === undefined
-    || (tile.transform.length === 16 && tile.transform.every(isNumber)), 'a matrix');
-  need(!(tile.content && tile.contents), 'content or contents');
-  need(tile.children === undefined || tile.children.length > 0, 'children, where it has the list');
-  for (const { uri } of [...(tile.content ? [tile.content] : []), ...(tile.contents ?? [])]) {
-    need(typeof uri === 'string' && existsSync(join(dir, uri)), `content that is there: ${uri}`);
-  }
+  const need = (holds, text) => { if (!holds) faults.push(`${at} needs ${text}`); };
+  const contents = contentsOf(tile);
+  const levels = contents.map(({ uri }) => levelOfUri(uri));
+  need(contents.every(({ uri }) => existsSync(join(dir, uri))), 'content that is there');
+  need(levels.every((level) => level !== null), 'contents that are named lodN or lodN-X-Y');
+  if (!parent) return faults;
+  need(tile.geometricError <= parent.geometricError, 'an error not above its parent\'s');
+  need(isWithin(tile.boundingVolume.region, parent.boundingVolume.region),
+    'a region within its parent\'s');
   return faults;
 };
 
-export const checkTileset = (file) => {
-  const tileset = JSON.parse(readFileSync(file, 'utf8'));
-  const faults = [];
-  if (tileset.asset?.version !== '1.1') faults.push('asset.version is not 1.1');
-  if (!isNumber(tileset.geometricError)) faults.push('geometricError is no number');
-  if (!tileset.root?.refine) faults.push('the root has no refine');
-  let count = 0;
-  const open = [{ tile: tileset.root, above: Infinity, at: 'root' }];
-  while (open.length) {
-    const { tile, above, at } = open.pop();
-    count += 1;
-    faults.push(...tileFaults(tile, above, dirname(file), at).map((text) => `needs ${text}`));
-    (tile.children ?? []).forEach((child, i) => {
-      open.push({ tile: child, above: tile.geometricError, at: `${at}.${i}` });
-    });
-  }
-  return { count, faults };
+// Result: { count: of tiles, levels: how many contents each has, faults }.
+export const checkTileset = (dir, packages) => {
+  const faults = schemaFaults(dir, 'tileset.json', packages);
+  if (faults.length) return { count: 0, levels: [], faults };
+  const tileset = readTileset(dir);
+  const tiles = tilesOf(tileset);
+  faults.push(...tiles.flatMap((one) => tileFaults(one, dir)));
+  const levels = levelsOf(tileset);
+  if ([...levels.keys()].some((level, i) => level !== i)) faults.push('a level is missing');
+  const uris = [...levels.values()].flat().map(({ uri }) => uri);
+  if (new Set(uris).size < uris.length) faults.push('a content is there twice');
+  const files = readdirSync(dir).filter((name) => levelOfUri(name) !== null);
+  faults.push(...files.filter((name) => !uris.includes(name)).map((name) => `no tile has ${name}`));
+  return { count: tiles.length, levels: [...levels.values()].map((one) => one.length), faults };
 };
