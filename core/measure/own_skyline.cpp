@@ -19,7 +19,7 @@ namespace {
 
 // Directions of the first round; each further round has twice as many, none of them again.
 constexpr int kDirections = 192;
-constexpr int kMostRounds = 3;
+constexpr int kMostRounds = 5;
 constexpr double kLinesPerCell = 2;
 // What is no more above is as high, metres: far below any lattice, far above what doubles round.
 constexpr double kTied = 1e-6;
@@ -164,6 +164,7 @@ class SkylineSearch {
     known_ = ridges_.size();
     ridges_.insert(ridges_.end(), others.begin(), others.end());
     lines_.assign(ridges_.size(), 0);
+    pencils_.assign(ridges_.size(), 0);
     directions_.assign(ridges_.size(), 0);
   }
 
@@ -192,10 +193,14 @@ class SkylineSearch {
  private:
   [[nodiscard]] bool IsTaken(std::size_t i) const { return i < known_ || lines_[i] > 0; }
 
+  // Lines of one pencil are no independent sample: a side that has one of them has its neighbours,
+  // too. So pencils are left out one by one: what each alone has shown is what the others missed.
   [[nodiscard]] double MissedShare() const {
-    const auto once = std::count(lines_.begin() + static_cast<std::ptrdiff_t>(known_), lines_.end(),
-                                 std::int64_t{1});
-    return static_cast<double>(once) / static_cast<double>(std::max<std::int64_t>(sampled_, 1));
+    std::int64_t lines = 0;
+    for (std::size_t i = known_; i < ridges_.size(); ++i) {
+      if (pencils_[i] == 1) lines += lines_[i];
+    }
+    return static_cast<double>(lines) / static_cast<double>(std::max<std::int64_t>(sampled_, 1));
   }
 
   // What was taken before this round comes first; the rest follows in its order.
@@ -225,6 +230,7 @@ class SkylineSearch {
       const Pencil pencil(static_cast<int>(d), directions, box_);
       for (const Carried& carried : found[d]) {
         lines_[carried.ridge] += carried.lines;
+        ++pencils_[carried.ridge];
         directions_[carried.ridge] |= std::uint64_t{1} << pencil.bin;
         sampled_ += carried.lines;
       }
@@ -236,7 +242,8 @@ class SkylineSearch {
   PlanBox box_;
   std::vector<Ridge> ridges_;  // the first known_ are known
   std::size_t known_ = 0;
-  std::vector<std::int64_t> lines_;  // of each ridge
+  std::vector<std::int64_t> lines_;    // of each ridge
+  std::vector<std::int32_t> pencils_;  // of each ridge: in which it has lines
   std::vector<std::uint64_t> directions_;
   std::int64_t sampled_ = 0;
 };

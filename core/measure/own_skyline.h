@@ -36,22 +36,23 @@ struct OwnSkyline {
 
 /// Finds where a mesh has its greatest height over plan lines, on a regular sample of them, uniform
 /// in the measure of lines [Crofton1868], which grows until missed_share is below kMissedShare, or
-/// has doubled twice.
+/// has doubled four times.
 ///
 /// A side that is not known is taken only where a line's greatest height is on it, more than a
 /// micrometre above all that is taken already: none is guessed.
-/// The lines that the sides of no line would be highest on are estimated by those that one line
-/// alone has shown [Good53].
+/// What is missed is estimated by the lines on sides that the lines of one direction alone have
+/// shown [Good53]: so much each direction would miss, were it not sampled. Directions between them
+/// are half as far from one that is, so they miss less.
 /// known: sides that count as taken, pairs of points a < b; those that are no side are left out.
 /// Requires: `mesh` is welded (WeldedMesh). threads: never changes the result.
-/// Errors: kCancelled. Cost: for each of 192 directions, up to seven times as many, the lines, two
-///   a cell, that each ridge of the mesh crosses.
+/// Errors: kCancelled. Cost: for each of 192 directions, up to 31 times as many, the lines, two a
+///   cell, that each ridge of the mesh crosses.
 Result<OwnSkyline> FindOwnSkyline(const GridMesh& mesh,
                                   const std::vector<std::array<std::int32_t, 2>>& known,
                                   int threads, const RunControl& control);
 
-/// What FindOwnSkyline looks for: a fifth of what a level may leave out of its horizon edges, for
+/// What FindOwnSkyline looks for: less than what a level may leave out of its horizon edges, for
 /// the estimate is one.
-inline constexpr double kMissedShare = 0.001;
+inline constexpr double kMissedShare = 0.004;
 
 }  // namespace farhorizon

@@ -85,6 +85,22 @@ TEST(OwnSkyline, HasNearlyAllOfTheSkylineByDefinition) {
   }
 }
 
+// Nearly every edge of a smooth summit is on the skyline, each from few directions only.
+TEST(OwnSkyline, DirectionsBetweenThoseSampledMissLittle) {
+  Dem dem;
+  dem.columns = 40;
+  dem.rows = 60;
+  dem.quantum_m = 1e-4;
+  for (std::int32_t i = 0; i < dem.columns * dem.rows; ++i) {
+    const double away = std::hypot(i % dem.columns - 19.7, i / dem.columns - 20.2);
+    dem.heights.push_back(static_cast<std::int32_t>(std::lround(1e7 - 8e4 * away)));
+  }
+  const GridMesh mesh = MeshOf(*Terrain::Build(dem));
+  const OwnSkyline found = *FindOwnSkyline(mesh, {}, 1, control);
+  EXPECT_GE(ShareOn(mesh, PairsOf(found), 50), 0.995);
+  EXPECT_GE(ShareOn(mesh, PairsOf(found), 50), 1 - 2 * found.missed_share);
+}
+
 TEST(OwnSkyline, EachSideThatIsNotKnownIsShownByALine) {
   const Dem dem = FractalDem(3, 2);
   const GridMesh mesh = MeshOf(*Terrain::Build(dem));
