@@ -85,20 +85,20 @@ TEST(OwnSkyline, HasNearlyAllOfTheSkylineByDefinition) {
   }
 }
 
-// Nearly every edge of a smooth summit is on the skyline, each from few directions only.
+// A cone of narrow triangles: each edge down its side is on the skyline from a third of a degree,
+// over many lines side by side.
 TEST(OwnSkyline, DirectionsBetweenThoseSampledMissLittle) {
-  Dem dem;
-  dem.columns = 40;
-  dem.rows = 60;
-  dem.quantum_m = 1e-4;
-  for (std::int32_t i = 0; i < dem.columns * dem.rows; ++i) {
-    const double away = std::hypot(i % dem.columns - 19.7, i / dem.columns - 20.2);
-    dem.heights.push_back(static_cast<std::int32_t>(std::lround(1e7 - 8e4 * away)));
+  constexpr std::int32_t kSpokes = 600;
+  GridMesh cone;
+  cone.points.push_back({20.3, 20.4, 100});
+  for (std::int32_t i = 0; i < kSpokes; ++i) {
+    const double t = 2 * std::numbers::pi * i / kSpokes;
+    cone.points.push_back({20.3 + 20 * std::cos(t), 20.4 + 20 * std::sin(t), 20});
+    cone.triangles.push_back({0, i + 1, (i + 1) % kSpokes + 1});
   }
-  const GridMesh mesh = MeshOf(*Terrain::Build(dem));
-  const OwnSkyline found = *FindOwnSkyline(mesh, {}, 1, control);
-  EXPECT_GE(ShareOn(mesh, PairsOf(found), 50), 0.995);
-  EXPECT_GE(ShareOn(mesh, PairsOf(found), 50), 1 - 2 * found.missed_share);
+  const OwnSkyline found = *FindOwnSkyline(cone, {}, 1, control);
+  EXPECT_GE(ShareOn(cone, PairsOf(found), 30), 0.99);
+  EXPECT_LE(found.missed_share, kMissedShare);
 }
 
 TEST(OwnSkyline, EachSideThatIsNotKnownIsShownByALine) {
