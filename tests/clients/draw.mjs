@@ -67,10 +67,9 @@ const checkSkylines = async ({ opened, name, posts, client, pictures, report }, 
     `square of the worst view ${straight.toFixed(2)} straight up`);
 };
 
-// The edges of each level over that level.
-const kEdgeLook = { heading: 75, pitch: -1, range: 1.5, fov: 70, error: 0.05 };
-// How much of a level's skyline its own edges have at least, as pixels show it: edges are those of
-// level lines of sight from afar, and this camera stands beside the tile.
+// The edges of each level over that level, from afar and level, as horizons are defined.
+const kEdgeLook = { heading: 75, pitch: 0, range: 8, fov: 14.5, error: 0.05 };
+// How much of a level's skyline its own edges have at least, as pixels show it.
 const kCarried = 0.95;
 // CesiumJS draws the edges of models at the depth where they are, so that some are behind the ground
 // that they lie in.
