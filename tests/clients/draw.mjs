@@ -71,18 +71,20 @@ const checkSkylines = async ({ opened, name, posts, client, pictures, report }, 
 const kEdgeLook = { heading: 75, pitch: 0, range: 8, fov: 14.5, error: 0.05 };
 // How much of a level's skyline its own edges have at least, as pixels show it.
 const kCarried = 0.99;
-// CesiumJS draws the edges of models at the depth where they are, so that some are behind the ground
-// that they lie in.
+// CesiumJS draws the edges of models at the depth where they are, so that some are behind the
+// ground that they lie in.
 const kCarriedInline = 0.6;
-// Horizons are those of straight lines over the DEM's own grid. Of a tile so wide that the Earth falls
-// off within it by more pixels than this, other edges are seen.
+// Horizons are those of straight lines over the DEM's own grid. Of a tile so wide that the Earth
+// falls off within it by more pixels than this, other edges are seen.
 const kMostFall = 2;
 const fallIn = ({ radius }, { width }) => {
   const pixel = 2 * kEdgeLook.range * radius * Math.tan(kEdgeLook.fov * Math.PI / 360) / width;
   return radius ** 2 / (2 * 6_371_000) / pixel;
 };
 // Two pictures, without lines and with them. what: says which, show: draws them.
-const checkLines = async ({ opened, name, pictures, report }, what, { show, colour, least, file }) => {
+const checkLines = async (
+  { opened, name, pictures, report }, what, { show, colour, least, file },
+) => {
   const seen = await opened.ask('look', kEdgeLook);
   const without = await opened.shoot();
   await show();
@@ -95,8 +97,9 @@ const checkLines = async ({ opened, name, pictures, report }, what, { show, colo
   if (pixels < 200) faults.push(`${pixels} pixels of lines`);
   if (stray > 0) faults.push(`${stray} pixels of lines are beside the terrain`);
   if (fall < kMostFall && carried < least) faults.push(`lines are ${share}`);
-  report(`${name} in ${opened.name}, ${what}`, faults, `${pixels} pixels, ${share}` +
-    `${fall < kMostFall ? '' : `; not asked for, the Earth falls off by ${fall.toFixed(1)} pixels`}`);
+  const excuse = fall < kMostFall ? ''
+    : `; not asked for, the Earth falls off by ${fall.toFixed(1)} pixels`;
+  report(`${name} in ${opened.name}, ${what}`, faults, `${pixels} pixels, ${share}${excuse}`);
 };
 
 // lodN-horizon.glb over its level, or over the tileset as it is streamed. Lines lie in the frame of
