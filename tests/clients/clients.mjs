@@ -58,7 +58,9 @@ await attempt('viewer.html on its own', () => checkStandalone({ ...common, dir: 
 await attempt('a level in parts', async () => {
   const dir = makeSplit({ farhorizon, dem, folder: split });
   await checkFiles({ dir, posts: null, packages, report });
-  const context = { dir, folder: 'split', browser, base: server.base, posts: null, pictures, report };
+  const context = {
+    dir, folder: 'split', browser, base: server.base, posts: null, pictures, report,
+  };
   await checkCesium(context);
   await checkThree(context);
   await checkSplit({ ...common, dir });

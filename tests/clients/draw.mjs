@@ -6,7 +6,7 @@ import { openClient } from './browser.mjs';
 import { kLineColour, measureLines } from './lines.mjs';
 import { shareOf, skylineOf } from './picture.mjs';
 import { compareSkylines, demSkyline } from './skyline.mjs';
-import { levelsOf, readTileset } from './tileset.mjs';
+import { levelsOf, readTileset, tilesOf } from './tileset.mjs';
 
 // What clients draw the sky in: no terrain has that colour.
 export const kSky = [255, 0, 255];
@@ -67,60 +67,62 @@ const checkSkylines = async ({ opened, name, posts, client, pictures, report }, 
     `square of the worst view ${straight.toFixed(2)} straight up`);
 };
 
-// The edges of each level over that level.
-const kEdgeLook = { heading: 75, pitch: -1, range: 1.5, fov: 70, error: 0.05 };
-// How much of a level's skyline its own edges have at least, as pixels show it: edges are those of
-// level lines of sight from afar, and this camera stands beside the tile.
-const kCarried = 0.95;
-// CesiumJS draws the edges of models at the depth where they are, so that some are behind the ground
-// that they lie in.
+// The edges of each level over that level, from afar and level, as horizons are defined.
+const kEdgeLook = { heading: 75, pitch: 0, range: 8, fov: 14.5, error: 0.05 };
+// How much of a level's skyline its own edges have at least, as pixels show it.
+const kCarried = 0.99;
+// CesiumJS draws the edges of models at the depth where they are, so that some are behind the
+// ground that they lie in.
 const kCarriedInline = 0.6;
-// Horizons are those of straight lines over the DEM's own grid. Of a tile so wide that the Earth falls
-// off within it by more pixels than this, other edges are seen.
+// Horizons are those of straight lines over the DEM's own grid. Of a tile so wide that the Earth
+// falls off within it by more pixels than this, other edges are seen.
 const kMostFall = 2;
 const fallIn = ({ radius }, { width }) => {
   const pixel = 2 * kEdgeLook.range * radius * Math.tan(kEdgeLook.fov * Math.PI / 360) / width;
   return radius ** 2 / (2 * 6_371_000) / pixel;
 };
-const lineFaults = ({ pixels, stray, carried }, fall, least = kCarried) => [
-  ...(pixels < 200 ? [`${pixels} pixels of lines`] : []),
-  ...(stray > 0 ? [`${stray} pixels of lines are beside the terrain`] : []),
-  ...(carried < least && fall < kMostFall ? [`lines are on ${(100 * carried).toFixed(1)} % of the skyline`] : []),
-];
-const saidOf = ({ pixels, carried }, fall) =>
-  `${pixels} pixels, on ${(100 * carried).toFixed(1)} % of the skyline's columns` +
-  `${fall < kMostFall ? '' : `; not asked for, the Earth falls off by ${fall.toFixed(1)} pixels`}`;
-
-const checkLines = async ({ opened, name, dir, folder, client, pictures, report }) => {
-  const place = ({ uri, matrix }) => ({ url: `${folder}/${uri}`, matrix });
-  for (const [level, contents] of levelsOf(readTileset(dir))) {
-    if (!existsSync(join(dir, `lod${level}-horizon.glb`))) continue;
-    await opened.ask('showContents', contents.map(place));
-    const seen = await opened.ask('look', kEdgeLook);
-    const without = await opened.shoot();
-    await opened.ask('showLines',
-      place({ ...contents[0], uri: `lod${level}-horizon.glb` }), kLineColour);
-    const drawn = await opened.shoot(join(pictures, `${name}-${client}-lines-${level}.png`));
-    const found = measureLines(without, drawn, skylineOf(without, kSky), kSky);
-    await opened.ask('showLines', null);
-    const fall = fallIn(seen, without);
-    report(`${name} in ${opened.name}, lod${level}-horizon.glb`,
-      lineFaults(found, fall), saidOf(found, fall));
-  }
-  await opened.ask('showContents', []);
-};
-
-// Over the tileset as it is streamed.
-const checkStreamedLines = async ({ opened, name, dir, folder, client, pictures, report }) => {
-  const [{ matrix }] = levelsOf(readTileset(dir)).get(0);
+// Two pictures, without lines and with them. what: says which, show: draws them.
+const checkLines = async (
+  { opened, name, pictures, report }, what, { show, colour, least, file },
+) => {
   const seen = await opened.ask('look', kEdgeLook);
   const without = await opened.shoot();
-  await opened.ask('showLines', { url: `${folder}/lod0-horizon.glb`, matrix }, kLineColour);
-  const drawn = await opened.shoot(join(pictures, `${name}-${client}-lines.png`));
-  const found = measureLines(without, drawn, skylineOf(without, kSky), kSky);
+  await show();
+  const drawn = await opened.shoot(join(pictures, `${name}-${file}.png`));
+  const { pixels, stray, carried } = measureLines(
+    without, drawn, skylineOf(without, kSky), kSky, colour);
   const fall = fallIn(seen, without);
-  report(`${name} in ${opened.name}, lod0-horizon.glb`,
-    lineFaults(found, fall), saidOf(found, fall));
+  const share = `on ${(100 * carried).toFixed(1)} % of the skyline's columns`;
+  const faults = [];
+  if (pixels < 200) faults.push(`${pixels} pixels of lines`);
+  if (stray > 0) faults.push(`${stray} pixels of lines are beside the terrain`);
+  if (fall < kMostFall && carried < least) faults.push(`lines are ${share}`);
+  const excuse = fall < kMostFall ? ''
+    : `; not asked for, the Earth falls off by ${fall.toFixed(1)} pixels`;
+  report(`${name} in ${opened.name}, ${what}`, faults, `${pixels} pixels, ${share}${excuse}`);
+};
+
+// lodN-horizon.glb over its level, or over the tileset as it is streamed. Lines lie in the frame of
+// the root, wherever the level's contents do.
+const checkHorizon = async (drawn, level) => {
+  const { opened, dir, folder, client } = drawn;
+  const uri = `lod${level}-horizon.glb`;
+  if (!existsSync(join(dir, uri))) return;
+  const [{ matrix }] = tilesOf(readTileset(dir));
+  await checkLines(drawn, uri, {
+    show: () => opened.ask('showLines', { url: `${folder}/${uri}`, matrix }, kLineColour),
+    colour: kLineColour, least: kCarried, file: `${client}-lines-${level}`,
+  });
+  await opened.ask('showLines', null);
+};
+const checkLevels = async (drawn) => {
+  const { opened, dir, folder } = drawn;
+  for (const [level, contents] of levelsOf(readTileset(dir))) {
+    await opened.ask('showContents',
+      contents.map(({ uri, matrix }) => ({ url: `${folder}/${uri}`, matrix })));
+    await checkHorizon(drawn, level);
+  }
+  await opened.ask('showContents', []);
 };
 
 // Of a build with --edges inline or both: what EXT_mesh_primitive_edge_visibility draws.
@@ -130,16 +132,10 @@ const hasInlineEdges = (dir) => {
   const { extensionsUsed } = JSON.parse(bytes.toString('utf8', 20, 20 + bytes.readUInt32LE(12)));
   return extensionsUsed?.includes('EXT_mesh_primitive_edge_visibility');
 };
-const checkInlineEdges = async ({ opened, name, pictures, report }) => {
-  const seen = await opened.ask('look', kEdgeLook);
-  const without = await opened.shoot();
-  await opened.ask('showInlineEdges', true);
-  const drawn = await opened.shoot(join(pictures, `${name}-cesium-inline.png`));
-  const found = measureLines(without, drawn, skylineOf(without, kSky), kSky, null);
-  const fall = fallIn(seen, without);
-  report(`${name} in ${opened.name}, edges of the models' own`,
-    lineFaults(found, fall, kCarriedInline), saidOf(found, fall));
-};
+const checkInlineEdges = (drawn) => checkLines(drawn, 'edges of the models\' own', {
+  show: () => drawn.opened.ask('showInlineEdges', true),
+  colour: null, least: kCarriedInline, file: 'cesium-inline',
+});
 
 const open = async (context, client) => {
   const folder = `/${context.folder}`;
@@ -158,7 +154,7 @@ export const checkCesium = async (context) => {
   const drawn = await open(context, 'cesium');
   await checkLooks(drawn);
   if (context.posts) await checkSkylines(drawn, kSkylines);
-  await checkLines(drawn);
+  await checkLevels(drawn);
   if (hasInlineEdges(context.dir)) await checkInlineEdges(drawn);
   await finish(drawn);
 };
@@ -166,6 +162,6 @@ export const checkThree = async (context) => {
   const drawn = await open(context, 'three');
   await checkLooks(drawn);
   if (context.posts) await checkSkylines(drawn, kSkylines.filter((_, i) => i % 4 === 1));
-  if (existsSync(join(context.dir, 'lod0-horizon.glb'))) await checkStreamedLines(drawn);
+  await checkHorizon(drawn, 0);
   await finish(drawn);
 };

@@ -16,7 +16,7 @@ const placesOf = ({ columns, rows, heights, geodetic }) => {
   for (let row = 1; row + 1 < rows; ++row) {
     for (let column = 1; column + 1 < columns; ++column) {
       const at = row * columns + column;
-      const around = [-columns - 1, -columns, -columns + 1, -1, 0, 1, columns - 1, columns, columns + 1];
+      const around = [-columns, 0, columns].flatMap((step) => [step - 1, step, step + 1]);
       if (around.every((step) => !Number.isNaN(heights[at + step]))) inner.push(at);
     }
   }
@@ -51,15 +51,15 @@ const checkHeights = async ({ opened, name, posts, terrain, maxzoom, report }) =
     const error = errorAt(terrain.tiles, maxzoom, [longitude, latitude]);
     const off = sampled[i] === null ? Infinity : Math.abs(sampled[i] - height);
     if (!(off <= error + kRounding)) {
-      faults.push(`${longitude}, ${latitude}: ${sampled[i]} m, the DEM has ${height}, the tile is ` +
-        `off by ${error} at most`);
+      faults.push(`${longitude}, ${latitude}: ${sampled[i]} m, the DEM has ${height}, the tile ` +
+        `is off by ${error} at most`);
     }
     most = Math.max(most, off);
     allowed = Math.max(allowed, error);
     squares += off * off;
   });
   report(`${name} as terrain in ${opened.name}, sampleTerrainMostDetailed`, faults,
-    `${places.length} posts, off by ${most.toFixed(3)} m at most (${allowed.toFixed(3)} allowed), ` +
+    `${places.length} posts, off by ${most.toFixed(3)} m at most, ${allowed.toFixed(3)} allowed, ` +
     `root mean square ${Math.sqrt(squares / places.length).toFixed(3)}`);
 };
 

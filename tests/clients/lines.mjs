@@ -32,8 +32,8 @@ const isNear = (width, height, x, y, reach, holds) => {
   return false;
 };
 
-// Result: `pixels`: of lines; `stray`: those with no terrain within two pixels; `carried`: the share
-// of the drawn skyline's columns that have a line within two pixels of it.
+// Result: `pixels`: of lines; `stray`: those with no terrain within two pixels; `carried`: the
+// share of the drawn skyline's columns that have a line within two pixels of it.
 export const measureLines = (without, with_, skyline, sky, colour = kLineColour) => {
   const { width, height } = without;
   const mask = lineMask(without, with_, colour);

@@ -121,7 +121,7 @@ const lookAtViewer = async ({ browser, base, pictures, report, address }, kind) 
   await opened.close();
 };
 
-// The page that `farhorizon viewer` puts beside artifacts, on a web server that knows nothing of it.
+// The page that `farhorizon viewer` puts beside artifacts, on a server that knows nothing of it.
 const openStandalone = async ({ browser, farhorizon, dir, cache }) => {
   const copy = join(cache, 'standalone');
   rmSync(copy, { recursive: true, force: true });

@@ -57,10 +57,10 @@ const toEcef = ([longitude, latitude, height]) => {
     (n + height) * Math.cos(phi) * Math.sin(lambda), (n * (1 - e2) + height) * Math.sin(phi)];
 };
 
-// report: of the build, which says in what reference system, heights included, the DEM has been read,
-// and by which datum operation it was placed.
-// Result: { columns, rows, heights, geodetic, ecef }; places have three numbers a post, NaN where it
-// has no data.
+// report: of the build, which says in what reference system, heights included, the DEM has been
+// read, and by which datum operation it was placed.
+// Result: { columns, rows, heights, geodetic, ecef }; places have three numbers a post, NaN where
+// it has no data.
 export const readPosts = (dem, report) => {
   const { crs } = report.dem;
   const [operation] = report.assumptions
@@ -85,8 +85,8 @@ export const readPosts = (dem, report) => {
   return { columns, rows, heights, geodetic, ecef };
 };
 
-// Calls edge(i, j) for every edge of the DEM's triangles: cells are split from their first corner to
-// the one across; of one with three posts there is the triangle of these.
+// Calls edge(i, j) for every edge of the DEM's triangles: cells are split from their first corner
+// to the one across; of one with three posts there is the triangle of these.
 export const eachEdge = ({ columns, rows, heights }, edge) => {
   const has = (i) => !Number.isNaN(heights[i]);
   const line = (i, j) => { if (has(i) && has(j)) edge(i, j); };

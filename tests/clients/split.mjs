@@ -26,7 +26,8 @@ const within = (region, other) => region.map((value, k) => (
 const build = (farhorizon, dem, window, dir, options) => {
   mkdirSync(dir, { recursive: true });
   const cut = join(dir, 'cut.tif');
-  execFileSync('gdal_translate', ['-q', '-srcwin', ...window.map(String), dem, cut], { stdio: 'pipe' });
+  execFileSync('gdal_translate',
+    ['-q', '-srcwin', ...window.map(String), dem, cut], { stdio: 'pipe' });
   execFileSync(farhorizon,
     ['build', cut, '-o', join(dir, 'out'), '--formats', '3dtiles', ...options], { stdio: 'pipe' });
   return join(dir, 'out');

@@ -23,7 +23,7 @@ const readTile = (decode, dir, name) => {
   return { zoom, x, y, count, places, decoded };
 };
 
-// How wide a triangle is across its longest side, seen from above; below zero where it is clockwise.
+// How wide a triangle is across its longest side, from above; below zero where it is clockwise.
 const widthOf = (a, b, c) => {
   const area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
   const longest = Math.max(...[[a, b], [b, c], [c, a]].map(
@@ -45,7 +45,7 @@ const tileFaults = ({ zoom, count, places, decoded }, [least, most]) => {
   for (const [side, [axis, value]] of Object.entries(kSides)) {
     const listed = [...decoded[`${side}Indices`]].sort((a, b) => a - b);
     const there = [...places.keys()].filter((i) => places[i][axis] === value);
-    need(listed.join() === there.join(), `the list of its ${side} side is not that of its vertices`);
+    need(listed.join() === there.join(), `its ${side} side's list is not that of its vertices`);
   }
   for (let i = 0; i < corners.length; i += 3) {
     const [a, b, c] = [0, 1, 2].map((k) => places[corners[i + k]]);
@@ -84,8 +84,9 @@ const availableFaults = (layer, tiles) => {
   });
   return [
     ...[...said].filter((name) => !tiles.has(name)).map((name) => `there is no tile ${name}`),
-    ...[...tiles.keys()].filter((name) => !said.has(name)).map((name) => `${name} is not available`),
-    ...(layer.available.length === layer.maxzoom + 1 ? [] : ['maxzoom is not the last that is there']),
+    ...[...tiles.keys()].filter((name) => !said.has(name))
+      .map((name) => `${name} is not available`),
+    ...(layer.available.length === layer.maxzoom + 1 ? [] : ['maxzoom is not the last there is']),
   ];
 };
 
