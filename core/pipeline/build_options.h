@@ -27,7 +27,7 @@ inline bool IsInline(EdgeFiles edges) {
 /// known of it.
 enum class HorizonDetail { kChains, kEdges };
 
-/// Options of `farhorizon build` and of a job. The defaults are those of proto/openapi.yaml.
+/// Options of `farhorizon build` and of a job. The defaults are those of proto/openapi.json.
 struct BuildOptions {
   int levels = 5;                     ///< at most
   std::optional<double> max_error_m;  ///< of level 0; unset: as LevelPlan has it
@@ -59,7 +59,7 @@ struct BuildOptions {
 /// value and its range.
 Status CheckOptions(const BuildOptions& options);
 
-/// The names of all parameters that a job may have, as in proto/openapi.yaml: "maxError".
+/// The names of all parameters that a job may have, as in proto/openapi.json: "maxError".
 std::vector<std::string_view> ParameterNames();
 /// The flag of the command line for a parameter: "--max-error" of "maxError". Messages of the core
 /// name flags.
