@@ -23,6 +23,7 @@ struct Config {
   std::chrono::seconds drain_time{8};
   std::string sandbox_require = "none";  ///< as CheckSandbox takes it
   LogOptions log;
+  bool echo = false;             ///< whether the process echo is offered
   std::filesystem::path cesium;  ///< the folder of CesiumJS; empty: InstalledCesium()
 };
 

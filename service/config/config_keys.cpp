@@ -204,6 +204,9 @@ std::vector<ConfigKey> AllKeys() {
   keys.push_back(Text("viewer.cesium", Path(&Config::cesium),
                       "the folder of CesiumJS, as service/pages/install-cesium makes it; empty: "
                       "cesium beside the program, or share/farhorizon/cesium beside its bin"));
+  keys.push_back(Choice("conformance.echo", Path(&Config::echo), std::array{"off", "on"},
+                        "whether the process echo is offered, which the test suites of OGC API - "
+                        "Processes need"));
   for (ConfigKey& key : keys) key.reloads = Reloads(key.name);
   return keys;
 }

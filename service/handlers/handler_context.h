@@ -17,6 +17,7 @@ struct HandlerContext {
   std::int64_t max_body_bytes = 0;
   TermBounds terms = {};
   std::shared_ptr<const AssetFolder> cesium = nullptr;  ///< for the viewer; nullptr: not installed
+  bool echo = false;                                    ///< whether the process echo is offered
 };
 
 }  // namespace farhorizon

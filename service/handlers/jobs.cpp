@@ -1,9 +1,9 @@
 #include "service/handlers/jobs.h"
 
 #include <optional>
-#include <string_view>
 
-#include "core/pipeline/option_numbers.h"
+#include "service/clock.h"
+#include "service/handlers/job_query.h"
 #include "service/handlers/json.h"
 #include "service/handlers/problem.h"
 #include "service/handlers/status_info.h"
@@ -12,59 +12,15 @@ namespace farhorizon {
 
 namespace {
 
-constexpr int kMaxPageSize = 10000;
-
-Error BadQuery(const std::string& what) {
-  return {ErrorCode::kInvalidArgument, what, "invalid-query-parameter-value"};
-}
-
-Result<int> ReadLimit(const std::string& text) {
-  const std::optional<std::int64_t> limit = WholeNumberIn(text);
-  if (limit && *limit >= 1 && *limit <= kMaxPageSize) return static_cast<int>(*limit);
-  return BadQuery("limit must be a whole number from 1 to 10000");
-}
-
-Result<std::vector<JobState>> ReadStates(std::string_view text) {
-  std::vector<JobState> states;
-  while (!text.empty()) {
-    const std::size_t comma = text.find(',');
-    const std::optional<JobState> state = JobStateOf(text.substr(0, comma));
-    text = comma == std::string_view::npos ? std::string_view{} : text.substr(comma + 1);
-    if (!state) {
-      return BadQuery("status must be a list of accepted, running, successful, failed, dismissed");
-    }
-    states.push_back(*state);
-  }
-  return states;
-}
-
-Result<JobQuery> ReadQuery(const Parameters& parameters) {
-  JobQuery query;
-  for (const auto& [name, value] : parameters) {
-    if (name == "limit") {
-      Result<int> limit = ReadLimit(value);
-      if (!limit) return std::move(limit.error());
-      query.limit = *limit;
-    } else if (name == "status") {
-      Result<std::vector<JobState>> states = ReadStates(value);
-      if (!states) return std::move(states.error());
-      query.states = *std::move(states);
-    } else if (name == "cursor") {
-      if (!IsJobId(value)) return BadQuery("cursor must come from a next link");
-      query.before = value;
-    } else {
-      return BadQuery("there is no parameter '" + name + "'; known are limit, status and cursor");
-    }
-  }
-  return query;
-}
-
 HttpResponse ListJobs(const HandlerContext& context, const HttpRequest& request) {
-  const std::optional<Parameters> parameters = DecodeQuery(request.query, {"status"});
-  Result<JobQuery> query =
-      parameters ? ReadQuery(*parameters) : Result<JobQuery>(BadQuery("the query cannot be read"));
-  if (!query) return ProblemResponse(request, ProblemOf(query.error()));
-  Result<JobPage> page = context.jobs.List(*query);
+  const std::optional<Parameters> parameters =
+      DecodeQuery(request.query, {"processID", "status", "type"});
+  if (!parameters) {
+    return ProblemResponse(request, {"invalid-query-parameter-value", "the query cannot be read"});
+  }
+  Result<JobListRequest> asked = ReadJobQuery(*parameters, NowMs());
+  if (!asked) return ProblemResponse(request, ProblemOf(asked.error()));
+  Result<JobPage> page = asked->none ? JobPage() : context.jobs.List(asked->query);
   if (!page) return ProblemResponse(request, ProblemOf(page.error()));
   nlohmann::ordered_json document = {{"jobs", nlohmann::ordered_json::array()},
                                      {"links", nlohmann::ordered_json::array()}};

@@ -18,8 +18,8 @@ HttpResponse JsonResponse(const nlohmann::ordered_json& document) {
   return response;
 }
 
-HttpResponse TaggedJsonResponse(const HttpRequest& request,
-                                const nlohmann::ordered_json& document) {
+HttpResponse TaggedJsonResponse(const HttpRequest& request, const nlohmann::ordered_json& document,
+                                const char* type) {
   HttpResponse response;
   response.body = DumpJson(document);
   const std::string etag = "\"" + Sha256Hex(response.body) + "\"";
@@ -28,7 +28,7 @@ HttpResponse TaggedJsonResponse(const HttpRequest& request,
     return ProblemResponse(request,
                            {"precondition-failed", "it is not the one that If-Match names"});
   }
-  response.Set("Content-Type", "application/json");
+  response.Set("Content-Type", type);
   response.Set("Cache-Control", "no-cache");
   response.Set("ETag", etag);
   if (response.status == 304) response.body.clear();

@@ -17,6 +17,8 @@ HttpResponse JsonResponse(const nlohmann::ordered_json& document);
 
 /// The same with an entity tag, for what clients ask for again and again: 304 to a client that has
 /// this document, 412 where If-Match names another.
-HttpResponse TaggedJsonResponse(const HttpRequest& request, const nlohmann::ordered_json& document);
+/// type: the media type, of JSON.
+HttpResponse TaggedJsonResponse(const HttpRequest& request, const nlohmann::ordered_json& document,
+                                const char* type = "application/json");
 
 }  // namespace farhorizon

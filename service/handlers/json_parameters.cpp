@@ -20,12 +20,16 @@ std::optional<std::string> ScalarText(const nlohmann::json& value) {
 Result<Parameters> ParametersOfJson(const std::string& text) {
   Result<nlohmann::json> document = ParseStrictJson(text);
   if (!document) return std::move(document.error());
+  return ParametersOf(*document);
+}
+
+Result<Parameters> ParametersOf(const nlohmann::json& document) {
   const auto invalid = [](const std::string& what) {
     return Error{ErrorCode::kInvalidArgument, what, "invalid-parameter"};
   };
-  if (!document->is_object()) return invalid("the parameters must be a JSON object");
+  if (!document.is_object()) return invalid("the parameters must be a JSON object");
   Parameters parameters;
-  for (const auto& [name, value] : document->items()) {
+  for (const auto& [name, value] : document.items()) {
     std::optional<std::string> joined = ScalarText(value);
     if (value.is_array()) {
       joined.emplace();

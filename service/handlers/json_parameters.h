@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include <nlohmann/json.hpp>
+
 #include "core/base/result.h"
 #include "service/url_query.h"
 
@@ -11,5 +13,7 @@ namespace farhorizon {
 /// strings, or arrays of those, which become lists separated by commas.
 /// Errors: kInvalidArgument "invalid-json", "invalid-parameter".
 Result<Parameters> ParametersOfJson(const std::string& text);
+/// The same of a document that has been parsed. Errors: kInvalidArgument "invalid-parameter".
+Result<Parameters> ParametersOf(const nlohmann::json& document);
 
 }  // namespace farhorizon

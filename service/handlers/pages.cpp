@@ -9,6 +9,7 @@
 
 #include "core/io/sha256.h"
 #include "service/handlers/byte_range.h"
+#include "service/handlers/capabilities.h"
 #include "service/handlers/content_coding.h"
 #include "service/handlers/jobs.h"
 #include "service/handlers/json.h"
@@ -66,25 +67,9 @@ HttpResponse PageResponse(const HttpRequest& request, std::string page, const ch
 }
 
 HttpResponse ShowIndex(const HandlerContext& context, const HttpRequest& request) {
-  const auto link = [&](const char* relation, const char* type, const char* path,
-                        const char* title) {
-    return nlohmann::ordered_json{
-        {"rel", relation}, {"type", type}, {"title", title}, {"href", context.base + path}};
-  };
-  HttpResponse response =
-      WantsHtml(request)
-          ? PageResponse(request, IndexPage(), kIndexPolicy)
-          : TaggedJsonResponse(
-                request,
-                {{"title", "farhorizon"},
-                 {"description",
-                  "Turns elevation grids into levels of detail whose skyline is exactly that of "
-                  "the original"},
-                 {"links",
-                  {link("self", "application/json", "/", "This document"),
-                   link("alternate", "text/html", "/", "The same for people"),
-                   link("http://www.opengis.net/def/rel/ogc/1.0/job-list", "application/json",
-                        "/jobs", "The jobs; POST sends a DEM")}}});
+  HttpResponse response = WantsHtml(request)
+                              ? PageResponse(request, IndexPage(), kIndexPolicy)
+                              : TaggedJsonResponse(request, LandingDocument(context.base));
   response.Set("Vary", "Accept");
   return response;
 }

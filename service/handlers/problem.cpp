@@ -39,10 +39,11 @@ constexpr ErrorKind kKinds400[] = {
     "unknown-parameter",
     "virtual-path",
 };
-constexpr ErrorKind kKinds403[] = {"origin-not-allowed"};
+constexpr ErrorKind kKinds403[] = {"href-not-allowed", "origin-not-allowed"};
 constexpr ErrorKind kKinds404[] = {
-    "no-config",        "no-such-file", "no-such-job",          "no-such-output",
-    "no-such-resource", "not-found",    "result-not-available", "result-not-ready",
+    "no-config",      "no-such-file",         "no-such-job",
+    "no-such-output", "no-such-process",      "no-such-resource",
+    "not-found",      "result-not-available", "result-not-ready",
 };
 constexpr ErrorKind kKinds405[] = {"method-not-allowed"};
 constexpr ErrorKind kKinds408[] = {"request-timeout"};
@@ -157,7 +158,7 @@ static_assert(std::all_of(kErrorKinds.begin(), kErrorKinds.end(),
 
 // Whether OGC API - Processes has a URI of its own for `code`.
 bool IsOgcName(ErrorKind code) {
-  constexpr ErrorKind kNames[] = {"invalid-query-parameter-value", "no-such-job",
+  constexpr ErrorKind kNames[] = {"invalid-query-parameter-value", "no-such-job", "no-such-process",
                                   "result-not-available", "result-not-ready"};
   return std::find(std::begin(kNames), std::end(kNames), code) != std::end(kNames);
 }

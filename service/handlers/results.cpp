@@ -9,8 +9,8 @@
 #include "service/handlers/byte_range.h"
 #include "service/handlers/content_coding.h"
 #include "service/handlers/jobs.h"
-#include "service/handlers/json.h"
 #include "service/handlers/problem.h"
+#include "service/handlers/result_answer.h"
 #include "service/log.h"
 #include "service/metrics.h"
 
@@ -32,26 +32,14 @@ Result<Job> FinishedJob(const HandlerContext& context, const std::string& id) {
       Check(job->failure.has_value(), "a failed job has its failure");
       return *job->failure;
     default:
-      return Error{ErrorCode::kNotFound, "the job was dismissed and has no results",
-                   "result-not-available"};
+      return NoResults();
   }
 }
 
 HttpResponse ListResults(const HandlerContext& context, const HttpRequest& request) {
   Result<Job> job = FinishedJob(context, request.parameters.at(0));
   if (!job) return ProblemResponse(request, ProblemOf(job.error()));
-  Result<std::vector<Artifact>> artifacts = context.jobs.Artifacts(job->id);
-  if (!artifacts) return ProblemResponse(request, ProblemOf(artifacts.error()));
-  nlohmann::ordered_json document = nlohmann::ordered_json::object();
-  for (const Artifact& artifact : *artifacts) {
-    document[artifact.name] = {
-        {"href", context.base + "/jobs/" + job->id + "/results/" + artifact.name},
-        {"type", artifact.media_type},
-        {"title", artifact.name},
-        {"length", artifact.bytes},
-        {"sha256", artifact.sha256}};
-  }
-  HttpResponse response = TaggedJsonResponse(request, document);
+  HttpResponse response = AnswerResults(context, request, *job);
   response.job_id = job->id;
   return response;
 }
@@ -95,6 +83,8 @@ class ArtifactSource : public BodySource {
   std::shared_ptr<VerifiedObject> object_;
 };
 
+}  // namespace
+
 HttpResponse SendArtifact(const HttpRequest& request, OpenArtifact open) {
   const StoredObject& stored = open.stored;
   const std::string etag = "\"" + stored.sha256 + "\"";
@@ -135,21 +125,29 @@ HttpResponse SendArtifact(const HttpRequest& request, OpenArtifact open) {
   return response;
 }
 
+Error NoResults() {
+  return {ErrorCode::kNotFound, "the job was dismissed and has no results", "result-not-available"};
+}
+
+HttpResponse LostArtifact(const HttpRequest& request, const Job& job, const Error& error) {
+  const Problem problem = ProblemOf(error);
+  if (problem.status >= 500) {
+    Log(LogLevel::kError, "artifact lost", {{"job_id", job.id}, {"error", error.message}});
+  }
+  return ProblemResponse(request, problem);
+}
+
+namespace {
+
 HttpResponse GetArtifact(const HandlerContext& context, const HttpRequest& request) {
   Result<Job> job = FinishedJob(context, request.parameters.at(0));
   if (!job) return ProblemResponse(request, ProblemOf(job.error()));
   const Coding coding = AcceptsGzip(request) ? Coding::kGzip : Coding::kIdentity;
   Result<OpenArtifact> open = context.jobs.Open(job->id, request.parameters.at(1), coding);
-  if (open) {
-    HttpResponse response = SendArtifact(request, *std::move(open));
-    response.job_id = job->id;
-    return response;
-  }
-  const Problem problem = ProblemOf(open.error());
-  if (problem.status >= 500) {
-    Log(LogLevel::kError, "artifact lost", {{"job_id", job->id}, {"error", open.error().message}});
-  }
-  return ProblemResponse(request, problem);
+  if (!open) return LostArtifact(request, *job, open.error());
+  HttpResponse response = SendArtifact(request, *std::move(open));
+  response.job_id = job->id;
+  return response;
 }
 
 }  // namespace

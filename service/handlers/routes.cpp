@@ -3,6 +3,8 @@
 #include <utility>
 #include <vector>
 
+#include "service/handlers/capabilities.h"
+#include "service/handlers/execute.h"
 #include "service/handlers/health.h"
 #include "service/handlers/jobs.h"
 #include "service/handlers/pages.h"
@@ -12,9 +14,10 @@
 namespace farhorizon {
 
 Router BuildRouter(const HandlerContext& context) {
-  std::vector<Route> routes = {SubmitRoute(context)};
+  std::vector<Route> routes = {SubmitRoute(context), ExecutionRoute(context)};
   for (const std::vector<Route>& group :
-       {JobRoutes(context), ResultRoutes(context), HealthRoutes(context), PageRoutes(context)}) {
+       {JobRoutes(context), ResultRoutes(context), HealthRoutes(context), PageRoutes(context),
+        CapabilityRoutes(context)}) {
     routes.insert(routes.end(), group.begin(), group.end());
   }
   return Router(std::move(routes));

@@ -24,7 +24,7 @@ ordered_json StatusInfo(const Job& job, const std::string& base) {
                        {"id", job.id},
                        {"type", "process"},
                        {"processingEntityType", "ogc-api-processes"},
-                       {"processID", "terrain-lod"},
+                       {"processID", job.process},
                        {"status", JobStateName(job.state)},
                        {"message", job.message},
                        {"progress", job.progress},

@@ -8,8 +8,8 @@
 #include <string>
 #include <utility>
 
-#include "core/pipeline/build_options.h"
 #include "service/handlers/content_digest.h"
+#include "service/handlers/execute.h"
 #include "service/handlers/json.h"
 #include "service/handlers/json_parameters.h"
 #include "service/handlers/problem.h"
@@ -26,13 +26,6 @@ namespace {
 
 constexpr std::size_t kMaxKeyBytes = 256;
 
-// What the parameters of a request ask for.
-struct Wishes {
-  Parameters parameters;  // of the build
-  JobTerms terms;
-  BuildOptions options;
-};
-
 // The contents of the head of a submission.
 struct SubmissionHead {
   Parameters parameters;  // of the query, except the file name, with the job's terms
@@ -42,7 +35,8 @@ struct SubmissionHead {
   ContentDigest digest;
 };
 
-// The field holds a quoted string; text without the quotes is taken, too.
+}  // namespace
+
 Result<std::optional<std::string>> ReadIdempotencyKey(const HttpRequest& request) {
   const std::string* field = request.Header("idempotency-key");
   if (field == nullptr) return std::optional<std::string>();
@@ -57,15 +51,22 @@ Result<std::optional<std::string>> ReadIdempotencyKey(const HttpRequest& request
   return std::optional<std::string>(key);
 }
 
-// Sets `head.wishes` from `head.parameters`.
-Status ReadWishes(const TermBounds& bounds, SubmissionHead& head) {
-  Parameters of_build = head.parameters;
-  Result<JobTerms> terms = TakeTerms(of_build, bounds);
+Result<Wishes> ReadWishes(Parameters parameters, const TermBounds& bounds) {
+  Result<JobTerms> terms = TakeTerms(parameters, bounds);
   if (!terms) return std::move(terms.error());
-  Result<BuildOptions> options = ParseOptions(of_build);
+  Result<BuildOptions> options = ParseOptions(parameters);
   if (!options) return std::move(options.error());
-  if (Status checked = CheckOptions(*options); !checked) return checked;
-  head.wishes = {std::move(of_build), *terms, *std::move(options)};
+  if (Status checked = CheckOptions(*options); !checked) return std::move(checked.error());
+  return Wishes{std::move(parameters), *terms, *std::move(options)};
+}
+
+namespace {
+
+// Sets `head.wishes` from `head.parameters`.
+Status SetWishes(const TermBounds& bounds, SubmissionHead& head) {
+  Result<Wishes> wishes = ReadWishes(head.parameters, bounds);
+  if (!wishes) return std::move(wishes.error());
+  head.wishes = *std::move(wishes);
   return Ok{};
 }
 
@@ -92,7 +93,7 @@ Result<SubmissionHead> ReadSubmissionHead(const HttpRequest& request, const Term
   if (!digest) return std::move(digest.error());
   SubmissionHead head{*std::move(query), {}, {}, *std::move(key), *std::move(digest)};
   TakeFilename(head);
-  if (Status read = ReadWishes(bounds, head); !read) return std::move(read.error());
+  if (Status read = SetWishes(bounds, head); !read) return std::move(read.error());
   return head;
 }
 
@@ -108,7 +109,7 @@ Status AddFormParameters(const std::string& json, const TermBounds& bounds, Subm
                  "invalid-parameter"};
   }
   TakeFilename(head);
-  return ReadWishes(bounds, head);
+  return SetWishes(bounds, head);
 }
 
 class SubmitExchange : public Exchange {
@@ -159,61 +160,69 @@ Result<Job> SubmitExchange::Submit() {
   if (!complete) return std::move(complete.error());
   Result<Submission> submission = ReadSubmission();
   if (!submission) return std::move(submission.error());
-  const SpoolFile& spool = body_.spool();
-  Status upload = CheckUpload(spool.beginning(), spool.bytes(), submission->filename);
-  if (!upload) {
-    Error error = std::move(upload.error());
-    if (submission->filename == kNoFilename) {
-      error.message += "; formats that a name tells need it, as ?filename=N46E007.hgt";
-    }
-    return error;
-  }
-  Result<ProbeReport> report = context_.jobs.Probe(spool, *submission);
-  if (!report) return std::move(report.error());
-  submission->assumptions = std::move(report->assumptions);
-  submission->cost = report->cost;
-  auto job = context_.jobs.Submit(spool, *submission);
-  if (!job) return std::move(job.error());
-  return job;
+  return SubmitUpload(context_, body_.spool(), *std::move(submission));
 }
 
-HttpResponse SubmitExchange::Finish() {
-  const Result<Job> job = Submit();
-  if (!job) {
-    const Problem problem = ProblemOf(job.error());
-    if (problem.status >= 500) {
-      Log(LogLevel::kError, "submission failed", {{"error", job.error().message}});
-    }
-    return ProblemResponse(request_, problem);
-  }
-  HttpResponse response = JsonResponse(StatusInfo(*job, context_.base));
-  response.status = 201;
-  response.job_id = job->id;
-  response.Set("Location", context_.base + "/jobs/" + job->id);
-  response.Set("Retry-After", "1");
-  return response;
-}
+HttpResponse SubmitExchange::Finish() { return SubmittedResponse(context_, request_, Submit()); }
 
 Admission BeginSubmission(const HandlerContext& context, const HttpRequest& request) {
   std::variant<UploadMedia, HttpResponse> media = ReadUploadMedia(request);
   if (auto* refusal = std::get_if<HttpResponse>(&media)) return std::move(*refusal);
+  if (std::get<UploadMedia>(media).json) return BeginExecution(context, request, "");
   if (request.content_length.value_or(0) > context.max_body_bytes) {
     return ProblemResponse(request, ProblemOf(BodyTooLarge(context.max_body_bytes)));
   }
   Result<SubmissionHead> head = ReadSubmissionHead(request, context.terms);
   if (!head) return ProblemResponse(request, ProblemOf(head.error()));
-  const Status room = context.jobs.CheckRoom(request.peer);
-  if (!room) return ProblemResponse(request, ProblemOf(room.error()));
-  Result<SpoolFile> spool = context.jobs.NewSpoolFile();
-  if (!spool) {
-    Log(LogLevel::kError, "cannot spool", {{"error", spool.error().message}});
-    return ProblemResponse(request, ProblemOf(spool.error()));
-  }
+  Result<SpoolFile> spool = SpoolForJob(context, request);
+  if (!spool) return ProblemResponse(request, ProblemOf(spool.error()));
   return std::make_unique<SubmitExchange>(context, request, *std::move(head), *std::move(spool),
                                           std::get<UploadMedia>(media).boundary);
 }
 
 }  // namespace
+
+Result<SpoolFile> SpoolForJob(const HandlerContext& context, const HttpRequest& request) {
+  Status room = context.jobs.CheckRoom(request.peer);
+  if (!room) return std::move(room.error());
+  Result<SpoolFile> spool = context.jobs.NewSpoolFile();
+  if (!spool) Log(LogLevel::kError, "cannot spool", {{"error", spool.error().message}});
+  return spool;
+}
+
+Result<Job> SubmitUpload(const HandlerContext& context, const SpoolFile& spool,
+                         Submission submission) {
+  Status upload = CheckUpload(spool.beginning(), spool.bytes(), submission.filename);
+  if (!upload) {
+    Error error = std::move(upload.error());
+    if (submission.filename == kNoFilename) {
+      error.message += "; formats that a name tells need it, as ?filename=N46E007.hgt";
+    }
+    return error;
+  }
+  Result<ProbeReport> report = context.jobs.Probe(spool, submission);
+  if (!report) return std::move(report.error());
+  submission.assumptions = std::move(report->assumptions);
+  submission.cost = report->cost;
+  return context.jobs.Submit(spool, submission);
+}
+
+HttpResponse SubmittedResponse(const HandlerContext& context, const HttpRequest& request,
+                               const Result<Job>& job) {
+  if (!job) {
+    const Problem problem = ProblemOf(job.error());
+    if (problem.status >= 500) {
+      Log(LogLevel::kError, "submission failed", {{"error", job.error().message}});
+    }
+    return ProblemResponse(request, problem);
+  }
+  HttpResponse response = JsonResponse(StatusInfo(*job, context.base));
+  response.status = 201;
+  response.job_id = job->id;
+  response.Set("Location", context.base + "/jobs/" + job->id);
+  response.Set("Retry-After", "1");
+  return response;
+}
 
 Route SubmitRoute(const HandlerContext& context) {
   return {"POST", "/jobs",

@@ -1,5 +1,5 @@
 // The first bytes of a body tell its format, better than its Content-Type does. So that is refused
-// only where the body cannot be the file itself: a form of another kind, JSON, a page.
+// only where the body cannot be the file itself: a form of another kind, a page.
 #include "service/handlers/upload_media.h"
 
 #include <algorithm>
@@ -14,7 +14,10 @@ namespace farhorizon {
 namespace {
 
 constexpr const char* kAccepted =
-    "image/tiff, text/plain, application/zip, application/octet-stream, multipart/form-data";
+    "image/tiff, text/plain, application/zip, application/octet-stream, multipart/form-data, "
+    "application/json";
+
+constexpr const char* kJson = "application/json";
 
 // Types that programs give to files of heights.
 constexpr std::array<std::string_view, 13> kDemTypes = {"",
@@ -80,8 +83,25 @@ std::variant<UploadMedia, HttpResponse> ReadUploadMedia(const HttpRequest& reque
     return ProblemResponse(
         request, {"invalid-multipart", "the Content-Type has no boundary that can be used"});
   }
-  if (std::find(kDemTypes.begin(), kDemTypes.end(), media) != kDemTypes.end()) return UploadMedia{};
+  if (media == kJson) return UploadMedia{.json = true};
+  if (IsDemMediaType(media)) return UploadMedia{};
   return RefuseType(request, media);
+}
+
+std::variant<UploadMedia, HttpResponse> ReadExecutionMedia(const HttpRequest& request) {
+  if (const auto coding = CodingOf(request)) return RefuseCoding(request, *coding);
+  const std::string* type = request.Header("content-type");
+  if (type != nullptr && MediaTypeIn(*type) == kJson) return UploadMedia{.json = true};
+  HttpResponse response = ProblemResponse(
+      request, {"unsupported-media-type",
+                "an execute request has the Content-Type application/json; files and forms go to "
+                "/jobs"});
+  response.Set("Accept-Post", kJson);
+  return response;
+}
+
+bool IsDemMediaType(std::string_view media) {
+  return std::find(kDemTypes.begin(), kDemTypes.end(), media) != kDemTypes.end();
 }
 
 }  // namespace farhorizon

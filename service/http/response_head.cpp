@@ -29,7 +29,8 @@ std::string ResponseHead(const HttpRequest& request, const HttpResponse& respons
   if (!cors.readable_by.empty()) {
     add("Access-Control-Allow-Origin", cors.readable_by);
     add("Access-Control-Expose-Headers",
-        "Location, ETag, Link, Retry-After, Content-Range, Accept-Ranges, Repr-Digest");
+        "Location, ETag, Link, Retry-After, Preference-Applied, Content-Range, Accept-Ranges, "
+        "Repr-Digest");
   }
   if (cors.depends_on_origin) add("Vary", "Origin");
   if (!request.request_id.empty()) add("X-Request-Id", request.request_id);

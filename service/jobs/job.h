@@ -57,6 +57,11 @@ struct JobCost {
   std::int64_t seconds = 0;  ///< of one core
 };
 
+/// The processes that a job may be of, by their names in OGC API - Processes. What a job does is
+/// terrain-lod; echo gives back what it is sent.
+inline constexpr const char* kTerrainProcess = "terrain-lod";
+inline constexpr const char* kEchoProcess = "echo";
+
 /// One piece of work, as it is stored. Times are milliseconds since 1970.
 struct Job {
   std::string id;
@@ -85,6 +90,8 @@ struct Job {
   std::optional<std::int64_t> deadline_ms;  ///< when it fails unless it has ended
   std::int64_t timeout_seconds = 0;         ///< as JobTerms has it
   JobCost cost;
+  std::string process = kTerrainProcess;
+  std::string answer;  ///< how its results are to be answered, for the handlers; empty: as always
 };
 
 /// One output file of a job.

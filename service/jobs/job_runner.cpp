@@ -101,8 +101,8 @@ Status JobRunner::Prepare(const Job& job, const fs::path& directory) {
     return Error{ErrorCode::kIo, "the stored upload is lost; send it again", "input-corrupt"};
   }
   if (!copied) return copied;
-  return WriteTaskFile(
-      directory, {input.string(), "out", job.parameters, options_.max_posts, options_.threads});
+  return WriteTaskFile(directory, {input.string(), "out", job.parameters, options_.max_posts,
+                                   options_.threads, job.process == kEchoProcess});
 }
 
 // Stores a new stage at most ten times a second, and the share of one that is done at most twice.

@@ -53,6 +53,8 @@ struct Submission {
   JobTerms terms = {};
   JobCost cost = {};          ///< likewise
   BuildOptions options = {};  ///< what the parameters mean
+  std::string process = kTerrainProcess;
+  std::string answer = {};  ///< as Job has it
 };
 
 /// One thing that a service depends on.

@@ -23,6 +23,8 @@ struct NewJob {
   std::string client = {};       ///< who sends it
   JobTerms terms = {};
   JobCost cost = {};
+  std::string process = kTerrainProcess;
+  std::string answer = {};  ///< as Job has it
 };
 
 /// How many jobs have not ended.
@@ -46,9 +48,18 @@ struct MemoryRoom {
 
 /// The jobs that a page of the list is to have.
 struct JobQuery {
-  std::vector<JobState> states;       ///< empty: all
-  std::optional<std::string> before;  ///< only jobs with a lesser id: the page's cursor
+  std::vector<JobState> states = {};       ///< empty: all
+  std::optional<std::string> before = {};  ///< only jobs with a lesser id: the page's cursor
   int limit = 10;
+  std::vector<std::string> processes = {};  ///< empty: all
+  /// When the jobs were accepted, both ends included.
+  std::optional<std::int64_t> created_from_ms = {};
+  std::optional<std::int64_t> created_to_ms = {};
+  /// How long the jobs took, those that run until now_ms. Where one of the two is set, jobs that
+  /// wait or have never started are left out.
+  std::optional<std::int64_t> least_duration_ms = {};
+  std::optional<std::int64_t> most_duration_ms = {};
+  std::int64_t now_ms = 0;
 };
 
 /// Newest first. next: the cursor of the following page, unset on the last.
@@ -101,7 +112,7 @@ class JobStore {
   /// Stores an accepted job and returns it. If the store knows the idempotency key, stores nothing
   /// and returns the key's job.
   /// Errors: kInvalidArgument "idempotency-key-reused" where the key's job has another input, name
-  ///   or other parameters; as CheckQueue, in the same transaction.
+  ///   or process, or other parameters; as CheckQueue, in the same transaction.
   virtual Result<Job> Insert(const NewJob& job, const QueueBounds& bounds, std::int64_t now_ms) = 0;
 
   /// Succeeds if another job of `client` may wait. Errors: kResourceExhausted "too-many-jobs"

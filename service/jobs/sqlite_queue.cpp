@@ -27,7 +27,8 @@ bool HasTerms(const Job& job, const JobTerms& terms) {
 Result<Job> EarlierJob(const Database& database, const std::string& id, const NewJob& job) {
   const std::optional<Job> earlier = SelectJob(database, id);
   if (earlier && earlier->input_sha256 == job.input_sha256 && earlier->filename == job.filename &&
-      earlier->parameters == job.parameters && HasTerms(*earlier, job.terms)) {
+      earlier->parameters == job.parameters && HasTerms(*earlier, job.terms) &&
+      earlier->process == job.process && earlier->answer == job.answer) {
     return *earlier;
   }
   return Error{ErrorCode::kInvalidArgument,

@@ -1,6 +1,8 @@
 #include "service/jobs/sqlite_rows.h"
 
 #include <algorithm>
+#include <utility>
+#include <variant>
 
 #include <nlohmann/json.hpp>
 
@@ -34,6 +36,49 @@ Assumptions ReadAssumptions(const std::string& text) {
     assumptions.push_back({one["code"].get<std::string>(), one["text"].get<std::string>()});
   }
   return assumptions;
+}
+
+// Conditions of a WHERE, each with AND before it, and the values that they compare with.
+struct Conditions {
+  std::string text;
+  std::vector<std::variant<std::string, std::int64_t>> values;
+
+  void Add(const char* condition, std::variant<std::string, std::int64_t> value) {
+    text.append(" AND ").append(condition);
+    values.push_back(std::move(value));
+  }
+  // The column has one of these values. Without any, nothing is asked for.
+  void AddOneOf(const char* column, const std::vector<std::string>& allowed) {
+    if (allowed.empty()) return;
+    text.append(" AND ").append(column).append(" IN (?");
+    for (std::size_t i = 1; i < allowed.size(); ++i) text.append(", ?");
+    text.append(")");
+    values.insert(values.end(), allowed.begin(), allowed.end());
+  }
+};
+
+Conditions ConditionsOf(const JobQuery& query) {
+  Conditions all;
+  std::vector<std::string> states;
+  for (const JobState state : query.states) states.emplace_back(JobStateName(state));
+  if (query.before) all.Add("id < ?", *query.before);
+  all.AddOneOf("state", states);
+  all.AddOneOf("process", query.processes);
+  if (query.created_from_ms) all.Add("created_ms >= ?", *query.created_from_ms);
+  if (query.created_to_ms) all.Add("created_ms <= ?", *query.created_to_ms);
+  // A job that waits to run again has a start and no end.
+  const bool timed = query.least_duration_ms || query.most_duration_ms;
+  if (timed) all.text += " AND state <> 'accepted' AND started_ms IS NOT NULL";
+  if (query.least_duration_ms) {
+    all.Add("coalesce(finished_ms - started_ms >= ?, 1)", *query.least_duration_ms);
+    all.Add("(finished_ms IS NOT NULL OR started_ms <= ?)",
+            query.now_ms - *query.least_duration_ms);
+  }
+  if (query.most_duration_ms) {
+    all.Add("coalesce(finished_ms - started_ms <= ?, 1)", *query.most_duration_ms);
+    all.Add("(finished_ms IS NOT NULL OR started_ms >= ?)", query.now_ms - *query.most_duration_ms);
+  }
+  return all;
 }
 
 }  // namespace
@@ -73,6 +118,8 @@ Job ReadJob(const Statement& row) {
   if (!row.IsNull(23)) job.deadline_ms = row.Integer(23);
   job.timeout_seconds = row.Integer(24);
   job.cost = {row.Integer(25), row.Integer(26)};
+  job.process = row.Text(27);
+  job.answer = row.Text(28);
   const bool unclear = !parameters && !IsTerminal(job.state);
   if (unclear || (job.state == JobState::kFailed && !job.failure)) {
     job.failure =
@@ -89,17 +136,12 @@ std::optional<Job> SelectJob(const Database& database, const std::string& id) {
 }
 
 JobPage SelectPage(const Database& database, const JobQuery& query) {
-  std::string where = "WHERE 1";
-  if (query.before) where += " AND id < ?";
-  if (!query.states.empty()) {
-    where += " AND state IN (?";
-    for (std::size_t i = 1; i < query.states.size(); ++i) where += ", ?";
-    where += ")";
+  const Conditions conditions = ConditionsOf(query);
+  Statement rows(database, std::string("SELECT ") + kJobColumns + " FROM jobs WHERE 1" +
+                               conditions.text + " ORDER BY id DESC LIMIT ?");
+  for (const auto& value : conditions.values) {
+    std::visit([&rows](const auto& one) { rows.Bind(one); }, value);
   }
-  Statement rows(database, std::string("SELECT ") + kJobColumns + " FROM jobs " + where +
-                               " ORDER BY id DESC LIMIT ?");
-  if (query.before) rows.Bind(*query.before);
-  for (const JobState state : query.states) rows.Bind(std::string(JobStateName(state)));
   rows.Bind(std::int64_t{query.limit} + 1);  // one more tells whether a page follows
   JobPage page;
   while (rows.Step()) page.jobs.push_back(ReadJob(rows));
@@ -117,8 +159,9 @@ std::string InsertJob(const Database& database, const NewJob& job, std::int64_t 
   Statement insert(database,
                    "INSERT INTO jobs (id, state, filename, parameters, input_sha256, "
                    "input_bytes, created_ms, updated_ms, assumptions, client, message, priority, "
-                   "timeout_seconds, cost_memory_bytes, cost_seconds, deadline_ms) "
-                   "VALUES (?, 'accepted', ?, ?, ?, ?, ?, ?, ?, ?, 'waiting', ?, ?, ?, ?, "
+                   "timeout_seconds, cost_memory_bytes, cost_seconds, process, answer, "
+                   "deadline_ms) "
+                   "VALUES (?, 'accepted', ?, ?, ?, ?, ?, ?, ?, ?, 'waiting', ?, ?, ?, ?, ?, ?, "
                    "nullif(?, 0))");
   insert.Bind(id).Bind(job.filename).Bind(EncodeQuery(job.parameters));
   insert.Bind(job.input_sha256).Bind(job.input_bytes).Bind(now_ms).Bind(now_ms);
@@ -126,6 +169,7 @@ std::string InsertJob(const Database& database, const NewJob& job, std::int64_t 
   const JobTerms& terms = job.terms;
   insert.Bind(static_cast<std::int64_t>(terms.priority)).Bind(terms.timeout_seconds);
   insert.Bind(job.cost.memory_bytes).Bind(job.cost.seconds);
+  insert.Bind(job.process).Bind(job.answer);
   insert.Bind(terms.deadline_seconds > 0 ? now_ms + terms.deadline_seconds * 1000 : 0).Run();
   return id;
 }

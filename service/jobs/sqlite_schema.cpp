@@ -88,7 +88,11 @@ CREATE INDEX jobs_by_priority ON jobs (priority, client, id) WHERE state = 'acce
 CREATE INDEX jobs_by_deadline ON jobs (deadline_ms)
   WHERE state = 'accepted' AND deadline_ms IS NOT NULL;
 )";
-constexpr std::array kVersions = {kVersion1, kVersion2, kVersion3, kVersion4, kVersion5};
+constexpr const char* kVersion6 = R"(
+ALTER TABLE jobs ADD COLUMN process TEXT NOT NULL DEFAULT 'terrain-lod';
+ALTER TABLE jobs ADD COLUMN answer TEXT NOT NULL DEFAULT '';
+)";
+constexpr std::array kVersions = {kVersion1, kVersion2, kVersion3, kVersion4, kVersion5, kVersion6};
 
 std::int64_t CountOfTables(Database& database) {
   Statement count(database, "SELECT count(*) FROM sqlite_schema");

@@ -20,6 +20,7 @@
 #include "core/pipeline/terrain_input.h"
 #include "service/clock.h"
 #include "service/stage_timer.h"
+#include "service/worker/run_echo.h"
 #include "service/worker/worker_protocol.h"
 
 namespace farhorizon {
@@ -102,6 +103,7 @@ Status Probe(const WorkerTask& task, const BuildOptions& options, const RunContr
 Status Run(bool probe_only, StageTimer& timer) {
   Result<WorkerTask> task = ReadTaskFile();
   if (!task) return std::move(task.error());
+  if (task->echo) return RunEcho(task->input, task->output);
   Result<BuildOptions> options = ParseOptions(task->parameters);
   if (!options) return std::move(options.error());
   options->max_posts = task->max_posts;

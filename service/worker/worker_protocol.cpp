@@ -94,7 +94,8 @@ std::string WriteTask(const WorkerTask& task) {
                {"output", task.output},
                {"parameters", task.parameters},
                {"maxPosts", task.max_posts},
-               {"threads", task.threads}});
+               {"threads", task.threads},
+               {"echo", task.echo}});
 }
 
 Result<WorkerTask> ReadTask(const std::string& text) {
@@ -106,6 +107,7 @@ Result<WorkerTask> ReadTask(const std::string& text) {
     task.parameters = object.at("parameters").get<Parameters>();
     task.max_posts = object.at("maxPosts").get<std::int64_t>();
     task.threads = object.at("threads").get<int>();
+    task.echo = object.at("echo").get<bool>();
     return task;
   } catch (const json::exception& failure) {
     return Error{ErrorCode::kInvalidArgument, std::string("worker's task: ") + failure.what()};

@@ -26,6 +26,7 @@ struct WorkerTask {
   Parameters parameters;  ///< as of a job
   std::int64_t max_posts = 0;
   int threads = 1;
+  bool echo = false;  ///< the input is no raster but what RunEcho gives back
 };
 
 std::string WriteTask(const WorkerTask& task);

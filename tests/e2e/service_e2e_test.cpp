@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "core/io/base64.h"
 #include "core/io/sha256.h"
 #include "tests/support/gunzip.h"
 #include "tests/support/json_schema.h"
@@ -108,6 +109,32 @@ TEST_F(ServiceE2e, ShowsAPageUnderAPolicyThatShutsItIn) {
   const std::string report = Ask(port_, "GET", job + "/results/report.json").head;
   EXPECT_THAT(report, testing::HasSubstr("Content-Disposition: attachment"));
   EXPECT_THAT(report, testing::HasSubstr(policy + "\r\n"));
+}
+
+TEST_F(ServiceE2e, AnswersExecuteRequestsAtOnceOrByAJob) {
+  Start({"FARHORIZON_CONFORMANCE_ECHO=on"});
+  const auto execute = [this](const std::string& process, const json& body) {
+    return Ask(port_, "POST", "/processes/" + process + "/execution",
+               "Content-Type: application/json\r\n", body.dump());
+  };
+  const RawAnswer echo = execute(
+      "echo", {{"inputs", {{"text", "hi"}, {"numbers", {1, 2}}}}, {"response", "document"}});
+  EXPECT_EQ(echo.status, 200) << echo.body;
+  EXPECT_EQ(json::parse(echo.body), json::parse(R"({"numbers": [1, 2], "text": "hi"})"));
+  EXPECT_EQ(echo.head.find("Link:"), std::string::npos);
+  const std::string grid = SmallGrid();
+  const std::string dem =
+      ToBase64({reinterpret_cast<const unsigned char*>(grid.data()), grid.size()});
+  const RawAnswer accepted =
+      execute("terrain-lod", {{"inputs", {{"dem", dem}, {"crs", "EPSG:4326"}, {"levels", 1}}},
+                              {"outputs", {{"lod0.glb", json::object()}}}});
+  ASSERT_EQ(accepted.status, 201) << accepted.body;
+  const std::string job = "/jobs/" + json::parse(accepted.body).value("jobID", "");
+  ASSERT_EQ(WaitForEnd(job), "successful");
+  const RawAnswer mesh = Ask(port_, "GET", job + "/results");
+  EXPECT_EQ(mesh.status, 200);
+  EXPECT_EQ(mesh.body.substr(0, 4), "glTF");
+  EXPECT_EQ(mesh.body, Ask(port_, "GET", job + "/results/lod0.glb").body);
 }
 
 TEST_F(ServiceE2e, SendsInGzipWhatThatMakesSmaller) {

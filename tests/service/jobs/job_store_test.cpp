@@ -268,6 +268,34 @@ TEST_P(JobStoreConformance, FiltersByState) {
   EXPECT_EQ(store_->CountUnfinished()->accepted, 1);
 }
 
+TEST_P(JobStoreConformance, FiltersByProcessTimeAndDuration) {
+  const Job first = Insert("a");
+  NewJob other{"echo.json", {}, std::string(64, 'b'), 5};
+  other.process = kEchoProcess;
+  other.answer = "as asked";
+  const Job second = *store_->Insert(other, {}, time_ += 1000);
+  const Job done = Claim();
+  time_ += 5000;
+  Succeed(done);
+  const Job running = Claim();
+  EXPECT_EQ(done.id, first.id);
+  EXPECT_EQ(running.process, kEchoProcess);
+  EXPECT_EQ(running.answer, "as asked");
+  Insert("c");
+  const auto count = [&](const JobQuery& query) { return store_->List(query)->jobs.size(); };
+  EXPECT_EQ(count({.processes = {kEchoProcess}}), 1U);
+  EXPECT_EQ(count({.processes = {kEchoProcess, kTerrainProcess}}), 3U);
+  EXPECT_EQ(count({.created_from_ms = second.created_ms}), 2U);
+  EXPECT_EQ(count({.created_to_ms = second.created_ms}), 2U);
+  EXPECT_EQ(count({.created_from_ms = first.created_ms, .created_to_ms = first.created_ms}), 1U);
+  const std::int64_t soon = *running.started_ms + 2000;
+  EXPECT_EQ(count({.least_duration_ms = 0, .now_ms = soon}), 2U) << "one waits";
+  EXPECT_EQ(count({.least_duration_ms = 3000, .now_ms = soon}), 1U);
+  EXPECT_EQ(count({.least_duration_ms = 3000, .now_ms = soon + 1000}), 2U);
+  EXPECT_EQ(count({.most_duration_ms = 3000, .now_ms = soon}), 1U);
+  EXPECT_EQ(count({.least_duration_ms = 2000, .most_duration_ms = 5001, .now_ms = soon}), 2U);
+}
+
 TEST_P(JobStoreConformance, KeepsTheBoundOfTheQueueWhoeverComesAtOnce) {
   std::atomic<int> taken{0};
   std::atomic<int> full{0};

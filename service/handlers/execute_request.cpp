@@ -1,0 +1,160 @@
+#include "service/handlers/execute_request.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <utility>
+
+#include "service/handlers/processes.h"
+#include "service/strict_json.h"
+
+namespace farhorizon {
+
+namespace {
+
+using nlohmann::json;
+
+Error Invalid(const std::string& what) {
+  return {ErrorCode::kInvalidArgument, what, "invalid-parameter"};
+}
+
+// What an input or an output says of its format: by itself, or in an object `format`.
+std::string TextOf(const json& object, const char* name) {
+  const auto found = object.find(name);
+  if (found != object.end() && found->is_string()) return found->get<std::string>();
+  const auto format = object.find("format");
+  if (format == object.end() || !format->is_object()) return "";
+  const auto within = format->find(name);
+  return within != format->end() && within->is_string() ? within->get<std::string>() : "";
+}
+
+Status CheckMembers(const json& body) {
+  constexpr std::array<std::string_view, 4> kKnown = {"inputs", "outputs", "process", "response"};
+  if (!body.is_object()) return Invalid("an execute request is a JSON object");
+  for (const auto& [name, value] : body.items()) {
+    if (std::find(kKnown.begin(), kKnown.end(), name) != kKnown.end()) continue;
+    return Invalid("an execute request has no member \"" + name.substr(0, 100) +
+                   "\"; known are inputs, outputs, response and process");
+  }
+  if (body.contains("inputs") && body["inputs"].is_object()) return Ok{};
+  return Invalid("an execute request has its inputs in an object, as {\"inputs\": {…}}");
+}
+
+// The process that the body names, by its name or its URL.
+Result<std::string> ProcessOf(const HandlerContext& context, const json& body,
+                              const std::string& expected) {
+  if (!body.contains("process")) return expected.empty() ? kTerrainProcess : expected;
+  if (!body["process"].is_string()) return Invalid("process must be a process' name or URL");
+  std::string named = body["process"].get<std::string>();
+  const std::string folder = context.base + "/processes/";
+  if (named.starts_with(folder)) named.erase(0, folder.size());
+  if (!expected.empty() && named != expected) {
+    return Invalid("the body names another process than the path");
+  }
+  if (!IsOffered(context, named)) return NoSuchProcess(named);
+  return named;
+}
+
+// nullopt without the member.
+Result<std::optional<bool>> RawOf(const json& body) {
+  if (!body.contains("response")) return std::optional<bool>();
+  if (body["response"] == "raw") return std::optional<bool>(true);
+  if (body["response"] == "document") return std::optional<bool>(false);
+  return Invalid("response must be raw or document");
+}
+
+// The transmissions that are asked for by name, unset where none is; nullopt for all outputs.
+using Asked = std::optional<std::map<std::string, std::optional<Transmission>>>;
+
+Result<Asked> AskedOutputs(const json& body, const std::string& process) {
+  if (!body.contains("outputs")) return Asked();
+  if (!body["outputs"].is_object()) return Invalid("outputs must be an object");
+  Asked asked;
+  asked.emplace();
+  for (const auto& [name, how] : body["outputs"].items()) {
+    if (!MayHaveOutput(process, name)) {
+      return Invalid("the process has no output \"" + name.substr(0, 100) +
+                     "\"; its description lists all");
+    }
+    if (!how.is_object()) return Invalid("an output is asked for by an object, which may be empty");
+    std::optional<Transmission>& mode = (*asked)[name];
+    if (!how.contains("transmissionMode")) continue;
+    const json& word = how["transmissionMode"];
+    if (word != "value" && word != "reference") {
+      return Invalid("transmissionMode must be value or reference");
+    }
+    mode = word == "value" ? Transmission::kValue : Transmission::kReference;
+  }
+  return asked;
+}
+
+ResultWishes WishesOf(const std::string& process, std::optional<bool> raw, Asked asked) {
+  const bool echo = process == kEchoProcess;
+  if (!asked && echo) {
+    asked.emplace();
+    for (const auto& [name, output] : ProcessDescription(process, "")["outputs"].items()) {
+      (*asked)[name] = {};
+    }
+  }
+  const bool one = asked && asked->size() == 1;
+  ResultWishes wishes{raw.value_or(echo || one)};
+  if (!asked) return wishes;
+  const Transmission usual =
+      echo || (one && wishes.raw) ? Transmission::kValue : Transmission::kReference;
+  wishes.outputs.emplace();
+  for (const auto& [name, mode] : *asked) (*wishes.outputs)[name] = mode.value_or(usual);
+  return wishes;
+}
+
+}  // namespace
+
+Error NoSuchProcess(std::string_view process) {
+  return {ErrorCode::kNotFound,
+          "there is no process \"" + std::string(process.substr(0, 100)) +
+              "\"; GET /processes lists all",
+          "no-such-process"};
+}
+
+Result<GivenInput> ReadInput(const std::string& name, const json& given) {
+  if (!given.is_object()) return GivenInput{given, "", ""};
+  if (given.contains("href")) {
+    return Error{
+        ErrorCode::kInvalidArgument,
+        "the input " + name + " is a link, and this service fetches nothing; send the value itself",
+        "href-not-allowed"};
+  }
+  if (!given.contains("value")) return GivenInput{given, "", ""};
+  return GivenInput{given["value"], TextOf(given, "mediaType"), TextOf(given, "encoding")};
+}
+
+Result<json> ReadValue(const std::string& name, const json& given) {
+  if (!given.is_array()) {
+    Result<GivenInput> read = ReadInput(name, given);
+    if (!read) return std::move(read.error());
+    return std::move(read->value);
+  }
+  json values = json::array();
+  for (const json& element : given) {
+    Result<GivenInput> read = ReadInput(name, element);
+    if (!read) return std::move(read.error());
+    values.push_back(std::move(read->value));
+  }
+  return values;
+}
+
+Result<ExecuteRequest> ReadExecuteRequest(const HandlerContext& context, const std::string& text,
+                                          const std::string& process) {
+  Result<json> body = ParseStrictJson(text);
+  if (!body) return std::move(body.error());
+  if (Status known = CheckMembers(*body); !known) return std::move(known.error());
+  Result<std::string> named = ProcessOf(context, *body, process);
+  if (!named) return std::move(named.error());
+  Result<std::optional<bool>> raw = RawOf(*body);
+  if (!raw) return std::move(raw.error());
+  Result<Asked> asked = AskedOutputs(*body, *named);
+  if (!asked) return std::move(asked.error());
+  ResultWishes wishes = WishesOf(*named, *raw, *std::move(asked));
+  return ExecuteRequest{*std::move(named), std::move((*body)["inputs"]), std::move(wishes)};
+}
+
+}  // namespace farhorizon

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "service/handlers/handler_context.h"
+#include "service/handlers/http_message.h"
+
+namespace farhorizon {
+
+/// The results of a successful job as its execute request wished for them: a JSON document; one
+/// output's bytes; several in multipart/related; or 204 with a Link to each. Without wishes it is
+/// the document, with a link to each artifact.
+///
+/// Values in one response have 4 MiB together at most: further ones are sent as links. Where there
+/// would be more than a hundred fields Link, the document takes their place.
+HttpResponse AnswerResults(const HandlerContext& context, const HttpRequest& request,
+                           const Job& job);
+
+}  // namespace farhorizon
