@@ -10,6 +10,8 @@
 
 namespace farhorizon {
 
+class KeyGate;
+
 /// What the handlers share.
 struct HandlerContext {
   JobService& jobs;
@@ -17,6 +19,7 @@ struct HandlerContext {
   std::int64_t max_body_bytes = 0;
   TermBounds terms = {};
   std::shared_ptr<const AssetFolder> cesium = nullptr;  ///< for the viewer; nullptr: not installed
+  std::shared_ptr<KeyGate> gate = nullptr;              ///< nullptr: nobody asks for keys
 };
 
 }  // namespace farhorizon

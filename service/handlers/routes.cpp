@@ -8,11 +8,12 @@
 #include "service/handlers/pages.h"
 #include "service/handlers/results.h"
 #include "service/handlers/submit.h"
+#include "service/handlers/tickets.h"
 
 namespace farhorizon {
 
 Router BuildRouter(const HandlerContext& context) {
-  std::vector<Route> routes = {SubmitRoute(context)};
+  std::vector<Route> routes = {SubmitRoute(context), TicketRoute(context)};
   for (const std::vector<Route>& group :
        {JobRoutes(context), ResultRoutes(context), HealthRoutes(context), PageRoutes(context)}) {
     routes.insert(routes.end(), group.begin(), group.end());

@@ -137,6 +137,11 @@ class SubmitExchange : public Exchange {
   UploadBody body_;
 };
 
+// Whose turn a job takes: each key's owner has one, and where no key is asked for each address.
+std::string ClientOf(const HttpRequest& request) {
+  return request.caller.owner.empty() ? request.peer : request.caller.owner;
+}
+
 // Head and form joined.
 Result<Submission> SubmitExchange::ReadSubmission() {
   if (body_.params()) {
@@ -147,9 +152,10 @@ Result<Submission> SubmitExchange::ReadSubmission() {
   return Submission{.filename = SafeFilename(name),
                     .parameters = std::move(head_.wishes.parameters),
                     .idempotency_key = std::move(head_.idempotency_key),
-                    .client = request_.peer,
+                    .client = ClientOf(request_),
                     .terms = head_.wishes.terms,
-                    .options = std::move(head_.wishes.options)};
+                    .options = std::move(head_.wishes.options),
+                    .owner = request_.caller.owner};
 }
 
 Result<Job> SubmitExchange::Submit() {
@@ -202,7 +208,7 @@ Admission BeginSubmission(const HandlerContext& context, const HttpRequest& requ
   }
   Result<SubmissionHead> head = ReadSubmissionHead(request, context.terms);
   if (!head) return ProblemResponse(request, ProblemOf(head.error()));
-  const Status room = context.jobs.CheckRoom(request.peer);
+  const Status room = context.jobs.CheckRoom(ClientOf(request));
   if (!room) return ProblemResponse(request, ProblemOf(room.error()));
   Result<SpoolFile> spool = context.jobs.NewSpoolFile();
   if (!spool) {

@@ -29,9 +29,11 @@ std::string ResponseHead(const HttpRequest& request, const HttpResponse& respons
   if (!cors.readable_by.empty()) {
     add("Access-Control-Allow-Origin", cors.readable_by);
     add("Access-Control-Expose-Headers",
-        "Location, ETag, Link, Retry-After, Content-Range, Accept-Ranges, Repr-Digest");
+        "Location, ETag, Link, Retry-After, Content-Range, Accept-Ranges, Repr-Digest, "
+        "WWW-Authenticate");
   }
   if (cors.depends_on_origin) add("Vary", "Origin");
+  if (!request.caller.key_id.empty()) add("Vary", "Authorization");
   if (!request.request_id.empty()) add("X-Request-Id", request.request_id);
   return head + "\r\n";
 }

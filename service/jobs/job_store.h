@@ -20,9 +20,10 @@ struct NewJob {
   std::int64_t input_bytes = 0;
   std::optional<std::string> idempotency_key;
   Assumptions assumptions = {};  ///< as far as they are known before it runs
-  std::string client = {};       ///< who sends it
+  std::string client = {};       ///< whose turn it takes
   JobTerms terms = {};
   JobCost cost = {};
+  std::string owner = {};  ///< whose key it comes with; empty: no key was asked for
 };
 
 /// How many jobs have not ended.
@@ -49,6 +50,7 @@ struct JobQuery {
   std::vector<JobState> states;       ///< empty: all
   std::optional<std::string> before;  ///< only jobs with a lesser id: the page's cursor
   int limit = 10;
+  std::optional<std::string> owner = {};  ///< only jobs of this owner, who is not empty
 };
 
 /// Newest first. next: the cursor of the following page, unset on the last.
@@ -85,7 +87,7 @@ struct StoreIdentity {
 /// (1) A job's state changes only as MayFollow allows.
 /// (2) A call with a `run` has an effect only while the job is running and `run` is its current
 ///     run; otherwise the call returns false.
-/// (3) One idempotency key makes at most one job.
+/// (3) One idempotency key of an owner makes at most one job.
 /// (4) No time of a job is before one that the store had already, even where the clock goes back;
 ///     of two jobs that it has, the one that was inserted later has the greater id.
 /// Errors, of every call: kIo where the store cannot be read or written, kResourceExhausted where
@@ -98,8 +100,8 @@ class JobStore {
   JobStore(const JobStore&) = delete;
   JobStore& operator=(const JobStore&) = delete;
 
-  /// Stores an accepted job and returns it. If the store knows the idempotency key, stores nothing
-  /// and returns the key's job.
+  /// Stores an accepted job and returns it. If the store knows the idempotency key of the owner,
+  /// stores nothing and returns the key's job.
   /// Errors: kInvalidArgument "idempotency-key-reused" where the key's job has another input, name
   ///   or other parameters; as CheckQueue, in the same transaction.
   virtual Result<Job> Insert(const NewJob& job, const QueueBounds& bounds, std::int64_t now_ms) = 0;

@@ -73,6 +73,7 @@ Job ReadJob(const Statement& row) {
   if (!row.IsNull(23)) job.deadline_ms = row.Integer(23);
   job.timeout_seconds = row.Integer(24);
   job.cost = {row.Integer(25), row.Integer(26)};
+  job.owner = row.Text(27);
   const bool unclear = !parameters && !IsTerminal(job.state);
   if (unclear || (job.state == JobState::kFailed && !job.failure)) {
     job.failure =
@@ -90,6 +91,8 @@ std::optional<Job> SelectJob(const Database& database, const std::string& id) {
 
 JobPage SelectPage(const Database& database, const JobQuery& query) {
   std::string where = "WHERE 1";
+  // The second condition is that of the index jobs_by_owner.
+  if (query.owner) where += " AND owner = ? AND owner <> ''";
   if (query.before) where += " AND id < ?";
   if (!query.states.empty()) {
     where += " AND state IN (?";
@@ -98,6 +101,7 @@ JobPage SelectPage(const Database& database, const JobQuery& query) {
   }
   Statement rows(database, std::string("SELECT ") + kJobColumns + " FROM jobs " + where +
                                " ORDER BY id DESC LIMIT ?");
+  if (query.owner) rows.Bind(*query.owner);
   if (query.before) rows.Bind(*query.before);
   for (const JobState state : query.states) rows.Bind(std::string(JobStateName(state)));
   rows.Bind(std::int64_t{query.limit} + 1);  // one more tells whether a page follows
@@ -117,15 +121,15 @@ std::string InsertJob(const Database& database, const NewJob& job, std::int64_t 
   Statement insert(database,
                    "INSERT INTO jobs (id, state, filename, parameters, input_sha256, "
                    "input_bytes, created_ms, updated_ms, assumptions, client, message, priority, "
-                   "timeout_seconds, cost_memory_bytes, cost_seconds, deadline_ms) "
-                   "VALUES (?, 'accepted', ?, ?, ?, ?, ?, ?, ?, ?, 'waiting', ?, ?, ?, ?, "
+                   "timeout_seconds, cost_memory_bytes, cost_seconds, owner, deadline_ms) "
+                   "VALUES (?, 'accepted', ?, ?, ?, ?, ?, ?, ?, ?, 'waiting', ?, ?, ?, ?, ?, "
                    "nullif(?, 0))");
   insert.Bind(id).Bind(job.filename).Bind(EncodeQuery(job.parameters));
   insert.Bind(job.input_sha256).Bind(job.input_bytes).Bind(now_ms).Bind(now_ms);
   insert.Bind(AssumptionsColumn(job.assumptions)).Bind(job.client);
   const JobTerms& terms = job.terms;
   insert.Bind(static_cast<std::int64_t>(terms.priority)).Bind(terms.timeout_seconds);
-  insert.Bind(job.cost.memory_bytes).Bind(job.cost.seconds);
+  insert.Bind(job.cost.memory_bytes).Bind(job.cost.seconds).Bind(job.owner);
   insert.Bind(terms.deadline_seconds > 0 ? now_ms + terms.deadline_seconds * 1000 : 0).Run();
   return id;
 }

@@ -1,5 +1,7 @@
 #include "service/handlers/routes.h"
 
+#include <map>
+#include <optional>
 #include <set>
 #include <sstream>
 
@@ -8,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/pipeline/build_options.h"
+#include "service/handlers/route_scopes.h"
 #include "tests/support/handlers_fixture.h"
 #include "tests/support/json_schema.h"
 
@@ -32,6 +35,32 @@ TEST_F(RoutesTest, AnswersWhatOpenapiSays) {
   std::set<std::string> kept;
   for (const Route& route : router_->routes()) {
     kept.insert(LowerCase(route.method) + " " + route.pattern);
+  }
+  EXPECT_EQ(kept, promised);
+}
+
+// A line "security: [{key: [SCOPE]}]" or "security: []" of each operation.
+TEST_F(RoutesTest, NeedsTheScopesThatOpenapiSays) {
+  std::map<std::string, std::string> promised;
+  std::istringstream file(SlurpFile(std::string(FARHORIZON_SOURCE_DIR) + "/proto/openapi.yaml"));
+  std::string path;
+  std::string operation;
+  for (std::string line; std::getline(file, line);) {
+    if (line.rfind("  /", 0) == 0) path = line.substr(2, line.size() - 3);
+    for (const char* method : {"get", "post", "delete"}) {
+      if (line == std::string("    ") + method + ":") operation = method + (" " + path);
+    }
+    const std::string field = "      security: [";
+    if (line.rfind(field, 0) != 0) continue;
+    const std::size_t scope = line.find("{key: [");
+    promised[operation] =
+        scope == std::string::npos ? "" : line.substr(scope + 7, line.find(']') - scope - 7);
+  }
+  std::map<std::string, std::string> kept;
+  for (const Route& route : router_->routes()) {
+    const std::optional<Scope> needed = NeededScope(route.method, route.pattern);
+    kept[LowerCase(route.method) + " " + route.pattern] =
+        needed ? kScopeNames.at(static_cast<std::size_t>(*needed)) : "";
   }
   EXPECT_EQ(kept, promised);
 }

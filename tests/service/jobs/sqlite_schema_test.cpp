@@ -69,6 +69,17 @@ ALTER TABLE artifacts ADD COLUMN gzip_bytes INTEGER;
 CREATE INDEX artifacts_by_gzip ON artifacts (gzip_sha256) WHERE gzip_sha256 IS NOT NULL;
 PRAGMA user_version = 4;
 )";
+constexpr const char* kVersion5 = R"(
+ALTER TABLE jobs ADD COLUMN priority INTEGER NOT NULL DEFAULT 1 CHECK (priority BETWEEN 0 AND 2);
+ALTER TABLE jobs ADD COLUMN deadline_ms INTEGER;
+ALTER TABLE jobs ADD COLUMN timeout_seconds INTEGER NOT NULL DEFAULT 0;
+ALTER TABLE jobs ADD COLUMN cost_memory_bytes INTEGER NOT NULL DEFAULT 0;
+ALTER TABLE jobs ADD COLUMN cost_seconds INTEGER NOT NULL DEFAULT 0;
+CREATE INDEX jobs_by_priority ON jobs (priority, client, id) WHERE state = 'accepted';
+CREATE INDEX jobs_by_deadline ON jobs (deadline_ms)
+  WHERE state = 'accepted' AND deadline_ms IS NOT NULL;
+PRAGMA user_version = 5;
+)";
 // One job in each state, with attempts behind it. The running one was cut off.
 constexpr const char* kRows = R"(
 INSERT INTO jobs (id, state, filename, parameters, input_sha256, input_bytes, progress, created_ms,
@@ -99,6 +110,7 @@ class SchemaTest : public testing::TestWithParam<int> {
     database.Execute(kRows);
     if (GetParam() > 2) database.Execute(kVersion3);
     if (GetParam() > 3) database.Execute(kVersion4);
+    if (GetParam() > 4) database.Execute(kVersion5);
   }
   TempDir folder_;
   const std::filesystem::path path_ = folder_ / "jobs.sqlite";
@@ -117,6 +129,7 @@ TEST_P(SchemaTest, BringsAFileOfAnEarlierVersionForward) {
     EXPECT_EQ(done->priority, Priority::kNormal);
     EXPECT_FALSE(done->deadline_ms);
     EXPECT_EQ(done->cost.memory_bytes, 0) << "nobody knows";
+    EXPECT_EQ(done->owner, "") << "of before there were keys";
     EXPECT_EQ((*store)->Artifacts(Id(1))->at(0).sha256, "y");
     EXPECT_EQ((*store)->Find(Id(2))->failure->kind, "no-crs");
     EXPECT_EQ((*store)->List({{}, {}, 10})->jobs.size(), 4U);
@@ -138,7 +151,7 @@ TEST_P(SchemaTest, GoesOnWhereAnEarlierVersionStopped) {
   EXPECT_EQ((*store)->Insert(again, {}, 5003)->id, Id(4));
 }
 
-INSTANTIATE_TEST_SUITE_P(Versions, SchemaTest, testing::Values(1, 2, 3, 4));
+INSTANTIATE_TEST_SUITE_P(Versions, SchemaTest, testing::Values(1, 2, 3, 4, 5));
 
 }  // namespace
 }  // namespace farhorizon
