@@ -42,7 +42,7 @@
     static async open(container, credits, { results, cesium, sky, ground }) {
       const C = await loadCesium(cesium);
       const url = new URL('tileset.json', new URL(results || '.', location.href)).href;
-      const response = await fetch(url);
+      const response = await farhorizon.key.get(url);
       if (!response.ok) throw new Error(`tileset.json: ${response.status}`);
       const scene = new Scene();
       Object.assign(scene, {
@@ -77,7 +77,7 @@
     async addTileset() {
       const { C } = this;
       // What the README tells clients to set.
-      this.tileset = await C.Cesium3DTileset.fromUrl(this.url, {
+      this.tileset = await C.Cesium3DTileset.fromUrl(this.resource(this.url), {
         maximumScreenSpaceError: 2, dynamicScreenSpaceError: false, enableDebugWireframe: true,
       });
       this.tileset.tileFailed.addEventListener(({ url, message }) => {
@@ -101,6 +101,9 @@
       this.draw();
     }
 
+    // What CesiumJS is to fetch, with the key; what it fetches from there has it, too.
+    resource(url) { return new this.C.Resource({ url, headers: farhorizon.key.headers() }); }
+
     draw() { this.widget.scene.requestRender(); }
 
     // All models of a level, once all of them are there.
@@ -109,7 +112,7 @@
       if (!this.models.has(level)) {
         const loads = this.levels.get(level).map(async ({ uri, matrix }) => {
           const model = await C.Model.fromGltfAsync({
-            url: new URL(uri, this.url).href, modelMatrix: matrix, forwardAxis: C.Axis.X,
+            url: this.resource(new URL(uri, this.url).href), modelMatrix: matrix, forwardAxis: C.Axis.X,
             enableDebugWireframe: true,
           });
           this.widget.scene.primitives.add(model);

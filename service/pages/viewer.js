@@ -61,7 +61,7 @@
     const number = which === 'stream' ? finest : which;
     const glb = `lod${number}-horizon.glb`;
     if (names.has(glb)) {
-      const response = await fetch(results + glb);
+      const response = await farhorizon.key.get(results + glb);
       return readGlb(scene.C, await response.arrayBuffer(), scene.levels.get(number)[0].matrix);
     }
     geojson ??= getJson('horizon.geojson');
@@ -210,7 +210,7 @@
   // Whether the models have edges of their own: the coarsest is asked, for it is small.
   const haveInlineEdges = async () => {
     const [{ uri }] = [...scene.levels.values()].at(-1);
-    const bytes = await (await fetch(new URL(uri, scene.url))).arrayBuffer();
+    const bytes = await (await farhorizon.key.get(new URL(uri, scene.url))).arrayBuffer();
     return gltfOf(bytes).extensionsUsed?.includes('EXT_mesh_primitive_edge_visibility');
   };
   byId('inline').hidden = !(await haveInlineEdges().catch(() => false));

@@ -3,7 +3,7 @@ import { mkdirSync, writeFileSync } from 'node:fs';
 import { basename, dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { launch, openPage, shareOf } from './browser.mjs';
-import { checkPages, checkStandalone } from './pages.mjs';
+import { checkKeys, checkPages, checkStandalone } from './pages.mjs';
 import { serve } from './server.mjs';
 import { checkTileset, validateGlbs } from './validate.mjs';
 
@@ -69,6 +69,7 @@ try {
   }
   await checkStandalone({ browser, farhorizon, dir: dirs[0], cache, report });
   await checkPages({ browser, farhorizon, dem, cache, pictures, report });
+  await checkKeys({ browser, farhorizon, dem, cache, pictures, report });
 } catch (failure) {
   report('the run itself', [failure.message.split('\n')[0]]);
 } finally {
