@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <charconv>
 
+#include <openssl/crypto.h>
 #include <openssl/evp.h>
+#include <openssl/hmac.h>
 
 #include "core/base/hex.h"
 #include "core/base/result.h"
@@ -26,6 +28,10 @@ std::optional<Digest> Digest::FromHex(std::string_view hex) {
 std::string Digest::Hex() const { return ToHex(bytes_); }
 
 std::string Digest::Base64() const { return ToBase64(bytes_); }
+
+bool SameDigest(const Digest& a, const Digest& b) {
+  return CRYPTO_memcmp(a.bytes_.data(), b.bytes_.data(), Digest::kBytes) == 0;
+}
 
 struct Sha256::State {
   EVP_MD_CTX* context = EVP_MD_CTX_new();
@@ -60,6 +66,17 @@ std::string Sha256Hex(std::string_view bytes) {
   Sha256 sum;
   sum.Add(bytes);
   return sum.Finish().Hex();
+}
+
+Digest HmacSha256(std::string_view key, std::string_view bytes) {
+  std::array<std::uint8_t, Digest::kBytes> code{};
+  unsigned int size = 0;
+  const auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
+  Check(HMAC(EVP_sha256(), key.data(), static_cast<int>(key.size()), data, bytes.size(),
+             code.data(), &size) != nullptr &&
+            size == code.size(),
+        "HMAC ends");
+  return Digest(code);
 }
 
 }  // namespace farhorizon

@@ -24,6 +24,8 @@ class Digest {
   [[nodiscard]] std::string Base64() const;
 
   friend bool operator==(const Digest&, const Digest&) = default;
+  /// The same, in time that does not depend on the bytes: for secrets.
+  friend bool SameDigest(const Digest& a, const Digest& b);
 
  private:
   std::array<std::uint8_t, kBytes> bytes_;
@@ -48,5 +50,8 @@ class Sha256 {
 
 /// Lower-case hexadecimal SHA-256 of `bytes`.
 std::string Sha256Hex(std::string_view bytes);
+
+/// The HMAC of `bytes` with SHA-256 [RFC 2104].
+Digest HmacSha256(std::string_view key, std::string_view bytes);
 
 }  // namespace farhorizon

@@ -20,6 +20,7 @@ void AddViewer(Command& program, SelectedCommand& selected);
 void AddServe(Command& program, SelectedCommand& selected);
 void AddBackup(Command& program, SelectedCommand& selected);
 void AddFsck(Command& program, SelectedCommand& selected);
+void AddKeys(Command& program, SelectedCommand& selected);
 void AddSubmit(Command& program, SelectedCommand& selected);
 void AddHealthcheck(Command& program, SelectedCommand& selected);
 void AddWorker(Command& program, SelectedCommand& selected);

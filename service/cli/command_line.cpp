@@ -26,6 +26,7 @@ CLI::Option* AddTaker(CLI::App& app, const Argument& argument,
 }  // namespace
 
 Command Command::AddCommand(const char* name, const char* help) {
+  app_->require_subcommand(1);
   return Command(*app_->add_subcommand(name, help));
 }
 

@@ -30,7 +30,7 @@ class Command {
  public:
   explicit Command(CLI::App& app) : app_(&app) {}
 
-  /// A command of this one.
+  /// A command of this one, of which the command line then has to name one.
   [[nodiscard]] Command AddCommand(const char* name, const char* help);
 
   void Add(const Argument& argument, std::string& value);

@@ -18,7 +18,8 @@ constexpr milliseconds kLongestPause{2000};
 
 }  // namespace
 
-Result<ClientResponse> JobClient::Send(const ClientRequest& request) {
+Result<ClientResponse> JobClient::Send(ClientRequest request) {
+  if (!key_.empty()) request.headers.emplace_back("Authorization", "Bearer " + key_);
   milliseconds pause = kFirstPause;
   for (int tries = 1;; ++tries) {
     Result<ClientResponse> response = SendRequest(url_, request, stop_);
@@ -34,7 +35,7 @@ Result<ClientResponse> JobClient::Send(const ClientRequest& request) {
 Result<json> JobClient::SendForJson(const std::string& target, int expected,
                                     ClientRequest request) {
   request.target = target;
-  Result<ClientResponse> response = Send(request);
+  Result<ClientResponse> response = Send(std::move(request));
   if (!response) return std::move(response.error());
   if (response->status != expected) return ErrorOfProblem(*response);
   json document = json::parse(response->body, nullptr, false);
@@ -52,7 +53,8 @@ Error ErrorOfProblem(const ClientResponse& response) {
       detail += " " + code + ": " + problem["detail"].get<std::string>();
     }
   }
-  const bool call = response.status == 400 && code != "invalid-multipart";
+  const bool call = (response.status == 400 && code != "invalid-multipart") ||
+                    response.status == 401 || response.status == 403;
   return {call                     ? ErrorCode::kInvalidArgument
           : response.status >= 500 ? ErrorCode::kIo
                                    : ErrorCode::kUnsupportedData,

@@ -2,6 +2,7 @@
 
 #include <stop_token>
 #include <string>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -13,11 +14,13 @@ namespace farhorizon {
 /// A client of one service that sends a request again while the service is busy or out of reach.
 class JobClient {
  public:
-  JobClient(ServiceUrl url, std::stop_token stop) : url_(std::move(url)), stop_(std::move(stop)) {}
+  /// key: sent with each request; empty: none.
+  JobClient(ServiceUrl url, std::string key, std::stop_token stop)
+      : url_(std::move(url)), key_(std::move(key)), stop_(std::move(stop)) {}
 
   /// The first answer other than 503 and 429, or the last of six tries.
   /// Errors: as SendRequest; kCancelled where a stop is requested between two tries.
-  Result<ClientResponse> Send(const ClientRequest& request);
+  Result<ClientResponse> Send(ClientRequest request);
 
   /// The JSON object that answers a request for `target`.
   /// Errors: those of Send; where the status is not `expected`, the problem that the service
@@ -27,6 +30,7 @@ class JobClient {
 
  private:
   ServiceUrl url_;
+  std::string key_;
   std::stop_token stop_;
 };
 

@@ -35,6 +35,7 @@ int RunProgram(int argc, char** argv) {
   AddServe(program, selected);
   AddBackup(program, selected);
   AddFsck(program, selected);
+  AddKeys(program, selected);
   AddSubmit(program, selected);
   AddHealthcheck(program, selected);
   AddWorker(program, selected);

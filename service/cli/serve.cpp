@@ -7,6 +7,7 @@
 #include "service/config/config.h"
 #include "service/config/config_keys.h"
 #include "service/config/load_config.h"
+#include "service/http/trusted_proxies.h"
 
 namespace farhorizon {
 
@@ -37,6 +38,10 @@ int Run(const ServeArguments& arguments) {
   if (arguments.check_config) {
     const Result<HostPort> address = ReadHostPort(loaded->config.listen);
     if (!address) return ReportError(address.error());
+    const auto proxies = TrustedProxies::Read(loaded->config.http.trusted_proxies);
+    if (!proxies) return ReportError(proxies.error());
+    const auto gate = OpenKeyGate(loaded->config, *address);
+    if (!gate) return ReportError(gate.error());
   }
   if (!arguments.print_config && !arguments.check_config) return ServeProcess(*loaded, load);
   if (arguments.print_config) std::fputs(WriteConfig(loaded->config).c_str(), stdout);

@@ -14,6 +14,7 @@
 #include "service/cli/notify.h"
 #include "service/cli/signals.h"
 #include "service/config/config_keys.h"
+#include "service/handlers/key_gate.h"
 #include "service/handlers/routes.h"
 #include "service/http/server.h"
 #include "service/jobs/job_service.h"
@@ -130,7 +131,18 @@ void LogMemory(const MemoryPlan& memory) {
        {"probe_bytes", memory.probe_bytes}});
 }
 
-// Takes the keys that may change while the service runs, and says which others have changed.
+void LogKeys(const KeyGate& gate, bool on_loopback) {
+  const bool asks = gate.AsksForKeys();
+  const bool exposed = !asks && !on_loopback;
+  Log(exposed ? LogLevel::kWarning : LogLevel::kInfo,
+      asks      ? "keys are asked for"
+      : exposed ? "nobody is asked for a key, on an address that others reach"
+                : "nobody is asked for a key, on loopback",
+      {{"keys", gate.CountKeys()}});
+}
+
+// Takes the keys of the configuration that may change while the service runs, and says which others
+// have changed.
 void Reload(const std::function<Result<LoadedConfig>()>& read, const HostPort& address,
             Config& current, Server& server) {
   const Result<LoadedConfig> loaded = read();
@@ -165,6 +177,10 @@ int WaitForEnd(Server& server, const std::function<void()>& reload) {
 
 }  // namespace
 
+Result<std::shared_ptr<KeyGate>> OpenKeyGate(const Config& config, const HostPort& address) {
+  return KeyGate::Open(config.auth, config.jobs.data, IsLoopback(address.host));
+}
+
 int ServeProcess(const LoadedConfig& loaded, const std::function<Result<LoadedConfig>()>& reload) {
   if (Status there = CheckReferenceData(); !there) return ReportError(there.error());
   Config config = loaded.config;
@@ -176,6 +192,8 @@ int ServeProcess(const LoadedConfig& loaded, const std::function<Result<LoadedCo
   const BackgroundLog log;
   Result<std::shared_ptr<const AssetFolder>> cesium = ReadCesium(config);
   if (!cesium) return ReportError(cesium.error());
+  const Result<std::shared_ptr<KeyGate>> gate = OpenKeyGate(config, *address);
+  if (!gate) return ReportError(gate.error());
   // The port first: a process that cannot bind it must not change the data.
   Result<std::unique_ptr<Server>> server = Server::Bind(HttpOptions(config, *address));
   if (!server) return ReportError(server.error());
@@ -186,10 +204,12 @@ int ServeProcess(const LoadedConfig& loaded, const std::function<Result<LoadedCo
   (*jobs)->MarkEnd();
   const std::string base = BaseUrl(config, *address, (*server)->port());
   const Router router = BuildRouter(
-      {**jobs, base, config.max_body_bytes, TermsOf(options), *std::move(cesium), config.echo});
-  (*server)->Serve(router);
+      {**jobs, base, config.max_body_bytes, TermsOf(options), *std::move(cesium), config.echo,
+       *gate});
+  (*server)->Serve(router, **gate);
   LogStart(loaded, base, (*server)->port());
   LogMemory((*jobs)->Memory());
+  LogKeys(**gate, IsLoopback(address->host));
   NotifyManager("READY=1");
   const int signal = WaitForEnd(**server, [&] { Reload(reload, *address, config, **server); });
   NotifyManager("STOPPING=1");

@@ -1,11 +1,17 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 
 #include "core/base/result.h"
 #include "service/config/load_config.h"
+#include "service/handlers/key_gate.h"
+#include "service/http/server.h"
 
 namespace farhorizon {
+
+/// As KeyGate::Open has it, for a service that listens at `address`.
+Result<std::shared_ptr<KeyGate>> OpenKeyGate(const Config& config, const HostPort& address);
 
 /// Runs the service until SIGINT or SIGTERM; the exit status. SIGHUP takes the keys of a new
 /// configuration that can be changed while it runs.

@@ -11,6 +11,7 @@
 #include "core/base/hex.h"
 #include "core/io/file.h"
 #include "core/io/manifest.h"
+#include "service/cli/client_key.h"
 #include "service/cli/command.h"
 #include "service/cli/dem_command.h"
 #include "service/cli/job_client.h"
@@ -33,13 +34,15 @@ struct SubmitArguments {
   DemArguments dem;
   std::string url;
   std::string directory;
+  std::string key_file;
 };
 
 // One job of a service: sends the DEM, waits for the end and fetches the artifacts.
 class RemoteJob {
  public:
-  RemoteJob(const ServiceUrl& url, const SubmitArguments& arguments, const DemRun& run)
-      : client_(url, run.control.stop),
+  RemoteJob(const ServiceUrl& url, const std::string& key, const SubmitArguments& arguments,
+            const DemRun& run)
+      : client_(url, key, run.control.stop),
         arguments_(arguments),
         reporter_(run.reporter),
         control_(run.control) {}
@@ -184,9 +187,11 @@ class RemoteJob {
 int Run(const SubmitArguments& arguments) {
   Result<ServiceUrl> url = ReadServiceUrl(arguments.url);
   if (!url) return ReportError(url.error());
+  const Result<std::string> key = ReadClientKey(arguments.key_file, *url);
+  if (!key) return ReportError(key.error());
   // RunOnDem refuses invalid flags before anything is sent.
   return ExitStatusOf(RunOnDem(arguments.dem, Workflow::kBuild, [&](const DemRun& run) {
-    return RemoteJob(*url, arguments, run).Run();
+    return RemoteJob(*url, *key, arguments, run).Run();
   }));
 }
 
@@ -206,6 +211,13 @@ void AddSubmit(Command& program, SelectedCommand& selected) {
                .help = "folder for the artifacts; made if missing",
                .required = true},
               arguments->directory);
+  command.Add(
+      {.names = "--key-file",
+       .type = "FILE",
+       .help = "the file with the key, where the service asks for one (the key in "
+               "FARHORIZON_KEY). There is no flag for a key itself: who lists the processes "
+               "would see it"},
+      arguments->key_file);
   AddBuildFlags(command, arguments->dem.flags);
   AddReporterOptions(command, arguments->dem.reporter);
   command.Select(selected, [arguments] { return Run(*arguments); });

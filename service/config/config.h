@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 
+#include "service/auth/auth_options.h"
 #include "service/http/server.h"
 #include "service/jobs/job_service.h"
 #include "service/log.h"
@@ -17,6 +18,7 @@ struct Config {
   std::string listen = "127.0.0.1:8080";  ///< HOST:PORT, from which http.host and http.port follow
   int workers = 0;  ///< 0: as many as there are cores; jobs.workers follows from this
   ServerOptions http;
+  AuthOptions auth;
   std::int64_t max_body_bytes = std::int64_t{1} << 31U;
   JobServiceOptions jobs;
   // Docker kills 10 seconds after it has asked: running jobs are given back before.

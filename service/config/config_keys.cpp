@@ -104,6 +104,30 @@ std::vector<ConfigKey> HttpKeys() {
       Text("http.corsOrigin", http(&ServerOptions::cors_origin),
            "origins whose web pages may use the service: a list with commas, * for all, empty for "
            "none"),
+      Text("http.trustedProxies", http(&ServerOptions::trusted_proxies),
+           "addresses and networks of proxies whose X-Forwarded-For names the client: a list with "
+           "commas"),
+  };
+}
+
+std::vector<ConfigKey> AuthKeys() {
+  const auto auth = [](auto... fields) { return Path(&Config::auth, fields...); };
+  return {
+      Choice(
+          "auth.required", auth(&AuthOptions::required), kAuthRequiredNames,
+          "when keys are asked for; auto: where it listens on another address than loopback, and "
+          "once `farhorizon keys add` has made one"),
+      Text("auth.keysFile", auth(&AuthOptions::keys_file),
+           "the file of keys, which has no key's text; empty: keys.json in the data folder"),
+      Choice("auth.metrics", auth(&AuthOptions::metrics), kMetricsForNames,
+             "who may read /metrics where keys are asked for: those with the scope admin, or "
+             "everyone"),
+      Number("auth.requestsPerMinute",
+             auth(&AuthOptions::bounds, &MeterBounds::requests_per_minute), 0, 1'000'000,
+             "requests that the keys of one owner may send; more get 429; 0: any"),
+      Number("auth.uploadBytesPerHour",
+             auth(&AuthOptions::bounds, &MeterBounds::upload_bytes_per_hour), 0, kTebibyte,
+             "bytes that the keys of one owner may send; more get 429; 0: any"),
   };
 }
 
@@ -116,7 +140,10 @@ std::vector<ConfigKey> JobKeys() {
       Number("jobs.maxWaiting", jobs(&JobServiceOptions::max_waiting), 1, 1'000'000,
              "jobs that may wait; more are refused with 503"),
       Number("jobs.maxWaitingPerClient", jobs(&JobServiceOptions::max_waiting_per_client), 0,
-             1'000'000, "of these, jobs of one address; more get 429; 0: all but an eighth"),
+             1'000'000,
+             "of these, jobs of one client: of an owner of keys, or of one address; more get 429; "
+             "0: all "
+             "but an eighth"),
       Number("jobs.maxPosts", jobs(&JobServiceOptions::runner, &RunnerOptions::max_posts), 4,
              1'000'000'000, "largest DEM taken, in posts; larger ones get 413"),
       Number("jobs.minFreeBytes", jobs(&JobServiceOptions::min_free_bytes), 0, kTebibyte,
@@ -194,7 +221,7 @@ std::vector<ConfigKey> AllKeys() {
       Number("workers", Path(&Config::workers), 0, 1024,
              "jobs at once; 0: as many as there are cores"),
   };
-  for (std::vector<ConfigKey> section : {HttpKeys(), JobKeys(), WorkerKeys()}) {
+  for (std::vector<ConfigKey> section : {HttpKeys(), AuthKeys(), JobKeys(), WorkerKeys()}) {
     std::move(section.begin(), section.end(), std::back_inserter(keys));
   }
   keys.push_back(Choice("log.level", Path(&Config::log, &LogOptions::level), kLogLevelNames,

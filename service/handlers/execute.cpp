@@ -153,10 +153,11 @@ Result<Job> ExecuteExchange::SubmitTerrain(const ExecuteRequest& asked) {
   Submission submission{.filename = SafeFilename(filename),
                         .parameters = std::move(wishes->parameters),
                         .idempotency_key = std::move(key_),
-                        .client = request_.peer,
+                        .client = ClientOf(request_),
                         .terms = wishes->terms,
                         .options = std::move(wishes->options),
-                        .answer = WriteResultWishes(asked.wishes)};
+                        .answer = WriteResultWishes(asked.wishes),
+                        .owner = request_.caller.owner};
   return SubmitUpload(context_, body_.spool, std::move(submission));
 }
 
@@ -167,10 +168,11 @@ Result<Job> ExecuteExchange::SubmitEcho(const ExecuteRequest& asked) {
   return context_.jobs.Submit(body_.spool, {.filename = "echo.json",
                                             .parameters = {},
                                             .idempotency_key = std::move(key_),
-                                            .client = request_.peer,
+                                            .client = ClientOf(request_),
                                             .cost = kEchoCost,
                                             .process = kEchoProcess,
-                                            .answer = WriteResultWishes(asked.wishes)});
+                                            .answer = WriteResultWishes(asked.wishes),
+                                            .owner = request_.caller.owner});
 }
 
 Result<Job> ExecuteExchange::Submit() {

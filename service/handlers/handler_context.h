@@ -10,6 +10,8 @@
 
 namespace farhorizon {
 
+class KeyGate;
+
 /// What the handlers share.
 struct HandlerContext {
   JobService& jobs;
@@ -18,6 +20,7 @@ struct HandlerContext {
   TermBounds terms = {};
   std::shared_ptr<const AssetFolder> cesium = nullptr;  ///< for the viewer; nullptr: not installed
   bool echo = false;                                    ///< whether the process echo is offered
+  std::shared_ptr<KeyGate> gate = nullptr;              ///< nullptr: nobody asks for keys
 };
 
 }  // namespace farhorizon

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/base/result.h"
+#include "service/auth/caller.h"
 #include "service/url_query.h"
 
 namespace farhorizon {
@@ -28,7 +29,8 @@ struct HttpRequest {
   bool expects_continue = false;
   bool keep_alive = true;
 
-  std::string peer;                     ///< address, for the log
+  std::string peer;  ///< address, for the log; behind a trusted proxy, the client's
+  Caller caller;
   std::string request_id;               ///< likewise
   std::string route;                    ///< the pattern of its path; empty: there is no route
   std::vector<std::string> parameters;  ///< the values of {…} in that pattern, decoded

@@ -20,6 +20,7 @@ HttpResponse ListJobs(const HandlerContext& context, const HttpRequest& request)
   }
   Result<JobListRequest> asked = ReadJobQuery(*parameters, NowMs());
   if (!asked) return ProblemResponse(request, ProblemOf(asked.error()));
+  if (!request.caller.SeesAll()) asked->query.owner = request.caller.owner;
   Result<JobPage> page = asked->none ? JobPage() : context.jobs.List(asked->query);
   if (!page) return ProblemResponse(request, ProblemOf(page.error()));
   nlohmann::ordered_json document = {{"jobs", nlohmann::ordered_json::array()},
@@ -42,7 +43,7 @@ HttpResponse ListJobs(const HandlerContext& context, const HttpRequest& request)
 }
 
 HttpResponse ShowJob(const HandlerContext& context, const HttpRequest& request) {
-  const Result<Job> job = FindJob(context, request.parameters.at(0));
+  const Result<Job> job = FindJob(context, request);
   if (!job) return ProblemResponse(request, ProblemOf(job.error()));
   HttpResponse response = TaggedJsonResponse(request, StatusInfo(*job, context.base));
   response.job_id = job->id;
@@ -51,7 +52,7 @@ HttpResponse ShowJob(const HandlerContext& context, const HttpRequest& request) 
 }
 
 HttpResponse DismissJob(const HandlerContext& context, const HttpRequest& request) {
-  Result<Job> job = FindJob(context, request.parameters.at(0));
+  Result<Job> job = FindJob(context, request);
   if (job) job = context.jobs.Dismiss(job->id);
   if (!job) return ProblemResponse(request, ProblemOf(job.error()));
   HttpResponse response = JsonResponse(StatusInfo(*job, context.base));
@@ -61,9 +62,12 @@ HttpResponse DismissJob(const HandlerContext& context, const HttpRequest& reques
 
 }  // namespace
 
-Result<Job> FindJob(const HandlerContext& context, const std::string& id) {
+Result<Job> FindJob(const HandlerContext& context, const HttpRequest& request) {
+  const std::string& id = request.parameters.at(0);
   if (!IsJobId(id)) return NoSuchJob();
-  return context.jobs.Find(id);
+  Result<Job> job = context.jobs.Find(id);
+  if (job && !request.caller.Sees(job->owner)) return NoSuchJob();
+  return job;
 }
 
 std::vector<Route> JobRoutes(const HandlerContext& context) {

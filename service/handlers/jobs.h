@@ -11,8 +11,9 @@ namespace farhorizon {
 /// GET /jobs, GET and DELETE /jobs/{id}.
 std::vector<Route> JobRoutes(const HandlerContext& context);
 
-/// The job with the id that a client sent. Text that is not of the form of an id does not reach the
-/// store. Errors: kNotFound "no-such-job", and those of the store.
-Result<Job> FindJob(const HandlerContext& context, const std::string& id);
+/// The job that the path of the request names, if its caller may see it. Text that is not of the
+/// form of an id does not reach the store.
+/// Errors: kNotFound "no-such-job", for another's job likewise; those of the store.
+Result<Job> FindJob(const HandlerContext& context, const HttpRequest& request);
 
 }  // namespace farhorizon

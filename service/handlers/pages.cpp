@@ -75,13 +75,18 @@ HttpResponse ShowIndex(const HandlerContext& context, const HttpRequest& request
 }
 
 HttpResponse ShowViewer(const HandlerContext& context, const HttpRequest& request) {
-  const Result<Job> job = FindJob(context, request.parameters.at(0));
-  if (!job) return ProblemResponse(request, ProblemOf(job.error()));
+  const std::string& id = request.parameters.at(0);
+  // A browser that opens a page sends no key: the page is the same then for every id there may be,
+  // and asks for one.
+  if (!request.caller.IsStranger() || !IsJobId(id)) {
+    const Result<Job> job = FindJob(context, request);
+    if (!job) return ProblemResponse(request, ProblemOf(job.error()));
+  }
   const std::string cesium =
       context.cesium == nullptr ? "" : "../assets/" + context.cesium->fingerprint();
   HttpResponse response = PageResponse(
-      request, ViewerPage({"../jobs/" + job->id + "/results/", cesium, "../"}), kViewerPolicy);
-  response.job_id = job->id;
+      request, ViewerPage({"../jobs/" + id + "/results/", cesium, "../"}), kViewerPolicy);
+  response.job_id = id;
   return response;
 }
 

@@ -39,11 +39,12 @@ constexpr ErrorKind kKinds400[] = {
     "unknown-parameter",
     "virtual-path",
 };
-constexpr ErrorKind kKinds403[] = {"href-not-allowed", "origin-not-allowed"};
+constexpr ErrorKind kKinds401[] = {"invalid-key", "key-required"};
+constexpr ErrorKind kKinds403[] = {"href-not-allowed", "insufficient-scope", "origin-not-allowed"};
 constexpr ErrorKind kKinds404[] = {
-    "no-config",      "no-such-file",         "no-such-job",
-    "no-such-output", "no-such-process",      "no-such-resource",
-    "not-found",      "result-not-available", "result-not-ready",
+    "no-config",        "no-such-file",  "no-such-job",          "no-such-key",
+    "no-such-output",   "no-such-process", "no-such-resource",   "not-found",
+    "result-not-available", "result-not-ready",
 };
 constexpr ErrorKind kKinds405[] = {"method-not-allowed"};
 constexpr ErrorKind kKinds408[] = {"request-timeout"};
@@ -102,7 +103,7 @@ constexpr ErrorKind kKinds422[] = {
     "unsupported-type",
     "work-budget",
 };
-constexpr ErrorKind kKinds429[] = {"too-many-jobs"};
+constexpr ErrorKind kKinds429[] = {"too-many-jobs", "too-many-requests"};
 constexpr ErrorKind kKinds431[] = {
     "head-too-large",
     "too-many-header-fields",
@@ -128,13 +129,13 @@ struct StatusRow {
   std::span<const ErrorKind> kinds;
 };
 constexpr std::array kStatuses = {
-    StatusRow{400, kKinds400}, StatusRow{403, kKinds403}, StatusRow{404, kKinds404},
-    StatusRow{405, kKinds405}, StatusRow{408, kKinds408}, StatusRow{412, kKinds412},
-    StatusRow{413, kKinds413}, StatusRow{414, kKinds414}, StatusRow{415, kKinds415},
-    StatusRow{416, kKinds416}, StatusRow{417, kKinds417}, StatusRow{421, kKinds421},
-    StatusRow{422, kKinds422}, StatusRow{429, kKinds429}, StatusRow{431, kKinds431},
-    StatusRow{500, kKinds500}, StatusRow{501, kKinds501}, StatusRow{503, kKinds503},
-    StatusRow{505, kKinds505}, StatusRow{507, kKinds507},
+    StatusRow{400, kKinds400}, StatusRow{401, kKinds401}, StatusRow{403, kKinds403},
+    StatusRow{404, kKinds404}, StatusRow{405, kKinds405}, StatusRow{408, kKinds408},
+    StatusRow{412, kKinds412}, StatusRow{413, kKinds413}, StatusRow{414, kKinds414},
+    StatusRow{415, kKinds415}, StatusRow{416, kKinds416}, StatusRow{417, kKinds417},
+    StatusRow{421, kKinds421}, StatusRow{422, kKinds422}, StatusRow{429, kKinds429},
+    StatusRow{431, kKinds431}, StatusRow{500, kKinds500}, StatusRow{501, kKinds501},
+    StatusRow{503, kKinds503}, StatusRow{505, kKinds505}, StatusRow{507, kKinds507},
 };
 
 // 0 if the kind is in no row, or in several.

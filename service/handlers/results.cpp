@@ -20,8 +20,8 @@ namespace {
 
 // The job, if it has results; else the error that answers a request for them. For a failed job that
 // is the error it failed with.
-Result<Job> FinishedJob(const HandlerContext& context, const std::string& id) {
-  Result<Job> job = FindJob(context, id);
+Result<Job> FinishedJob(const HandlerContext& context, const HttpRequest& request) {
+  Result<Job> job = FindJob(context, request);
   if (!job || job->state == JobState::kSuccessful) return job;
   switch (job->state) {
     case JobState::kAccepted:
@@ -37,7 +37,7 @@ Result<Job> FinishedJob(const HandlerContext& context, const std::string& id) {
 }
 
 HttpResponse ListResults(const HandlerContext& context, const HttpRequest& request) {
-  Result<Job> job = FinishedJob(context, request.parameters.at(0));
+  Result<Job> job = FinishedJob(context, request);
   if (!job) return ProblemResponse(request, ProblemOf(job.error()));
   HttpResponse response = AnswerResults(context, request, *job);
   response.job_id = job->id;
@@ -55,7 +55,10 @@ void SetDisposition(HttpResponse& response, const Artifact& artifact) {
   const bool page = MediaTypeIn(artifact.media_type) == "text/html";
   response.Set("Content-Disposition", std::string(page ? "inline" : "attachment") +
                                           "; filename=\"" + artifact.name + "\"");
-  if (page) response.Set("Content-Security-Policy", kPagePolicy);
+  if (!page) return;
+  response.Set("Content-Security-Policy", kPagePolicy);
+  // Its address may have a ticket.
+  response.Set("Referrer-Policy", "no-referrer");
 }
 
 // Tiles of terrain are files in gzip, for servers that know of nothing else; there is no other
@@ -140,7 +143,7 @@ HttpResponse LostArtifact(const HttpRequest& request, const Job& job, const Erro
 namespace {
 
 HttpResponse GetArtifact(const HandlerContext& context, const HttpRequest& request) {
-  Result<Job> job = FinishedJob(context, request.parameters.at(0));
+  Result<Job> job = FinishedJob(context, request);
   if (!job) return ProblemResponse(request, ProblemOf(job.error()));
   const Coding coding = AcceptsGzip(request) ? Coding::kGzip : Coding::kIdentity;
   Result<OpenArtifact> open = context.jobs.Open(job->id, request.parameters.at(1), coding);

@@ -10,11 +10,12 @@
 #include "service/handlers/pages.h"
 #include "service/handlers/results.h"
 #include "service/handlers/submit.h"
+#include "service/handlers/tickets.h"
 
 namespace farhorizon {
 
 Router BuildRouter(const HandlerContext& context) {
-  std::vector<Route> routes = {SubmitRoute(context), ExecutionRoute(context)};
+  std::vector<Route> routes = {SubmitRoute(context), ExecutionRoute(context), TicketRoute(context)};
   for (const std::vector<Route>& group :
        {JobRoutes(context), ResultRoutes(context), HealthRoutes(context), PageRoutes(context),
         CapabilityRoutes(context)}) {

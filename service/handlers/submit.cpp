@@ -148,9 +148,10 @@ Result<Submission> SubmitExchange::ReadSubmission() {
   return Submission{.filename = SafeFilename(name),
                     .parameters = std::move(head_.wishes.parameters),
                     .idempotency_key = std::move(head_.idempotency_key),
-                    .client = request_.peer,
+                    .client = ClientOf(request_),
                     .terms = head_.wishes.terms,
-                    .options = std::move(head_.wishes.options)};
+                    .options = std::move(head_.wishes.options),
+                    .owner = request_.caller.owner};
 }
 
 Result<Job> SubmitExchange::Submit() {
@@ -182,8 +183,12 @@ Admission BeginSubmission(const HandlerContext& context, const HttpRequest& requ
 
 }  // namespace
 
+std::string ClientOf(const HttpRequest& request) {
+  return request.caller.owner.empty() ? request.peer : request.caller.owner;
+}
+
 Result<SpoolFile> SpoolForJob(const HandlerContext& context, const HttpRequest& request) {
-  Status room = context.jobs.CheckRoom(request.peer);
+  Status room = context.jobs.CheckRoom(ClientOf(request));
   if (!room) return std::move(room.error());
   Result<SpoolFile> spool = context.jobs.NewSpoolFile();
   if (!spool) Log(LogLevel::kError, "cannot spool", {{"error", spool.error().message}});

@@ -26,6 +26,9 @@ Result<Wishes> ReadWishes(Parameters parameters, const TermBounds& bounds);
 /// taken, too. Errors: kInvalidArgument "invalid-idempotency-key".
 Result<std::optional<std::string>> ReadIdempotencyKey(const HttpRequest& request);
 
+/// Whose turn a job takes: each key's owner has one, and where no key is asked for each address.
+std::string ClientOf(const HttpRequest& request);
+
 /// A file for the body of a request that makes a job. Errors: those of JobService::CheckRoom and of
 ///   the file.
 Result<SpoolFile> SpoolForJob(const HandlerContext& context, const HttpRequest& request);

@@ -5,6 +5,8 @@
 #include <netinet/in.h>
 #include <string_view>
 
+#include "service/text_list.h"
+
 namespace farhorizon {
 
 namespace {
@@ -14,13 +16,8 @@ bool Contains(const std::vector<std::string>& list, std::string_view text) {
 }
 
 std::vector<std::string> ListIn(std::string_view text) {
-  std::vector<std::string> list;
-  while (!text.empty()) {
-    const std::size_t comma = std::min(text.find(','), text.size());
-    const std::string_view entry = Trimmed(text.substr(0, comma));
-    if (!entry.empty()) list.push_back(LowerCase(entry));
-    text.remove_prefix(std::min(comma + 1, text.size()));
-  }
+  std::vector<std::string> list = CommaList(text);
+  for (std::string& entry : list) entry = LowerCase(entry);
   return list;
 }
 

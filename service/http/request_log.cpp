@@ -21,6 +21,7 @@ void LogRequest(const HttpRequest& request, const HttpResponse& response,
   const auto add = [&fields](std::string_view name, const std::string& value) {
     if (!value.empty()) fields.emplace_back(name, value);
   };
+  add("key_id", request.caller.key_id);
   add("trace_id", TraceIdOf(request));
   add("job_id", response.job_id);
   add("code", response.code);

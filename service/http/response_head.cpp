@@ -30,9 +30,10 @@ std::string ResponseHead(const HttpRequest& request, const HttpResponse& respons
     add("Access-Control-Allow-Origin", cors.readable_by);
     add("Access-Control-Expose-Headers",
         "Location, ETag, Link, Retry-After, Preference-Applied, Content-Range, Accept-Ranges, "
-        "Repr-Digest");
+        "Repr-Digest, WWW-Authenticate");
   }
   if (cors.depends_on_origin) add("Vary", "Origin");
+  if (!request.caller.key_id.empty()) add("Vary", "Authorization");
   if (!request.request_id.empty()) add("X-Request-Id", request.request_id);
   return head + "\r\n";
 }

@@ -63,13 +63,13 @@ class AsioServer : public Server {
   Status Open();
   [[nodiscard]] std::uint16_t port() const override { return acceptor_.local_endpoint().port(); }
   void Reload(const ServerOptions& options) override;
-  void Serve(const Router& router) override;
+  void Serve(const Router& router, KeyGate& gate) override;
   bool Responds(std::chrono::milliseconds most) override;
   void Stop(std::chrono::milliseconds most) override;
 
  private:
-  asio::awaitable<void> Accept(const Router& router);
-  void Begin(const Router& router, tcp::socket socket);
+  asio::awaitable<void> Accept(const Router& router, KeyGate& gate);
+  void Begin(const Router& router, KeyGate& gate, tcp::socket socket);
   void End(const std::shared_ptr<Session>& session, const std::string& peer);
 
   const ServerOptions first_options_;
@@ -82,6 +82,7 @@ class AsioServer : public Server {
   std::mutex mutex_;
   std::shared_ptr<const ServerOptions> options_;
   std::shared_ptr<const AccessRules> access_;
+  std::shared_ptr<const TrustedProxies> proxies_;
   int max_connections_ = 0;
   std::condition_variable ended_;
   std::set<std::shared_ptr<Session>> sessions_;
@@ -114,6 +115,10 @@ Status AsioServer::Open() {
 void AsioServer::Reload(const ServerOptions& options) {
   auto access = std::make_shared<const AccessRules>(
       ReadAccessRules(options.public_url, options.allowed_hosts, options.cors_origin));
+  const Result<TrustedProxies> proxies = TrustedProxies::Read(options.trusted_proxies);
+  if (!proxies) {
+    Log(LogLevel::kError, "the trusted proxies stay", {{"error", proxies.error().message}});
+  }
   const int connections = ConnectionsFor(options);
   if (connections < options.max_connections) {
     Log(LogLevel::kWarning, "fewer connections than http.maxConnections, for want of descriptors",
@@ -122,11 +127,12 @@ void AsioServer::Reload(const ServerOptions& options) {
   const std::lock_guard lock(mutex_);
   options_ = std::make_shared<const ServerOptions>(options);
   access_ = std::move(access);
+  if (proxies) proxies_ = std::make_shared<const TrustedProxies>(*proxies);
   max_connections_ = connections;
 }
 
-void AsioServer::Serve(const Router& router) {
-  asio::co_spawn(acceptor_.get_executor(), Accept(router), asio::detached);
+void AsioServer::Serve(const Router& router, KeyGate& gate) {
+  asio::co_spawn(acceptor_.get_executor(), Accept(router, gate), asio::detached);
   for (int i = 0; i < first_options_.io_threads; ++i) {
     threads_.emplace_back([this] { context_.run(); });
   }
@@ -138,7 +144,7 @@ bool AsioServer::Responds(std::chrono::milliseconds most) {
   return done->get_future().wait_for(most) == std::future_status::ready;
 }
 
-asio::awaitable<void> AsioServer::Accept(const Router& router) {
+asio::awaitable<void> AsioServer::Accept(const Router& router, KeyGate& gate) {
   while (!stopping_) {
     error_code failure;
     tcp::socket socket = co_await acceptor_.async_accept(
@@ -151,11 +157,11 @@ asio::awaitable<void> AsioServer::Accept(const Router& router) {
       co_await pause.async_wait(asio::redirect_error(asio::use_awaitable, failure));
       continue;
     }
-    Begin(router, std::move(socket));
+    Begin(router, gate, std::move(socket));
   }
 }
 
-void AsioServer::Begin(const Router& router, tcp::socket socket) {
+void AsioServer::Begin(const Router& router, KeyGate& gate, tcp::socket socket) {
   error_code failure;
   const std::string peer = socket.remote_endpoint(failure).address().to_string();
   if (failure) return;
@@ -172,10 +178,11 @@ void AsioServer::Begin(const Router& router, tcp::socket socket) {
       surplus_.pop_front();
     }
     const int from_there = ++by_address_[peer];
-    const bool surplus =
-        count >= max_connections_ || from_there > options_->max_connections_per_address;
+    // Behind a proxy there are many clients.
+    const bool many = from_there > options_->max_connections_per_address && !proxies_->Has(peer);
+    const bool surplus = count >= max_connections_ || many;
     session = std::make_shared<Session>(
-        SessionContext{options_, access_, router, work_, stopping_, surplus},
+        SessionContext{options_, access_, proxies_, router, gate, work_, stopping_, surplus},
         beast::tcp_stream(std::move(socket)), peer);
     sessions_.insert(session);
     if (surplus) surplus_.push_back(session);
@@ -221,6 +228,8 @@ void AsioServer::Stop(std::chrono::milliseconds most) {
 }  // namespace
 
 Result<std::unique_ptr<Server>> Server::Bind(const ServerOptions& options) {
+  const Result<TrustedProxies> proxies = TrustedProxies::Read(options.trusted_proxies);
+  if (!proxies) return proxies.error();
   auto server = std::make_unique<AsioServer>(options);
   Status opened = server->Open();
   if (!opened) return std::move(opened.error());
@@ -243,6 +252,15 @@ Result<HostPort> ReadHostPort(const std::string& text) {
   return Error{ErrorCode::kInvalidArgument,
                "\"" + text + "\" is no HOST:PORT; write 127.0.0.1:8080 or [::1]:8080",
                "invalid-address"};
+}
+
+bool IsLoopback(const std::string& host) {
+  asio::io_context context;
+  error_code failure;
+  const auto found = tcp::resolver(context).resolve(host, "0", tcp::resolver::passive, failure);
+  return !failure && !found.empty() && std::all_of(found.begin(), found.end(), [](const auto& one) {
+    return one.endpoint().address().is_loopback();
+  });
 }
 
 }  // namespace farhorizon

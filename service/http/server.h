@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/base/result.h"
+#include "service/handlers/key_gate.h"
 #include "service/handlers/router.h"
 
 namespace farhorizon {
@@ -24,15 +25,17 @@ struct ServerOptions {
   std::chrono::seconds write_time{30};  ///< for each 64 KiB that the client does not take
   int max_connections = 1024;
   int max_connections_per_address = 256;
-  std::string public_url;     ///< its host and its pages are ours
-  std::string allowed_hosts;  ///< further names of ours, a list with commas
-  std::string cors_origin;    ///< origins whose pages may use the service, a list with commas
+  std::string public_url;       ///< its host and its pages are ours
+  std::string allowed_hosts;    ///< further names of ours, a list with commas
+  std::string cors_origin;      ///< origins whose pages may use the service, a list with commas
+  std::string trusted_proxies;  ///< as TrustedProxies::Read takes it
 };
 
 /// The HTTP server: accepts connections and runs a Session on each.
 class Server {
  public:
-  /// Binds and listens; connections wait until Serve. Errors: kIo "cannot-listen".
+  /// Binds and listens; connections wait until Serve. Errors: kIo "cannot-listen";
+  /// kInvalidArgument "invalid-config".
   static Result<std::unique_ptr<Server>> Bind(const ServerOptions& options);
   virtual ~Server() = default;
   Server(const Server&) = delete;
@@ -41,11 +44,12 @@ class Server {
   [[nodiscard]] virtual std::uint16_t port() const = 0;
 
   /// Takes the limits and lists of `options` for connections that come from now on; its threads,
-  /// host and port stay. Threads: safe.
+  /// host and port stay. A list of proxies that cannot be read stays as it was, and the log says
+  /// so. Threads: safe.
   virtual void Reload(const ServerOptions& options) = 0;
 
-  /// Starts the threads that answer. Requires: `router` outlives Stop.
-  virtual void Serve(const Router& router) = 0;
+  /// Starts the threads that answer. Requires: `router` and `gate` outlive Stop.
+  virtual void Serve(const Router& router, KeyGate& gate) = 0;
 
   /// Whether the threads that move bytes do a task within `most`. Requires: Serve was called.
   virtual bool Responds(std::chrono::milliseconds most) = 0;
@@ -64,5 +68,9 @@ struct HostPort {
 };
 /// Reads "HOST:PORT" or "[::1]:PORT". Errors: kInvalidArgument "invalid-address".
 Result<HostPort> ReadHostPort(const std::string& text);
+
+/// Whether this machine alone can reach what listens on `host`, an address or a name: true if it
+/// stands for addresses of loopback alone.
+bool IsLoopback(const std::string& host);
 
 }  // namespace farhorizon

@@ -26,6 +26,10 @@ using boost::system::error_code;
 
 constexpr std::size_t kLingerBytes = std::size_t{1} << 20U;
 constexpr std::chrono::seconds kLingerTime{2};
+// Beyond as much a sender that does not listen is made to wait: nginx looks for the response only
+// when it cannot send, and answers 502 where the connection breaks before.
+constexpr std::size_t kLingerAtOnce = std::size_t{1} << 18U;
+constexpr std::chrono::milliseconds kLingerPause{10};
 
 auto Into(error_code& failure) { return asio::redirect_error(asio::use_awaitable, failure); }
 
@@ -58,7 +62,7 @@ asio::awaitable<void> Session::Run() {
       break;
     }
     HttpRequest& request = std::get<HttpRequest>(read);
-    request.peer = peer_;
+    request.peer = context_.proxies->ClientOf(request, peer_);
     request.request_id = RequestIdOf(request);
     const Next next = co_await Answer(std::move(request));
     if (next == Next::kClose) break;
@@ -173,6 +177,9 @@ asio::awaitable<HttpResponse> Session::MakeResponse(HttpRequest& request, bool& 
     co_return ProblemResponse(
         request, {"too-many-connections", "there are too many connections; try again soon"});
   }
+  if (std::optional<HttpResponse> refusal = context_.gate.Admit(request, route)) {
+    co_return *std::move(refusal);
+  }
   // What decides on a request looks into the store and makes a file, but waits for no process.
   const WaitsFor begin_waits = std::min(waits_for, WaitsFor::kStore);
   Admission admission =
@@ -210,6 +217,7 @@ asio::awaitable<std::optional<HttpResponse>> Session::ReadBody(const HttpRequest
     if (failure) co_return ProblemResponse(request, ProblemOfBody(failure));
     if (piece.empty()) continue;
     const Status taken = co_await RunOn(WaitsFor::kStore, [&] { return exchange.Take(piece); });
+    context_.gate.CountUpload(request, static_cast<std::int64_t>(piece.size()));
     if (!taken) co_return ProblemResponse(request, ProblemOf(taken.error()));
   }
   co_return std::nullopt;
@@ -268,8 +276,12 @@ asio::awaitable<void> Session::Linger() {
   stream_.socket().shutdown(asio::ip::tcp::socket::shutdown_send, failure);
   WaitUntil(Clock::now() + kLingerTime);
   std::array<char, 8192> unread{};
-  for (std::size_t total = 0; !failure && total < kLingerBytes;) {
+  asio::steady_timer pause(stream_.get_executor());
+  for (std::size_t total = 0; !failure && !late_ && total < kLingerBytes;) {
     total += co_await stream_.async_read_some(asio::buffer(unread), Into(failure));
+    if (failure || total < kLingerAtOnce) continue;
+    pause.expires_after(kLingerPause);
+    co_await pause.async_wait(Into(failure));
   }
 }
 

@@ -12,6 +12,7 @@
 #include "service/handlers/router.h"
 #include "service/http/access_rules.h"
 #include "service/http/server.h"
+#include "service/http/trusted_proxies.h"
 
 namespace farhorizon {
 
@@ -29,7 +30,9 @@ struct WorkThreads {
 struct SessionContext {
   std::shared_ptr<const ServerOptions> options;  ///< those of when the connection was accepted
   std::shared_ptr<const AccessRules> access;
+  std::shared_ptr<const TrustedProxies> proxies;
   const Router& router;
+  KeyGate& gate;
   WorkThreads& threads;
   const std::atomic<bool>& stopping;
   /// The server has as many connections as it may: this one may ask for the service's health,

@@ -76,7 +76,7 @@ struct Job {
   std::optional<std::int64_t> started_ms;
   std::optional<std::int64_t> finished_ms;
   std::int64_t updated_ms = 0;
-  std::string client;        ///< who sent it: the peer's address
+  std::string client;        ///< whose turn it takes: its owner, or the address it came from
   std::int64_t run = 0;      ///< number of starts so far; identifies the current one
   std::int64_t attempt = 0;  ///< of those, the starts that the job has spent: not those that a stop
                              ///< of the service or a fault of the machine has ended
@@ -92,6 +92,7 @@ struct Job {
   JobCost cost;
   std::string process = kTerrainProcess;
   std::string answer;  ///< how its results are to be answered, for the handlers; empty: as always
+  std::string owner;  ///< whose key it came with; empty: no key was asked for
 };
 
 /// One output file of a job.

@@ -157,7 +157,8 @@ Result<Job> JobService::Submit(const SpoolFile& upload, const Submission& submis
   Result<Job> inserted =
       jobs_->Insert({submission.filename, submission.parameters, stored->sha256, stored->bytes,
                      submission.idempotency_key, submission.assumptions, submission.client,
-                     submission.terms, submission.cost, submission.process, submission.answer},
+                     submission.terms, submission.cost, submission.process, submission.answer,
+                     submission.owner},
                     Bounds(), NowMs());
   if (inserted) objects_->Keep({stored->sha256});
   pin.unlock();

@@ -49,12 +49,13 @@ struct Submission {
   Parameters parameters;
   std::optional<std::string> idempotency_key;
   Assumptions assumptions = {};  ///< those of the probe
-  std::string client = {};       ///< the peer's address
+  std::string client = {};       ///< whose turn it takes: its owner, or the peer's address
   JobTerms terms = {};
   JobCost cost = {};          ///< likewise
   BuildOptions options = {};  ///< what the parameters mean
   std::string process = kTerrainProcess;
   std::string answer = {};  ///< as Job has it
+  std::string owner = {};     ///< whose key it comes with; empty: no key was asked for
 };
 
 /// One thing that a service depends on.

@@ -20,11 +20,12 @@ struct NewJob {
   std::int64_t input_bytes = 0;
   std::optional<std::string> idempotency_key;
   Assumptions assumptions = {};  ///< as far as they are known before it runs
-  std::string client = {};       ///< who sends it
+  std::string client = {};       ///< whose turn it takes
   JobTerms terms = {};
   JobCost cost = {};
   std::string process = kTerrainProcess;
   std::string answer = {};  ///< as Job has it
+  std::string owner = {};  ///< whose key it comes with; empty: no key was asked for
 };
 
 /// How many jobs have not ended.
@@ -60,6 +61,7 @@ struct JobQuery {
   std::optional<std::int64_t> least_duration_ms = {};
   std::optional<std::int64_t> most_duration_ms = {};
   std::int64_t now_ms = 0;
+  std::optional<std::string> owner = {};  ///< only jobs of this owner, who is not empty
 };
 
 /// Newest first. next: the cursor of the following page, unset on the last.
@@ -96,7 +98,7 @@ struct StoreIdentity {
 /// (1) A job's state changes only as MayFollow allows.
 /// (2) A call with a `run` has an effect only while the job is running and `run` is its current
 ///     run; otherwise the call returns false.
-/// (3) One idempotency key makes at most one job.
+/// (3) One idempotency key of an owner makes at most one job.
 /// (4) No time of a job is before one that the store had already, even where the clock goes back;
 ///     of two jobs that it has, the one that was inserted later has the greater id.
 /// Errors, of every call: kIo where the store cannot be read or written, kResourceExhausted where
@@ -109,8 +111,8 @@ class JobStore {
   JobStore(const JobStore&) = delete;
   JobStore& operator=(const JobStore&) = delete;
 
-  /// Stores an accepted job and returns it. If the store knows the idempotency key, stores nothing
-  /// and returns the key's job.
+  /// Stores an accepted job and returns it. If the store knows the idempotency key of the owner,
+  /// stores nothing and returns the key's job.
   /// Errors: kInvalidArgument "idempotency-key-reused" where the key's job has another input, name
   ///   or process, or other parameters; as CheckQueue, in the same transaction.
   virtual Result<Job> Insert(const NewJob& job, const QueueBounds& bounds, std::int64_t now_ms) = 0;

@@ -64,16 +64,18 @@ Result<Job> InsertInQueue(const Database& database, const NewJob& job, const Que
     Statement(database, "DELETE FROM idempotency_keys WHERE created_ms < ?")
         .Bind(now_ms - kIdempotencyKeepMs)
         .Run();
-    Statement known(database, "SELECT job_id FROM idempotency_keys WHERE key = ?");
-    if (known.Bind(*job.idempotency_key).Step()) return EarlierJob(database, known.Text(0), job);
+    Statement known(database, "SELECT job_id FROM idempotency_keys WHERE owner = ? AND key = ?");
+    if (known.Bind(job.owner).Bind(*job.idempotency_key).Step())
+      return EarlierJob(database, known.Text(0), job);
   }
   Status room = CheckQueue(database, job.client, bounds);
   if (!room) return std::move(room.error());
   const std::string id = InsertJob(database, job, now_ms);
   if (job.idempotency_key) {
     Statement key(database,
-                  "INSERT INTO idempotency_keys (key, job_id, created_ms) VALUES (?, ?, ?)");
-    key.Bind(*job.idempotency_key).Bind(id).Bind(now_ms).Run();
+                  "INSERT INTO idempotency_keys (owner, key, job_id, created_ms) "
+                  "VALUES (?, ?, ?, ?)");
+    key.Bind(job.owner).Bind(*job.idempotency_key).Bind(id).Bind(now_ms).Run();
   }
   std::optional<Job> stored = SelectJob(database, id);
   Check(stored.has_value(), "an inserted job is there");

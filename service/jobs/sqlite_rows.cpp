@@ -59,6 +59,8 @@ struct Conditions {
 
 Conditions ConditionsOf(const JobQuery& query) {
   Conditions all;
+  // The second condition is that of the index jobs_by_owner.
+  if (query.owner) all.Add("owner = ? AND owner <> ''", *query.owner);
   std::vector<std::string> states;
   for (const JobState state : query.states) states.emplace_back(JobStateName(state));
   if (query.before) all.Add("id < ?", *query.before);
@@ -120,6 +122,7 @@ Job ReadJob(const Statement& row) {
   job.cost = {row.Integer(25), row.Integer(26)};
   job.process = row.Text(27);
   job.answer = row.Text(28);
+  job.owner = row.Text(29);
   const bool unclear = !parameters && !IsTerminal(job.state);
   if (unclear || (job.state == JobState::kFailed && !job.failure)) {
     job.failure =
@@ -159,9 +162,9 @@ std::string InsertJob(const Database& database, const NewJob& job, std::int64_t 
   Statement insert(database,
                    "INSERT INTO jobs (id, state, filename, parameters, input_sha256, "
                    "input_bytes, created_ms, updated_ms, assumptions, client, message, priority, "
-                   "timeout_seconds, cost_memory_bytes, cost_seconds, process, answer, "
+                   "timeout_seconds, cost_memory_bytes, cost_seconds, process, answer, owner, "
                    "deadline_ms) "
-                   "VALUES (?, 'accepted', ?, ?, ?, ?, ?, ?, ?, ?, 'waiting', ?, ?, ?, ?, ?, ?, "
+                   "VALUES (?, 'accepted', ?, ?, ?, ?, ?, ?, ?, ?, 'waiting', ?, ?, ?, ?, ?, ?, ?, "
                    "nullif(?, 0))");
   insert.Bind(id).Bind(job.filename).Bind(EncodeQuery(job.parameters));
   insert.Bind(job.input_sha256).Bind(job.input_bytes).Bind(now_ms).Bind(now_ms);
@@ -169,7 +172,7 @@ std::string InsertJob(const Database& database, const NewJob& job, std::int64_t 
   const JobTerms& terms = job.terms;
   insert.Bind(static_cast<std::int64_t>(terms.priority)).Bind(terms.timeout_seconds);
   insert.Bind(job.cost.memory_bytes).Bind(job.cost.seconds);
-  insert.Bind(job.process).Bind(job.answer);
+  insert.Bind(job.process).Bind(job.answer).Bind(job.owner);
   insert.Bind(terms.deadline_seconds > 0 ? now_ms + terms.deadline_seconds * 1000 : 0).Run();
   return id;
 }

@@ -92,7 +92,27 @@ constexpr const char* kVersion6 = R"(
 ALTER TABLE jobs ADD COLUMN process TEXT NOT NULL DEFAULT 'terrain-lod';
 ALTER TABLE jobs ADD COLUMN answer TEXT NOT NULL DEFAULT '';
 )";
-constexpr std::array kVersions = {kVersion1, kVersion2, kVersion3, kVersion4, kVersion5, kVersion6};
+
+// Jobs of before belong to nobody: where keys are asked for, those with the scope admin see them.
+constexpr const char* kVersion7 = R"(
+ALTER TABLE jobs ADD COLUMN owner TEXT NOT NULL DEFAULT '';
+CREATE INDEX jobs_by_owner ON jobs (owner, id) WHERE owner <> '';
+ALTER TABLE idempotency_keys RENAME TO idempotency_keys_of_all;
+DROP INDEX idempotency_keys_by_job;
+CREATE TABLE idempotency_keys (
+  owner TEXT NOT NULL DEFAULT '',
+  key TEXT NOT NULL,
+  job_id TEXT NOT NULL REFERENCES jobs (id) ON DELETE CASCADE,
+  created_ms INTEGER NOT NULL,
+  PRIMARY KEY (owner, key)
+) STRICT, WITHOUT ROWID;
+INSERT INTO idempotency_keys (key, job_id, created_ms)
+  SELECT key, job_id, created_ms FROM idempotency_keys_of_all;
+DROP TABLE idempotency_keys_of_all;
+CREATE INDEX idempotency_keys_by_job ON idempotency_keys (job_id);
+)";
+constexpr std::array kVersions = {kVersion1, kVersion2, kVersion3, kVersion4,
+                                  kVersion5, kVersion6, kVersion7};
 
 std::int64_t CountOfTables(Database& database) {
   Statement count(database, "SELECT count(*) FROM sqlite_schema");

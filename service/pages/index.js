@@ -1,7 +1,7 @@
 'use strict';
 // The list of jobs, kept up to date. All text from outside goes in as text, never as markup.
 (() => {
-  const { byId, make } = farhorizon;
+  const { byId, make, key } = farhorizon;
   const readableBytes = (bytes) => {
     const unit = [[1e9, 'GB'], [1e6, 'MB'], [1e3, 'kB']].find(([size]) => bytes >= size);
     return unit ? `${(bytes / unit[0]).toPrecision(3)} ${unit[1]}` : `${bytes} bytes`;
@@ -32,12 +32,13 @@
     const shown = row.querySelector('.artifacts');
     button.setAttribute('aria-expanded', String(!shown));
     if (shown) return shown.remove();
-    const response = await fetch(places(row.id).results);
+    const response = await key.get(places(row.id).results);
     if (!response.ok) return trouble(await causeOf(response));
     const table = make('table', { className: 'artifacts' });
     for (const [name, artifact] of Object.entries(await response.json())) {
       const href = `${places(row.id).results}/${encodeURIComponent(name)}`;
-      table.append(make('tr', {}, make('td', {}, make('a', { href }, name)),
+      const link = key.follow(make('a', { href }, name), places(row.id).self);
+      table.append(make('tr', {}, make('td', {}, link),
         make('td', {}, readableBytes(artifact.length))));
     }
     row.append(table);
@@ -45,7 +46,7 @@
   const dismiss = async (row) => {
     const open = row.dataset.open === 'true';
     if (!open && !confirm('Remove the artifacts of this job?')) return;
-    const response = await fetch(places(row.id).self, { method: 'DELETE' });
+    const response = await key.get(places(row.id).self, { method: 'DELETE' });
     if (!response.ok) trouble(await causeOf(response));
     refresh();
   };
@@ -54,6 +55,8 @@
     const at = places(job.id);
     const artifacts = make('button', { type: 'button', className: 'of-result' }, 'Artifacts');
     const remove = make('button', { type: 'button', className: 'remove' });
+    const report = key.follow(make(
+      'a', { className: 'button of-result', href: `${at.results}/report.html` }, 'Report'), at.self);
     const row = make('li', { id: job.id },
       make('div', { className: 'top' }, make('span', { className: 'name' }),
         make('span', { className: 'state' }), make('time')),
@@ -61,8 +64,7 @@
       make('details', { className: 'assumed' }, make('summary'), make('ul')),
       make('div', { className: 'actions' },
         make('a', { className: 'button of-result', href: at.viewer }, 'View'),
-        make('a', { className: 'button of-result', href: `${at.results}/report.html` }, 'Report'),
-        artifacts, remove));
+        report, artifacts, remove));
     artifacts.setAttribute('aria-expanded', 'false');
     artifacts.addEventListener('click', () => showArtifacts(row, artifacts));
     remove.addEventListener('click', () => dismiss(row));
@@ -139,7 +141,7 @@
   const refresh = async () => {
     clearTimeout(timer);
     try {
-      const response = await fetch(`jobs?limit=${kLimit}`, { cache: 'no-cache' });
+      const response = await key.get(`jobs?limit=${kLimit}`, { cache: 'no-cache' });
       if (!response.ok) throw new Error(await causeOf(response));
       if (tag === null || response.headers.get('ETag') !== tag) {
         const list = await response.json();
@@ -159,7 +161,7 @@
   };
   document.addEventListener('visibilitychange', () => { if (!document.hidden) refresh(); });
   byId('older').addEventListener('click', async () => {
-    const response = await fetch(`jobs${next}`);
+    const response = await key.get(`jobs${next}`);
     if (!response.ok) return trouble(await causeOf(response));
     const list = await response.json();
     older = older.concat(list.jobs);
@@ -168,6 +170,10 @@
     refresh();
   });
 
+  const showForget = () => { byId('forget').hidden = !key.isAsked(); };
+  byId('forget').addEventListener('click', key.forget);
+  addEventListener('farhorizon-key', showForget);
+  showForget();
   farhorizon.takeUploads(refresh);
   refresh();
 })();

@@ -1,16 +1,11 @@
 'use strict';
 // The report's numbers, which need no CesiumJS.
-const farhorizon = {};
 (() => {
+  const { key, make } = farhorizon;
   const byId = (id) => document.getElementById(id);
   const { results, home } = document.body.dataset;
-  const make = (tag, properties = {}, ...children) => {
-    const element = Object.assign(document.createElement(tag), properties);
-    element.append(...children);
-    return element;
-  };
   const getJson = async (name) => {
-    const response = await fetch(results + name);
+    const response = await key.get(results + name);
     return response.ok ? response.json() : null;
   };
 
@@ -45,15 +40,20 @@ const farhorizon = {};
     byId('facts').textContent = `${columns} × ${rows} posts, ${digits(heights[0])} to ` +
       `${digits(heights[1])} m; ${report.horizon.horizon_edges.toLocaleString('en')} horizon edges`;
   };
+  const jobOf = (folder) => folder.replace(/\/results\/$/, '');
+  const linkTo = (name) => {
+    const link = make('a', { href: results + name }, name);
+    return home ? key.follow(link, jobOf(results)) : link;
+  };
   const fillHead = async () => {
     const report = await getJson('report.json');
     if (report) fillNumbers(report, await getManifest());
     byId('links').append(...['report.html', 'report.json', 'tileset.json'].flatMap(
-      (name, i) => [i ? ' · ' : '', make('a', { href: results + name }, name)]));
+      (name, i) => [i ? ' · ' : '', linkTo(name)]));
     if (!home) return;
     byId('home').href = home;
     byId('home').hidden = false;
-    const job = await fetch(results.replace(/\/results\/$/, '')).then((answer) => answer.json());
+    const job = await key.get(jobOf(results)).then((answer) => answer.json());
     byId('title').textContent = job.filename ?? job.id;
     document.title = `${job.filename ?? job.id}: farhorizon`;
   };

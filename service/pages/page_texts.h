@@ -7,6 +7,8 @@ namespace farhorizon {
 /// The files of this folder that the pages consist of; the build puts their bytes into the program.
 /// The two .html are templates for FillTemplate.
 extern const std::string_view kIndexHtml;
+/// Of both pages, first.
+extern const std::string_view kKeyJs;
 /// Of the page at "/", in the order in which it runs them.
 extern const std::string_view kUploadJs;
 extern const std::string_view kIndexJs;

@@ -18,13 +18,15 @@ struct File {
 
 constexpr std::array<File, 2> kViewerStyles = {
     {{"palettes.css", kPalettesCss}, {"viewer.css", kViewerCss}}};
-constexpr std::array<File, 5> kViewerScripts = {{{"numbers.js", kNumbersJs},
+constexpr std::array<File, 6> kViewerScripts = {{{"key.js", kKeyJs},
+                                                 {"numbers.js", kNumbersJs},
                                                  {"horizon_lines.js", kHorizonLinesJs},
                                                  {"skyline.js", kSkylineJs},
                                                  {"scene.js", kSceneJs},
                                                  {"viewer.js", kViewerJs}}};
-constexpr std::array<File, 10> kFiles = {{{"palettes.css", kPalettesCss},
+constexpr std::array<File, 11> kFiles = {{{"palettes.css", kPalettesCss},
                                           {"index.css", kIndexCss},
+                                          {"key.js", kKeyJs},
                                           {"upload.js", kUploadJs},
                                           {"index.js", kIndexJs},
                                           {"viewer.css", kViewerCss},

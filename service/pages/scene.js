@@ -43,7 +43,7 @@
     static async open(container, credits, { results, cesium, sky, ground }) {
       const C = await loadCesium(cesium);
       const url = new URL('tileset.json', new URL(results || '.', location.href)).href;
-      const response = await fetch(url);
+      const response = await farhorizon.key.get(url);
       if (!response.ok) throw new Error(`tileset.json: ${response.status}`);
       const scene = new Scene();
       Object.assign(scene, {
@@ -90,7 +90,7 @@
     async addTileset() {
       const { C } = this;
       // What the README tells clients to set.
-      this.tileset = await C.Cesium3DTileset.fromUrl(this.url, {
+      this.tileset = await C.Cesium3DTileset.fromUrl(this.resource(this.url), {
         maximumScreenSpaceError: 2, dynamicScreenSpaceError: false, enableDebugWireframe: true,
       });
       this.tileset.tileFailed.addEventListener(({ url, message }) => {
@@ -114,6 +114,9 @@
       this.draw();
     }
 
+    // What CesiumJS is to fetch, with the key; what it fetches from there has it, too.
+    resource(url) { return new this.C.Resource({ url, headers: farhorizon.key.headers() }); }
+
     draw() { this.widget.scene.requestRender(); }
 
     // A content as a model by itself, hidden, once it can be drawn.
@@ -121,7 +124,7 @@
       const { C } = this;
       const { primitives } = this.widget.scene;
       const model = primitives.add(await C.Model.fromGltfAsync({
-        url: new URL(uri, this.url).href, modelMatrix: matrix, forwardAxis: C.Axis.X, show: false,
+        url: this.resource(new URL(uri, this.url).href), modelMatrix: matrix, forwardAxis: C.Axis.X, show: false,
         enableDebugWireframe: true,
       }));
       try {

@@ -1,13 +1,8 @@
 'use strict';
 // Uploads: files that are chosen or dropped go to the service, one after another.
-const farhorizon = {};
 (() => {
+  const { key, make } = farhorizon;
   const byId = (id) => document.getElementById(id);
-  const make = (tag, properties = {}, ...children) => {
-    const element = Object.assign(document.createElement(tag), properties);
-    element.append(...children);
-    return element;
-  };
   // sent: called after each that the service has taken. fetch tells nothing of what has been sent,
   // XMLHttpRequest does.
   const takeUploads = (sent) => {
@@ -31,7 +26,12 @@ const farhorizon = {};
       request.upload.addEventListener('progress', ({ loaded, total }) => {
         say(loaded < total ? `${Math.floor(100 * loaded / total)} % sent` : 'is being looked at');
       });
-      request.addEventListener('load', () => {
+      request.addEventListener('load', async () => {
+        const challenge = request.getResponseHeader('WWW-Authenticate');
+        if (key.isChallenge(request.status, challenge)) {
+          await key.ask(key.reasonOf(challenge));
+          return send(file, line).then(done);
+        }
         if (request.status === 201) {
           line.remove();
           sent();
@@ -44,6 +44,7 @@ const farhorizon = {};
       request.addEventListener('error', () => fail('the connection broke; send it again'));
       request.open('POST', `jobs?${query.toString().replaceAll('+', '%20')}`);
       request.setRequestHeader('Content-Type', 'application/octet-stream');
+      for (const [name, value] of Object.entries(key.headers())) request.setRequestHeader(name, value);
       say('is being sent');
       request.send(file);
     });
@@ -77,5 +78,5 @@ const farhorizon = {};
     });
   };
 
-  Object.assign(farhorizon, { byId, make, takeUploads });
+  Object.assign(farhorizon, { byId, takeUploads });
 })();

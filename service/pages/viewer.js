@@ -60,7 +60,7 @@
     const number = which === 'stream' ? finest : which;
     const glb = `lod${number}-horizon.glb`;
     if (names.has(glb)) {
-      const response = await fetch(results + glb);
+      const response = await farhorizon.key.get(results + glb);
       return readGlb(scene.C, await response.arrayBuffer(), scene.frame);
     }
     geojson ??= getJson('horizon.geojson');
@@ -209,7 +209,7 @@
   // Whether the models have edges of their own: the coarsest is asked, for it is small.
   const haveInlineEdges = async () => {
     const [{ uri }] = [...scene.levels.values()].at(-1);
-    const bytes = await (await fetch(new URL(uri, scene.url))).arrayBuffer();
+    const bytes = await (await farhorizon.key.get(new URL(uri, scene.url))).arrayBuffer();
     return gltfOf(bytes).extensionsUsed?.includes('EXT_mesh_primitive_edge_visibility');
   };
   byId('inline').hidden = !(await haveInlineEdges().catch(() => false));

@@ -7,7 +7,7 @@ import { launch } from './browser.mjs';
 import { checkCesium, checkThree } from './draw.mjs';
 import { checkFiles, readDem } from './files.mjs';
 import { checkGlobe } from './globe.mjs';
-import { checkPages, checkSplit, checkStandalone } from './pages.mjs';
+import { checkKeys, checkPages, checkSplit, checkStandalone } from './pages.mjs';
 import { serve } from './server.mjs';
 import { makeSplit } from './split.mjs';
 
@@ -66,6 +66,7 @@ await attempt('a level in parts', async () => {
   await checkSplit({ ...common, dir });
 });
 await attempt('the pages', () => checkPages({ ...common, dem }));
+await attempt('the pages with keys', () => checkKeys({ ...common, dem }));
 await browser.close();
 server.close();
 console.log(`${failed ? `${failed} failed` : 'All passed'}; pictures are in ${pictures}`);

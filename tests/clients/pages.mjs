@@ -180,6 +180,64 @@ export const checkSplit = async (context) => {
   await close();
 };
 
+// A service that asks for keys: the page asks for one, once, and all that it does works with that.
+export const checkKeys = async ({ browser, farhorizon, dem, cache, pictures, report }) => {
+  const data = mkdtempSync(join(tmpdir(), 'farhorizon-clients-'));
+  const made = spawnSync(farhorizon, ['keys', 'add', '--name', 'clients', '--data', data]);
+  const key = made.stdout.toString().trim();
+  const service = await startService(farhorizon, join(cache, 'cesium'), data);
+  const { page, faults, close } = await openPage(browser, service.base, kKinds[0]);
+  const dialog = page.locator('dialog.key');
+  const give = async (text) => {
+    await dialog.getByLabel('Key').fill(text);
+    await dialog.getByRole('button').click();
+  };
+  const use = async () => {
+    await page.goto(`${service.base}/`);
+    await dialog.waitFor();
+    await page.screenshot({ path: join(pictures, 'keys-asked.png') });
+    await give(`${key.slice(0, -1)}${key.endsWith('0') ? '1' : '0'}`);
+    await dialog.getByText('not good').waitFor();
+    await give(key);
+    await page.getByText('Options').click();
+    await page.getByLabel('Levels').fill('2');
+    await page.setInputFiles('#file', dem);
+    await page.waitForFunction(() => document.querySelector('.job')?.matches('.successful, .failed'),
+      null, { polling: 50, timeout: kJobTime });
+    await page.screenshot({ path: join(pictures, 'keys-given.png') });
+    // Links, which have no header: a page that is opened, and a file that is downloaded.
+    const row = page.locator('.job').first();
+    await row.getByRole('button', { name: 'Artifacts' }).click();
+    const [download] = await Promise.all([page.waitForEvent('download'),
+      page.locator('.artifacts a', { hasText: 'tileset.json' }).click()]);
+    if (await download.failure()) faults.push(`the download failed: ${await download.failure()}`);
+    await row.getByRole('link', { name: 'Report', exact: true }).click();
+    await page.waitForURL(/report\.html\?ticket=/);
+    await page.locator('h1').waitFor();
+    await page.goBack();
+    await page.locator('.job').first().getByRole('link', { name: 'View', exact: true }).click();
+    await page.waitForFunction(() => document.body.dataset.ready === 'true');
+    await page.keyboard.press('1');
+    await page.waitForFunction(() => farhorizon.scene.shown === 1);
+    await page.keyboard.press('h');
+    await page.waitForFunction(() => farhorizon.scene.lines !== null);
+    await page.waitForTimeout(1000);
+    writeFileSync(join(pictures, 'keys-viewer.png'), await page.screenshot());
+    const { colours } = await shareOf(page, await page.locator('#view').screenshot(), [0, 0, 0]);
+    if (colours < 20) faults.push('the picture is empty');
+    faults.push(...await page.evaluate(() => farhorizon.scene.failures));
+    const kept = await page.evaluate(() => location.href + document.cookie +
+      JSON.stringify(localStorage));
+    if (kept.includes(key.slice(16))) faults.push('the key is kept elsewhere');
+  };
+  await use().catch((failure) => { faults.push(failure.message.split('\n')[0]); });
+  // The first answer, and that to the wrong key, are 401.
+  report('the pages of a service that asks for keys', faults.filter((fault) => !/401/.test(fault)));
+  await close();
+  service.stop();
+  rmSync(data, { recursive: true, force: true });
+};
+
 export const checkPages = async ({ browser, farhorizon, dem, cache, pictures, report }) => {
   const data = mkdtempSync(join(tmpdir(), 'farhorizon-clients-'));
   const service = await startService(farhorizon, join(cache, 'cesium'), data);

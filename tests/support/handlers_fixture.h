@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "service/handlers/key_gate.h"
 #include "service/handlers/problem.h"
 #include "service/handlers/routes.h"
 #include "tests/support/temp_dir.h"
@@ -42,7 +43,11 @@ class HandlersTest : public testing::Test {
     if (request.path.size() < target.size()) request.query = target.substr(request.path.size() + 1);
     request.headers = std::move(headers);
     if (!body.empty()) request.content_length = static_cast<std::int64_t>(body.size());
-    Admission admission = router_->Begin(router_->Find(request), request);
+    const Route* route = router_->Find(request);
+    if (gate_) {
+      if (auto refusal = gate_->Admit(request, route)) return *std::move(refusal);
+    }
+    Admission admission = router_->Begin(route, request);
     if (const auto* answer = std::get_if<HttpResponse>(&admission)) return *answer;
     Exchange& exchange = *std::get<std::unique_ptr<Exchange>>(admission);
     if (!body.empty()) {
@@ -82,6 +87,7 @@ class HandlersTest : public testing::Test {
   TempDir folder_;
   std::unique_ptr<JobService> jobs_;
   std::unique_ptr<Router> router_;
+  std::shared_ptr<KeyGate> gate_;  ///< set by tests with keys
 };
 
 }  // namespace farhorizon

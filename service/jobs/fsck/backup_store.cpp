@@ -8,7 +8,9 @@
 #include <unistd.h>
 #include <vector>
 
+#include "core/io/file.h"
 #include "core/io/posix_file.h"
+#include "service/auth/auth_options.h"
 #include "service/jobs/object_store.h"
 #include "service/jobs/sqlite.h"
 #include "service/jobs/storage_file.h"
@@ -59,9 +61,18 @@ Status CopyObject(const fs::path& source, const fs::path& target, const std::str
   return CopyBytes(from->get(), to.get());
 }
 
+// The hashes of keys, where there are some.
+Status CopyKeys(const fs::path& source, const fs::path& target) {
+  const Result<std::string> keys = ReadFile(AuthOptions{}.KeysFile(source));
+  if (!keys) return keys.error().code == ErrorCode::kNotFound ? Status(Ok{}) : keys.error();
+  return WriteFile(AuthOptions{}.KeysFile(target), *keys);
+}
+
 Status CopyAll(const fs::path& source, const fs::path& target) {
   // The database first: an object that a row names is there before the row.
   CopyDatabase(source / "jobs.sqlite", target / "jobs.sqlite");
+  Status keys = CopyKeys(source, target);
+  if (!keys) return keys;
   for (const std::string& name : NamedObjects(target / "jobs.sqlite")) {
     if (!IsSha256(name)) continue;
     Status copied = CopyObject(source / "objects", target / "objects", name);

@@ -8,10 +8,10 @@
 namespace farhorizon {
 
 /// Copies the store of a data directory, whether its service runs or not, into the new folder
-/// `target`: the database as of one moment, then every object that it names, each checked against
-/// its hash. Then the copy is checked and mended as by CheckStore: a job that was removed while its
-/// objects were copied is told as a fault. The copy is a data directory of its own; to restore, it
-/// takes the place of the other.
+/// `target`: the database as of one moment, the file of keys, then every object that the database
+/// names, each checked against its hash. Then the copy is checked and mended as by CheckStore: a
+/// job that was removed while its objects were copied is told as a fault. The copy is a data
+/// directory of its own; to restore, it takes the place of the other.
 /// Errors: kIo where the folder has no store, or `target` is there and not empty.
 Result<FsckSum> BackUpStore(const FsckOptions& source, const std::filesystem::path& target);
 

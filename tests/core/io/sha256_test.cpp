@@ -33,5 +33,16 @@ TEST(Digest, IsReadFromItsHex) {
   }
 }
 
+TEST(Digest, IsComparedInConstantTimeToo) {
+  EXPECT_TRUE(SameDigest(DigestOf({"abc"}), DigestOf({"abc"})));
+  EXPECT_FALSE(SameDigest(DigestOf({"abc"}), DigestOf({"abd"})));
+}
+
+// RFC 4231, section 4.3.
+TEST(HmacSha256, IsThePublishedOne) {
+  EXPECT_EQ(HmacSha256("Jefe", "what do ya want for nothing?").Hex(),
+            "5bdcc146bf60754e6a042426089575c75a003f089d2739839dec58b964ec3843");
+}
+
 }  // namespace
 }  // namespace farhorizon

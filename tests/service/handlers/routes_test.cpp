@@ -1,5 +1,7 @@
 #include "service/handlers/routes.h"
 
+#include <map>
+#include <optional>
 #include <set>
 
 #include <gmock/gmock.h>
@@ -7,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/pipeline/build_options.h"
+#include "service/handlers/route_scopes.h"
 #include "tests/support/handlers_fixture.h"
 #include "tests/support/json_schema.h"
 
@@ -32,6 +35,26 @@ TEST_F(RoutesTest, AnswersWhatOpenapiSays) {
   std::set<std::string> kept;
   for (const Route& route : router_->routes()) {
     kept.insert(LowerCase(route.method) + " " + route.pattern);
+  }
+  EXPECT_EQ(kept, promised);
+}
+
+TEST_F(RoutesTest, NeedsTheScopesThatOpenapiSays) {
+  std::map<std::string, std::string> promised;
+  const json api = OpenApi();
+  for (const auto& [path, item] : api["paths"].items()) {
+    for (const char* method : {"get", "post", "delete"}) {
+      if (!item.contains(method)) continue;
+      const json security = item[method].value("security", json::array({"none stated"}));
+      promised[method + (" " + path)] =
+          security.empty() ? "" : security[0].at("key").at(0).get<std::string>();
+    }
+  }
+  std::map<std::string, std::string> kept;
+  for (const Route& route : router_->routes()) {
+    const std::optional<Scope> needed = NeededScope(route.method, route.pattern);
+    kept[LowerCase(route.method) + " " + route.pattern] =
+        needed ? kScopeNames.at(static_cast<std::size_t>(*needed)) : "";
   }
   EXPECT_EQ(kept, promised);
 }

@@ -2,6 +2,7 @@
 #include <atomic>
 #include <functional>
 #include <memory>
+#include <set>
 #include <thread>
 #include <vector>
 
@@ -256,6 +257,31 @@ TEST_P(JobStoreConformance, PagesThroughAllJobsNewestFirst) {
     Insert();  // a job that is added between two pages is on neither
   }
   EXPECT_EQ(seen, ids);
+}
+
+TEST_P(JobStoreConformance, OwnersHaveTheirOwnListsAndIdempotencyKeys) {
+  const auto insert = [&](const std::string& owner) {
+    return store_
+        ->Insert({"dem.tif", {}, std::string(64, 'a'), 5, "key", {}, owner, {}, {}, owner}, {},
+                 ++time_)
+        ->id;
+  };
+  const std::string first = insert("ada");
+  const std::string second = insert("bob");
+  const std::string of_none = insert("");
+  EXPECT_EQ(std::set<std::string>({first, second, of_none}).size(), 3U);
+  EXPECT_EQ(insert("ada"), first);
+  EXPECT_EQ(insert(""), of_none);
+  EXPECT_EQ(store_->Find(second)->owner, "bob");
+  const auto page = store_->List({.states = {}, .before = {}, .limit = 10, .owner = "bob"});
+  ASSERT_EQ(page->jobs.size(), 1U);
+  EXPECT_EQ(page->jobs[0].id, second);
+  EXPECT_EQ(store_->List({.states = {JobState::kAccepted}, .before = second, .owner = "ada"})
+                ->jobs.at(0)
+                .id,
+            first);
+  EXPECT_TRUE(store_->List({.states = {}, .before = {}, .limit = 10, .owner = ""})->jobs.empty());
+  EXPECT_EQ(store_->List({})->jobs.size(), 3U);
 }
 
 TEST_P(JobStoreConformance, FiltersByState) {

@@ -131,6 +131,7 @@ TEST_P(SchemaTest, BringsAFileOfAnEarlierVersionForward) {
     EXPECT_EQ(done->process, kTerrainProcess);
     EXPECT_EQ(done->answer, "");
     EXPECT_EQ(done->cost.memory_bytes, 0) << "nobody knows";
+    EXPECT_EQ(done->owner, "") << "of before there were keys";
     EXPECT_EQ((*store)->Artifacts(Id(1))->at(0).sha256, "y");
     EXPECT_EQ((*store)->Find(Id(2))->failure->kind, "no-crs");
     EXPECT_EQ((*store)->List({{}, {}, 10})->jobs.size(), 4U);

@@ -230,11 +230,13 @@ TEST_F(CheckStoreTest, LeavesAStoreAloneThatIsInUse) {
 TEST_F(CheckStoreTest, ACopyOfARunningStoreRestores) {
   const auto service = OpenService(data_);
   const Job late = Submit(*service, "late");
+  SpillFile(data_ / "keys.json", "the keys");
   const fs::path copy = folder_ / "copy";
   const auto sum = BackUpStore({data_, false, [](const std::string&) {}}, copy);
   ASSERT_TRUE(sum) << sum.error().message;
   EXPECT_EQ(sum->faults, 0);
   EXPECT_EQ(sum->jobs, 4);
+  EXPECT_EQ(SlurpFile(copy / "keys.json"), "the keys");
   Submit(*service, "after the copy");
   const auto restored = OpenService(copy);
   ASSERT_NE(restored, nullptr);
