@@ -296,7 +296,7 @@ TEST_P(JobStoreConformance, FiltersByState) {
 
 TEST_P(JobStoreConformance, FiltersByProcessTimeAndDuration) {
   const Job first = Insert("a");
-  NewJob other{"echo.json", {}, std::string(64, 'b'), 5};
+  NewJob other{"echo.json", {}, std::string(64, 'b'), 5, {}};
   other.process = kEchoProcess;
   other.answer = "as asked";
   const Job second = *store_->Insert(other, {}, time_ += 1000);
