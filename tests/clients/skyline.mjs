@@ -46,7 +46,9 @@ const away = (row, skyline, from, to) => {
   const there = near.filter((y) => !Number.isNaN(y));
   if (Number.isNaN(row)) return there.length < near.length ? 0 : Infinity;
   if (there.length === 0) return Infinity;
-  return Math.max(0, Math.min(...there) - row, row - Math.max(...there));
+  // Where the terrain ends its outline goes on down.
+  const below = there.length < near.length ? Infinity : Math.max(...there);
+  return Math.max(0, Math.min(...there) - row, row - below);
 };
 
 // A drawn skyline, a row a column, against the DEM's samples, both ways. Result: `most`, pixels;
