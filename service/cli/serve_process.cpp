@@ -203,9 +203,8 @@ int ServeProcess(const LoadedConfig& loaded, const std::function<Result<LoadedCo
   if (!jobs) return ReportError(jobs.error());
   (*jobs)->MarkEnd();
   const std::string base = BaseUrl(config, *address, (*server)->port());
-  const Router router = BuildRouter(
-      {**jobs, base, config.max_body_bytes, TermsOf(options), *std::move(cesium), config.echo,
-       *gate});
+  const Router router = BuildRouter({**jobs, base, config.max_body_bytes, TermsOf(options),
+                                     *std::move(cesium), config.echo, *gate});
   (*server)->Serve(router, **gate);
   LogStart(loaded, base, (*server)->port());
   LogMemory((*jobs)->Memory());

@@ -42,9 +42,10 @@ constexpr ErrorKind kKinds400[] = {
 constexpr ErrorKind kKinds401[] = {"invalid-key", "key-required"};
 constexpr ErrorKind kKinds403[] = {"href-not-allowed", "insufficient-scope", "origin-not-allowed"};
 constexpr ErrorKind kKinds404[] = {
-    "no-config",        "no-such-file",  "no-such-job",          "no-such-key",
-    "no-such-output",   "no-such-process", "no-such-resource",   "not-found",
-    "result-not-available", "result-not-ready",
+    "no-config",        "no-such-file",   "no-such-job",
+    "no-such-key",      "no-such-output", "no-such-process",
+    "no-such-resource", "not-found",      "result-not-available",
+    "result-not-ready",
 };
 constexpr ErrorKind kKinds405[] = {"method-not-allowed"};
 constexpr ErrorKind kKinds408[] = {"request-timeout"};

@@ -92,7 +92,7 @@ struct Job {
   JobCost cost;
   std::string process = kTerrainProcess;
   std::string answer;  ///< how its results are to be answered, for the handlers; empty: as always
-  std::string owner;  ///< whose key it came with; empty: no key was asked for
+  std::string owner;   ///< whose key it came with; empty: no key was asked for
 };
 
 /// One output file of a job.

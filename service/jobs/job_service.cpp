@@ -154,12 +154,11 @@ Result<Job> JobService::Submit(const SpoolFile& upload, const Submission& submis
   auto pin = collector_.Pin();
   Result<StoredObject> stored = objects_->PutFile(upload.path());
   if (!stored) return std::move(stored.error());
-  Result<Job> inserted =
-      jobs_->Insert({submission.filename, submission.parameters, stored->sha256, stored->bytes,
-                     submission.idempotency_key, submission.assumptions, submission.client,
-                     submission.terms, submission.cost, submission.process, submission.answer,
-                     submission.owner},
-                    Bounds(), NowMs());
+  Result<Job> inserted = jobs_->Insert(
+      {submission.filename, submission.parameters, stored->sha256, stored->bytes,
+       submission.idempotency_key, submission.assumptions, submission.client, submission.terms,
+       submission.cost, submission.process, submission.answer, submission.owner},
+      Bounds(), NowMs());
   if (inserted) objects_->Keep({stored->sha256});
   pin.unlock();
   if (inserted) {

@@ -55,7 +55,7 @@ struct Submission {
   BuildOptions options = {};  ///< what the parameters mean
   std::string process = kTerrainProcess;
   std::string answer = {};  ///< as Job has it
-  std::string owner = {};     ///< whose key it comes with; empty: no key was asked for
+  std::string owner = {};   ///< whose key it comes with; empty: no key was asked for
 };
 
 /// One thing that a service depends on.

@@ -25,7 +25,7 @@ struct NewJob {
   JobCost cost = {};
   std::string process = kTerrainProcess;
   std::string answer = {};  ///< as Job has it
-  std::string owner = {};  ///< whose key it comes with; empty: no key was asked for
+  std::string owner = {};   ///< whose key it comes with; empty: no key was asked for
 };
 
 /// How many jobs have not ended.

@@ -30,7 +30,8 @@ class KeyGateTest : public HandlersTest {
   }
   void Ask(const AuthOptions& options) {
     gate_ = *KeyGate::Open(options, folder_ / "data", true);
-    router_ = std::make_unique<Router>(BuildRouter({*jobs_, "http://x", 1000, {}, {}, false, gate_}));
+    router_ =
+        std::make_unique<Router>(BuildRouter({*jobs_, "http://x", 1000, {}, {}, false, gate_}));
   }
   // The field of a new key.
   Headers KeyWith(Scopes scopes) {
