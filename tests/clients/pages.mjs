@@ -145,8 +145,9 @@ export const checkStandalone = async (context) => {
 export const checkSplit = async (context) => {
   const { page, faults, close } = await openStandalone(context);
   await page.keyboard.press('0');
-  await page.waitForFunction(() => farhorizon.scene.shown === 0
-    && farhorizon.scene.models.has(0) && document.querySelector('#row-0.shown'));
+  await page.waitForFunction(() => farhorizon.scene.shown === 0 && farhorizon.scene.models.has(0));
+  await page.waitForFunction(async () => (
+    await farhorizon.scene.models.get(0)).some(({ show }) => show));
   const found = await page.evaluate(async () => {
     const { scene } = farhorizon;
     const models = await scene.modelsOf(0);
