@@ -10,6 +10,7 @@
 #include "core/geo/crs_name.h"
 #include "core/geo/crs_text.h"
 #include "core/geo/parse_crs.h"
+#include "core/geo/reference_data.h"
 #include "core/geo/short_text.h"
 
 namespace farhorizon {
@@ -71,9 +72,8 @@ Result<DatumChoice> TakeStated(const ProjSession& session, DatumChoice choice,
   if (lacking != nullptr) {
     return Error{ErrorCode::kUnsupportedData,
                  "the datum operation " + lacking->Described() + " needs the grid " +
-                     lacking->missing_grids.front() +
-                     ", which is not installed; install it where PROJ looks for grids, or give "
-                     "another --datum-operation",
+                     lacking->missing_grids.front() + ", which is not installed; " +
+                     WhereGridsGo() + ", or give another --datum-operation",
                  "no-geoid-grid"};
   }
   if (listed > kMaxListed) known += " and " + std::to_string(listed - kMaxListed) + " more";

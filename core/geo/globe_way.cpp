@@ -10,6 +10,7 @@
 #include "core/geo/crs_name.h"
 #include "core/geo/height_system.h"
 #include "core/geo/parse_crs.h"
+#include "core/geo/reference_data.h"
 
 namespace farhorizon {
 
@@ -57,8 +58,7 @@ Error NoWay(const ProjSession& session, const GlobeWay& way, const PJ* globe) {
   for (const DatumOperation& one : ListDatumOperations(session, way.crs.get(), globe)) {
     if (one.missing_grids.empty() || one.ballpark_heights) continue;
     return Unusable("heights in " + way.name + " need the grid " + one.missing_grids.front() +
-                        ", which is not installed; install it where PROJ looks for grids, or " +
-                        kHeightRemedy,
+                        ", which is not installed; " + WhereGridsGo() + ", or " + kHeightRemedy,
                     "no-geoid-grid");
   }
   const std::string why =

@@ -61,6 +61,10 @@ void SealContext(PJ_CONTEXT* context) {
   proj_context_set_fileapi(context, &kPackagedFiles, nullptr);
 }
 
+std::string WhereGridsGo() {
+  return "put the file of that name, which https://cdn.proj.org has, into " + std::string(kFolder);
+}
+
 const char* ProjDataFolder() { return kFolder.data(); }
 const char* GdalDataFolder() { return FARHORIZON_GDAL_DATA; }
 

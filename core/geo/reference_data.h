@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "core/base/result.h"
 
 struct pj_ctx;  // PROJ's own name of PJ_CONTEXT
@@ -14,6 +16,9 @@ void SealContext(pj_ctx* context);
 /// The folders in which Debian's packages have PROJ's database and grids, and GDAL's tables.
 const char* ProjDataFolder();
 const char* GdalDataFolder();
+
+/// How a grid is had that is not installed: for messages, after the grid's name.
+std::string WhereGridsGo();
 
 /// The descriptor on which this process has the database open; -1 where it has not.
 int ReferenceDataFd();

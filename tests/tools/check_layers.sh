@@ -60,7 +60,7 @@ declare -A may=(
   [core/io/quantized_mesh]="core/base core/geo core/io"
   [core/pipeline]="$below_pipeline"
   [core/pipeline/compare]="$below_pipeline core/io/mesh_files core/pipeline"
-  [core/pipeline/verify]="$below_pipeline core/pipeline"
+  [core/pipeline/verify]="$below_pipeline core/pipeline core/pipeline/terrain_tiles core/io/quantized_mesh"
   [core/pipeline/report_page]="$below_pipeline core/pipeline"
   # Levels cut into tiles for a globe.
   [core/pipeline/terrain_tiles]="$below_pipeline core/io/quantized_mesh core/pipeline"

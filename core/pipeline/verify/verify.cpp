@@ -26,6 +26,7 @@
 #include "core/pipeline/verify/verify_edges.h"
 #include "core/pipeline/verify/verify_features.h"
 #include "core/pipeline/verify/verify_level.h"
+#include "core/pipeline/verify/verify_terrain.h"
 #include "core/pipeline/verify/verify_tileset.h"
 
 namespace farhorizon {
@@ -129,13 +130,18 @@ class KeptEdges {
   std::vector<int> coarsest_;
 };
 
-// Returns the GLBs of the levels, those of a level without any being none.
-std::vector<std::vector<TileContentRegion>> VerifyLevels(const LevelContext& context,
-                                                         const Artifacts& artifacts,
-                                                         const HorizonClaims& horizon,
-                                                         Claims& claims) {
+// What the levels' GLBs hold. contents: a level each, none of a level without any. globe: of the
+// levels that have GLBs, for terrain tiles, if there are some.
+struct VerifiedLevels {
+  std::vector<std::vector<TileContentRegion>> contents;
+  std::vector<TiledLevel> globe;
+};
+
+VerifiedLevels VerifyLevels(const LevelContext& context, const Artifacts& artifacts,
+                            const HorizonClaims& horizon, Claims& claims) {
   const auto& [directory, report] = artifacts;
-  std::vector<std::vector<TileContentRegion>> contents(report.levels.size());
+  const bool has_terrain = HasTerrain(directory);
+  VerifiedLevels verified = {std::vector<std::vector<TileContentRegion>>(report.levels.size()), {}};
   const RunControl& control = context.control;
   KeptEdges kept(context.horizon);
   double finer_error_m = 0;
@@ -166,14 +172,17 @@ std::vector<std::vector<TileContentRegion>> VerifyLevels(const LevelContext& con
     if (claimed.glb_bytes == 0) continue;
     VerifyLevelEdges(level_context, directory, claimed, *stored,
                      {here, horizon.found, horizon.threads}, claims);
-    contents[level] = std::move(stored->contents);
+    verified.contents[level] = std::move(stored->contents);
+    if (!has_terrain) continue;
+    Result<GlobeMesh> globe = PlaceOnGlobe(context.georeference, stored->decoded.mesh);
+    if (globe) verified.globe.push_back({*std::move(globe), claimed.geometric_error_m});
   }
   const bool all_written = std::none_of(report.levels.begin(), report.levels.end(), WasNotWritten);
   if (horizon.published && all_written) {
     claims.Add(kept.Are(*horizon.published),
                "horizon.geojson: level_kept is the coarsest level that still has the edge");
   }
-  return contents;
+  return verified;
 }
 
 // Checks horizon.geojson, and finds the measures of edges again where a file has some.
@@ -292,9 +301,13 @@ Result<std::vector<ClaimCheck>> VerifyArtifacts(const fs::path& dem, const fs::p
   MeshMeasurer measurer((*input)->terrain(), *horizon, *std::move(places));
   const LevelContext context{
       (*input)->terrain(), *horizon, (*input)->georeference(), *normals, measurer, control};
-  const std::vector<std::vector<TileContentRegion>> contents =
-      VerifyLevels(context, {directory, *report}, *horizon_claims, claims);
-  VerifyTileset(**input, directory, report->levels, contents, claims);
+  VerifiedLevels levels = VerifyLevels(context, {directory, *report}, *horizon_claims, claims);
+  VerifyTileset(**input, directory, report->levels, levels.contents, claims);
+  // Without GLBs there is nothing that they could be compared with but the .drc's other order.
+  const auto has_glb = [](const LevelReport& level) { return level.glb_bytes > 0; };
+  if (HasTerrain(directory) && std::ranges::all_of(report->levels, has_glb)) {
+    VerifyTerrain(directory, std::move(levels.globe), report->levels.size(), claims);
+  }
   control.Report(Stage::kVerify, 1);
   return std::move(claims).Take();
 }

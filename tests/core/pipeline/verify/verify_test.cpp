@@ -391,8 +391,9 @@ TEST_F(Verify, LinesThatAreNotTheLevelsAreFound) {
   EXPECT_TRUE(Names(False(), "lod1-horizon.glb is there: claimed 1, found 0"));
 }
 
-TEST_F(Verify, FlagsThatAreNotTheLevelsAreFound) {
+TEST_F(Verify, FlagsAndTilesThatAreNotTheLevelsAreFound) {
   std::filesystem::remove_all(folder_ / "out");
+  options_.formats = {"3dtiles", "quantized-mesh"};
   options_.edges = EdgeFiles::kInline;
   ASSERT_TRUE(BuildArtifacts(folder_ / "hills.asc", folder_ / "out", options_, control_));
   const std::string bytes = SlurpFile(folder_ / "out" / "lod1.glb");
@@ -403,9 +404,11 @@ TEST_F(Verify, FlagsThatAreNotTheLevelsAreFound) {
       WriteGlb(contents.surface.draco, decoded, FlagEdges(decoded.mesh, {{0, 1}}));
   SpillFile(folder_ / "out" / "lod1.glb", {glb.begin(), glb.end()});
   Change("tileset.json", "lod0.glb", "lod9.glb");
+  SpillFile(folder_ / "out" / "terrain-0-1-0.terrain", "no tile");
   const std::vector<std::string> lines = False();
   EXPECT_TRUE(Names(lines, "lod1.glb flags them and no others"));
   EXPECT_TRUE(Names(lines, "tileset.json has each GLB once"));
+  EXPECT_TRUE(Names(lines, "terrain tiles are the levels, cut; not so terrain-0-1-0.terrain"));
 }
 
 // A DEM whose level 0 is cut in two, as it is long enough for it, and its artifacts.
@@ -425,6 +428,7 @@ class VerifyParts : public Built {
     options_.max_error_m = 0.3;
     options_.tile_triangles = 1000;
     options_.edges = EdgeFiles::kInline;
+    options_.formats = {"3dtiles", "drc", "quantized-mesh"};
     Status built = BuildArtifacts(folder_ / "hills.asc", folder_ / "out", options_, control_);
     ASSERT_TRUE(built) << built.error().message;
   }
