@@ -92,9 +92,8 @@ ResultWishes WishesOf(const std::string& process, std::optional<bool> raw, Asked
   const bool echo = process == kEchoProcess;
   if (!asked && echo) {
     asked.emplace();
-    for (const auto& [name, output] : ProcessDescription(process, "")["outputs"].items()) {
-      (*asked)[name] = {};
-    }
+    const nlohmann::ordered_json description = ProcessDescription(process, "");
+    for (const auto& [name, output] : description["outputs"].items()) (*asked)[name] = {};
   }
   const bool one = asked && asked->size() == 1;
   ResultWishes wishes{raw.value_or(echo || one)};

@@ -17,7 +17,7 @@ export const ask = (method, url, { headers = {}, body } = {}) =>
         const bytes = Buffer.concat(pieces);
         const type = response.headers['content-type'] ?? '';
         const text = bytes.toString('utf8');
-        const json = /[/+]json/.test(type) && text ? JSON.parse(text) : undefined;
+        const json = /^[^;]*[/+]json/.test(type) && text ? JSON.parse(text) : undefined;
         done({
           method, url, status: response.statusCode, version: response.httpVersion,
           headers: response.headers, type: type.split(';')[0].trim(), bytes, text, json,

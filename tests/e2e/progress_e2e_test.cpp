@@ -72,7 +72,8 @@ TEST_F(ProgressE2e, RisesAndNeverFallsInEveryCommand) {
 }
 
 TEST_F(ProgressE2e, RisesAndNeverFallsInAJob) {
-  SpillFile(folder_ / "task.json", json{{"input", "hills.asc"},
+  SpillFile(folder_ / "task.json", json{{"process", "terrain-lod"},
+                                        {"input", "hills.asc"},
                                         {"output", "out"},
                                         {"parameters", {{"crs", "EPSG:4326"}}},
                                         {"maxPosts", 1'000'000},

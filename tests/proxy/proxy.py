@@ -145,7 +145,7 @@ def check_all(folder, data, service):
                 break
         time.sleep(0.2)
     check("its job ends", state == "successful", state)
-    path = f"/jobs/{job}/results/lod0.glb"
+    path = f"/jobs/{job}/results/lod4.glb"
     status, head, whole = Proxied(folder).ask("GET", path, bearer)
     part, _, bytes_10_to_19 = Proxied(folder).ask("GET", path, bearer | {"Range": "bytes=10-19"})
     check("a result, and a range of it", (status, part) == (200, 206)
