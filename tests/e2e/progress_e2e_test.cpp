@@ -72,12 +72,12 @@ TEST_F(ProgressE2e, RisesAndNeverFallsInEveryCommand) {
 }
 
 TEST_F(ProgressE2e, RisesAndNeverFallsInAJob) {
-  SpillFile(folder_ / "task.json", json{{"process", "terrain-lod"},
-                                        {"input", "hills.asc"},
+  SpillFile(folder_ / "task.json", json{{"input", "hills.asc"},
                                         {"output", "out"},
                                         {"parameters", {{"crs", "EPSG:4326"}}},
                                         {"maxPosts", 1'000'000},
-                                        {"threads", 2}}
+                                        {"threads", 2},
+                                        {"echo", false}}
                                        .dump());
   const std::string script =
       "cd '" + folder_.path().string() + "' && exec '" FARHORIZON_PROGRAM "' worker 3>messages";
