@@ -115,11 +115,14 @@ export const checkJobs = async (run) => {
     expect(status.links.some(({ rel }) => rel.endsWith('/exceptions')), 'no link to the exception');
   });
   await claim('jobs: a DEM of 32 MiB in base64 costs the service no memory for it', async () => {
-    const large = Buffer.alloc(32 << 20, 0x20).toString('base64');
+    // It begins as a TIFF does, so that it is taken whole before it is refused.
+    const raster = Buffer.alloc(32 << 20, 0x20);
+    raster.write('II*\0', 'latin1');
+    const large = raster.toString('base64');
     const body = JSON.stringify({ inputs: { dem: large } });
     const before = await memoryOf(base);
     const answers = await Promise.all([1, 2, 3].map(() => postJson(`${base}/jobs`, body)));
-    same(answers.map(({ status }) => status), [415, 415, 415], 'the statuses');
+    for (const { status } of answers) expect(status >= 400 && status < 500, `status ${status}`);
     const grown = (await memoryOf(base)) - before;
     expect(grown < (16 << 20), `grew by ${grown} bytes`);
     return `resident memory grew by ${Math.round(grown / 1024)} KiB`;
