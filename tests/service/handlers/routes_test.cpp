@@ -61,7 +61,8 @@ TEST_F(RoutesTest, NeedsTheScopesThatOpenapiSays) {
 
 TEST_F(RoutesTest, TakesTheParametersThatOpenapiLists) {
   std::set<std::string> listed;
-  for (const json& one : OpenApi()["paths"]["/jobs"]["post"]["parameters"]) {
+  const json api = OpenApi();
+  for (const json& one : api["paths"]["/jobs"]["post"]["parameters"]) {
     if (one["in"] == "query") listed.insert(one["name"].get<std::string>());
   }
   std::set<std::string> taken = {"filename", "priority", "deadline", "timeout"};
