@@ -118,7 +118,7 @@ TEST_F(CollectArtifactsTest, RefusesAllElseWithoutWaiting) {
        }},
       {"thousands of files",
        [&] {
-         for (int i = 0; i < 2000; ++i) std::ofstream(Out() / std::to_string(i));
+         for (int i = 0; i < 5000; ++i) std::ofstream(Out() / std::to_string(i));
        }},
   };
   for (const auto& [name, deed] : deeds) {

@@ -262,8 +262,19 @@ TEST_P(JobStoreConformance, PagesThroughAllJobsNewestFirst) {
 TEST_P(JobStoreConformance, OwnersHaveTheirOwnListsAndIdempotencyKeys) {
   const auto insert = [&](const std::string& owner) {
     return store_
-        ->Insert({"dem.tif", {}, std::string(64, 'a'), 5, "key", {}, owner, {}, {}, owner}, {},
-                 ++time_)
+        ->Insert({"dem.tif",
+                  {},
+                  std::string(64, 'a'),
+                  5,
+                  "key",
+                  {},
+                  owner,
+                  {},
+                  {},
+                  kTerrainProcess,
+                  {},
+                  owner},
+                 {}, ++time_)
         ->id;
   };
   const std::string first = insert("ada");
