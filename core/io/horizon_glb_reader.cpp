@@ -1,3 +1,5 @@
+// Takes only what WriteHorizonGlb makes, and checks each offset and count: verification reads files
+// of unknown origin.
 #include "core/io/horizon_glb_reader.h"
 
 #include <bit>

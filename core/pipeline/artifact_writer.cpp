@@ -36,6 +36,10 @@ Status ArtifactWriter::Add(const std::string& name, std::string_view bytes) {
   return WriteFile(directory_ / name, bytes);
 }
 
+Status ArtifactWriter::Add(const std::string& name, const std::vector<std::uint8_t>& bytes) {
+  return Add(name, std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+}
+
 Status ArtifactWriter::AddWritten(const std::string& name) {
   Result<std::string> bytes = ReadFile(PathOf(name));
   if (!bytes) return std::move(bytes.error());

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -24,6 +25,7 @@ class ArtifactWriter {
 
   /// Writes `bytes` as the artifact `name`. Errors: those of WriteFile.
   Status Add(const std::string& name, std::string_view bytes);
+  Status Add(const std::string& name, const std::vector<std::uint8_t>& bytes);
 
   /// Adds a file that the caller has written to PathOf(name). Errors: those of ReadFile.
   Status AddWritten(const std::string& name);

@@ -33,10 +33,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string_view AsText(const std::vector<std::uint8_t>& bytes) {
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
 // For each horizon edge the coarsest level that keeps it, -1 for none.
 std::vector<int> LevelsKept(const Horizon& horizon, const std::vector<Lod>& chain) {
   std::vector<int> level_kept(horizon.edges.size(), -1);
@@ -65,7 +61,7 @@ Status WriteEdges(const std::vector<HorizonFeature>& features, WrittenLevels& le
     AddMeasures(features, edges);
     const std::vector<std::uint8_t> glb = WriteHorizonGlb(LineChainsOf(edges.lines), edges.lattice);
     levels.reports[i].skyline_edges.bytes = std::ssize(glb);
-    Status added = writer.Add(HorizonGlbName(static_cast<int>(i)), AsText(glb));
+    Status added = writer.Add(HorizonGlbName(static_cast<int>(i)), glb);
     if (!added) return added;
   }
   return Ok{};

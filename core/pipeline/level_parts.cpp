@@ -1,3 +1,5 @@
+// A triangle's part follows from the least column and row of its corners, as no triangle crosses a
+// line. Parts have vertices of their own; joined again, those that are alike become one.
 #include "core/pipeline/level_parts.h"
 
 #include <algorithm>

@@ -14,10 +14,6 @@ namespace {
 // The share of a level's part of Stage::kEncode after which its skyline is looked for.
 constexpr double kEncoded = 0.3;
 
-std::string_view AsText(const std::vector<std::uint8_t>& bytes) {
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
 // What level i was asked for: by size, every further level two fifths of the triangles of the one
 // before it.
 LevelAsked AskedOf(const LevelPlan& plan, const std::vector<Lod>& chain, std::size_t i) {
@@ -34,7 +30,7 @@ Status WriteGlbs(const LevelContext& context, double skirt_m, LevelArtifact& lev
   std::vector<TileContentRegion>& contents = written.contents.emplace_back();
   for (std::size_t i = 0; i < glbs->size(); ++i) {
     const PartGlb& glb = (*glbs)[i];
-    if (Status added = writer.Add(glb.name, AsText(glb.bytes)); !added) return added;
+    if (Status added = writer.Add(glb.name, glb.bytes); !added) return added;
     MeshRegion region(context.georeference);
     if (Status added = region.Add(glb.surface); !added) return added;
     if (Status added = region.Add(glb.skirt); !added) return added;
@@ -57,7 +53,7 @@ Status WriteFiles(const LevelContext& context, const TerrainInput& input,
     }
     if (!level.drc.empty()) {
       const std::string name = "lod" + std::to_string(i) + ".drc";
-      if (Status added = writer.Add(name, AsText(level.drc)); !added) return added;
+      if (Status added = writer.Add(name, level.drc); !added) return added;
     }
     written.reports[i] = level.report;
     if (Asks(options, "quantized-mesh")) {
