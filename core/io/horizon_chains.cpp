@@ -39,6 +39,7 @@ void Append(const HorizonFeature& edge, bool reversed, HorizonChain& chain) {
   chain.posts.push_back(reversed ? edge.a : edge.b);
   chain.line.push_back(reversed ? edge.from : edge.to);
   chain.level_kept.push_back(edge.level_kept);
+  chain.in_context = edge.in_context;
   chain.undecided = edge.undecided;
   const EdgeMeasures& m = edge.measures;
   chain.sights = Both(chain.sights, m.sights);
@@ -102,6 +103,7 @@ std::string FeatureText(const HorizonChain& chain, const ChainRounding& rounding
     }
     properties += '"';
   }
+  if (chain.in_context) properties += ContextText(*chain.in_context);
   if (!properties.empty()) properties.front() = '{';
   return R"({"type":"Feature","geometry":)" + Geometry(chain.line, rounding) + R"(,"properties":)" +
          (properties.empty() ? "{" : properties) + "}}";
@@ -156,6 +158,7 @@ HorizonChain ReadChain(const Json& feature) {
       if (digit != std::string_view::npos) chain.level_kept[i] = static_cast<int>(digit);
     }
   }
+  if (properties.contains("context")) chain.in_context = properties.at("context").get<bool>();
   chain.undecided = properties.value("undecided", false);
   if (chain.undecided) {
     chain.sights = chain.drop = Known::kNotAfforded;
@@ -186,7 +189,8 @@ std::vector<HorizonChain> ChainsOf(const std::vector<HorizonFeature>& features) 
   edges.reserve(features.size());
   const auto point = [](const Post& p) { return std::array<double, 2>{1.0 * p[0], 1.0 * p[1]}; };
   for (const HorizonFeature& f : features) {
-    edges.push_back({point(f.a), point(f.b), f.undecided ? 1 : 0});
+    const int kind = (f.undecided ? 1 : 0) + (f.in_context.value_or(false) ? 2 : 0);
+    edges.push_back({point(f.a), point(f.b), kind});
   }
   std::vector<HorizonChain> chains;
   for (const std::vector<ChainedEdge>& links : JoinEdges(edges)) {

@@ -16,7 +16,7 @@ namespace farhorizon {
 /// Horizon edges one behind the other, as a line.
 ///
 /// posts: [column, row], one more than edges; a post may be there more than once. line: their
-///   positions. level_kept: of each edge. undecided: all of its edges are, or none.
+///   positions. level_kept: of each edge. in_context, undecided: as all of its edges are.
 /// azimuths: those of all its edges. line_measure_m: their sum. skyline_drop_m: their greatest.
 /// sights, drop: whether all of its edges have these.
 struct HorizonChain {
@@ -28,13 +28,14 @@ struct HorizonChain {
   double skyline_drop_m = 0;
   Known sights = Known::kYes;
   Known drop = Known::kYes;
+  std::optional<bool> in_context;
   bool undecided = false;
 };
 
 /// Takes every edge once into as few chains as there can be, but closed ones: at each post edges
 /// are joined by twos, the two that run straightest first, so that no more than one chain ends
-/// there, two where some edges are undecided. Chains that end come first, in the order of their
-/// first edges.
+/// there of each kind: undecided or not, in context or not. Chains that end come first, in the
+/// order of their first edges.
 /// Cost: O(n log n).
 std::vector<HorizonChain> ChainsOf(const std::vector<HorizonFeature>& features);
 

@@ -48,6 +48,7 @@ std::string FeatureText(const HorizonFeature& feature) {
     text += MeasuresText(feature.measures) + WitnessText(feature.witness);
   }
   if (feature.level_kept) text += R"(,"level_kept":)" + std::to_string(*feature.level_kept);
+  if (feature.in_context) text += ContextText(*feature.in_context);
   return text + "}}";
 }
 
@@ -118,6 +119,7 @@ HorizonFeature ReadFeature(const Json& feature) {
   if (properties.contains("level_kept")) {
     result.level_kept = properties.at("level_kept").get<int>();
   }
+  if (properties.contains("context")) result.in_context = properties.at("context").get<bool>();
   return result;
 }
 
@@ -126,6 +128,10 @@ Error BadGeoJson(const std::string& message) {
 }
 
 }  // namespace
+
+std::string ContextText(bool in_context) {
+  return std::string(R"(,"context":)") + (in_context ? "true" : "false");
+}
 
 std::string IntervalsText(const std::vector<std::array<double, 2>>& intervals, int decimals) {
   std::string text(1, '[');

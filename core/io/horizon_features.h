@@ -53,8 +53,9 @@ struct EdgeMeasures {
 /// One horizon edge as it is published, from post a to post b, both [column, row].
 ///
 /// from, to: the positions of a and b. level_kept: the coarsest level that has the edge; unset
-/// where no levels were built, or none keeps it. undecided: the work budget ran out before the edge
-/// was decided; it has neither measures nor a witness.
+/// where no levels were built, or none keeps it. in_context: whether it is on the horizon with the
+/// ground around the DEM too; unset where that was not asked. undecided: the work budget ran out
+/// before the edge was decided; it has neither measures nor a witness.
 struct HorizonFeature {
   std::array<std::int32_t, 2> a;
   std::array<std::int32_t, 2> b;
@@ -63,6 +64,7 @@ struct HorizonFeature {
   EdgeMeasures measures;
   Witness witness;
   std::optional<int> level_kept;
+  std::optional<bool> in_context;
   bool undecided = false;
 };
 
@@ -84,6 +86,9 @@ std::string WriteHorizonGeoJson(const std::vector<HorizonFeature>& features);
 /// Reads back the text of WriteHorizonGeoJson. Errors: kUnsupportedData, kind "bad-geojson", with
 /// the feature and the cause.
 Result<std::vector<HorizonFeature>> ReadHorizonGeoJson(const std::string& text);
+
+/// The property `context`, after others.
+std::string ContextText(bool in_context);
 
 /// "[[from,to],...]", as azimuths and spans are written. decimals: of each number, at most.
 std::string IntervalsText(const std::vector<std::array<double, 2>>& intervals, int decimals);

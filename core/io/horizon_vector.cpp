@@ -36,7 +36,7 @@ constexpr std::pair<const char*, OGRFieldType> kFields[] = {
     {"direction_rows", OFTInteger64}, {"level_kept", OFTInteger},
     {"azimuths", OFTString},          {"spans", OFTString},
     {"angular_share", OFTReal},       {"line_measure_m", OFTReal},
-    {"skyline_drop_m", OFTReal}};
+    {"skyline_drop_m", OFTReal},      {"context", OFTInteger}};
 
 bool AddFields(OGRLayerH layer) {
   for (const auto& [name, type] : kFields) {
@@ -86,6 +86,7 @@ bool AddFeature(OGRLayerH layer, const HorizonFeature& edge) {
     if (m.drop == Known::kYes) OGR_F_SetFieldDouble(feature.get(), 12, m.skyline_drop_m);
   }
   if (edge.level_kept) OGR_F_SetFieldInteger(feature.get(), 7, *edge.level_kept);
+  if (edge.in_context) OGR_F_SetFieldInteger(feature.get(), 13, *edge.in_context ? 1 : 0);
   const OGRGeometryH line = LineOf(edge, OGR_L_GetGeomType(layer));
   return OGR_F_SetGeometryDirectly(feature.get(), line) == OGRERR_NONE &&
          OGR_L_CreateFeature(layer, feature.get()) == OGRERR_NONE;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -17,6 +18,7 @@
 #include "core/io/tileset.h"
 #include "core/pipeline/artifact_writer.h"
 #include "core/pipeline/build_features.h"
+#include "core/pipeline/horizon_context.h"
 #include "core/pipeline/level_artifact.h"
 #include "core/pipeline/level_plan.h"
 #include "core/pipeline/post_places.h"
@@ -42,6 +44,11 @@ std::vector<int> LevelsKept(const Horizon& horizon, const std::vector<Lod>& chai
     }
   }
   return level_kept;
+}
+
+std::optional<std::int64_t> CountInContext(const BuildOptions& options, const EdgeFacts& facts) {
+  if (!options.horizon_context) return std::nullopt;
+  return std::ranges::count(facts.in_context, true);
 }
 
 Status WriteTilesetFor(const TerrainInput& input, const WrittenLevels& levels,
@@ -106,8 +113,17 @@ Status BuildArtifacts(const fs::path& dem, const fs::path& directory, const Buil
 
   const HorizonOptions horizon_options = HorizonOptionsOf(options);
   WorkBudget budget = WorkBudgetOf((*input)->terrain(), horizon_options);
-  Result<Horizon> horizon = FindHorizon((*input)->terrain(), horizon_options, budget, control);
+  const bool asks_context = options.horizon_context;
+  Result<Horizon> horizon = FindHorizon((*input)->terrain(), horizon_options, budget,
+                                        asks_context ? control.Between(0, 0.5) : control);
   if (!horizon) return std::move(horizon.error());
+  EdgeFacts facts;
+  if (asks_context) {
+    Result<std::vector<bool>> in_context =
+        FindInContext(**input, *horizon, horizon_options, control.Between(0.5, 1));
+    if (!in_context) return std::move(in_context.error());
+    facts.in_context = *std::move(in_context);
+  }
 
   Result<std::vector<Lod>> chain =
       BuildLodChain((*input)->terrain(), *horizon, plan->lods, control);
@@ -143,9 +159,9 @@ Status BuildArtifacts(const fs::path& dem, const fs::path& directory, const Buil
                                      });
     if (!tiles) return tiles;
   }
-  Result<std::vector<HorizonFeature>> features =
-      BuildFeatures(**input, *horizon, LevelsKept(*horizon, *chain),
-                    {.budget = budget, .threads = options.threads}, control);
+  facts.level_kept = LevelsKept(*horizon, *chain);
+  Result<std::vector<HorizonFeature>> features = BuildFeatures(
+      **input, *horizon, facts, {.budget = budget, .threads = options.threads}, control);
   if (!features) return std::move(features.error());
   control.Report(Stage::kWrite, 0);
   Status written = WriteFeatures(*features, (*input)->georeference(), options, writer);
@@ -158,6 +174,7 @@ Status BuildArtifacts(const fs::path& dem, const fs::path& directory, const Buil
                       (*input)->report(),
                       (*input)->assumptions(),
                       static_cast<std::int64_t>(horizon->edges.size()),
+                      CountInContext(options, facts),
                       horizon->statistics,
                       levels->reports,
                       FrameReport{options.frame, (*input)->georeference().frame().EnuToEcef()}};

@@ -16,7 +16,8 @@
 // took 205 MiB at 129².
 //
 // Processor time: 36 microseconds a post from 1201² to 3600², 44 to 60 below, 160 of noise. What
-// stays undecided is decided up to three times by `approximate`.
+// stays undecided is decided up to three times by `approximate`. The horizon is found twice with
+// --horizon-context, which is at most as much again.
 #include "core/pipeline/build_cost.h"
 
 #include <algorithm>
@@ -35,6 +36,7 @@ constexpr std::int64_t kBytesOfFurtherPost = 200;
 constexpr double kSecondsOfAny = 0.5;
 constexpr double kSecondsOfPost = 40e-6;
 constexpr double kShareOfApproximate = 3;
+constexpr double kShareOfContext = 2;
 
 std::int64_t BytesBesidePosts(const BuildOptions& options) {
   return kBytesOfAny + kBytesOfThread * options.threads;
@@ -43,11 +45,13 @@ std::int64_t BytesBesidePosts(const BuildOptions& options) {
 }  // namespace
 
 BuildCost EstimateBuild(std::int64_t posts, const BuildOptions& options) {
-  const double seconds = kSecondsOfAny + kSecondsOfPost * static_cast<double>(posts);
+  const double seconds = (kSecondsOfAny + kSecondsOfPost * static_cast<double>(posts)) *
+                         (options.approximate ? kShareOfApproximate : 1) *
+                         (options.horizon_context ? kShareOfContext : 1);
   const std::int64_t further = std::max<std::int64_t>(0, posts - kManyPosts);
   return {
       BytesBesidePosts(options) + kBytesOfPost * (posts - further) + kBytesOfFurtherPost * further,
-      options.approximate ? kShareOfApproximate * seconds : seconds};
+      seconds};
 }
 
 std::int64_t PostsWithin(std::int64_t memory_bytes, const BuildOptions& options) {

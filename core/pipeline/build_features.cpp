@@ -5,7 +5,7 @@
 namespace farhorizon {
 
 Result<std::vector<HorizonFeature>> BuildFeatures(const TerrainInput& input, const Horizon& horizon,
-                                                  const std::vector<int>& level_kept,
+                                                  const EdgeFacts& facts,
                                                   const MeasureOptions& measuring,
                                                   const RunControl& control) {
   std::vector<VertexId> ends;
@@ -31,7 +31,10 @@ Result<std::vector<HorizonFeature>> BuildFeatures(const TerrainInput& input, con
     feature.measures = std::move((*measures)[i]);
     feature.witness = e.witness;
     feature.undecided = e.undecided;
-    if (i < level_kept.size() && level_kept[i] >= 0) feature.level_kept = level_kept[i];
+    if (i < facts.level_kept.size() && facts.level_kept[i] >= 0) {
+      feature.level_kept = facts.level_kept[i];
+    }
+    if (i < facts.in_context.size()) feature.in_context = facts.in_context[i];
     features.push_back(std::move(feature));
   }
   return features;

@@ -11,13 +11,19 @@
 
 namespace farhorizon {
 
+/// What else is said of each horizon edge; empty where it is not known.
+///
+/// level_kept: the coarsest level that has it, -1 for none. in_context: as FindInContext has it.
+struct EdgeFacts {
+  std::vector<int> level_kept = {};
+  std::vector<bool> in_context = {};
+};
+
 /// The horizon edges as they are published, in the order of `horizon`.
 ///
-/// level_kept: for each edge the coarsest level that has it, -1 for none; empty where no levels
-///   were built.
 /// Errors: those of MeasureEdges and Georeference::ToGeodetic.
 Result<std::vector<HorizonFeature>> BuildFeatures(const TerrainInput& input, const Horizon& horizon,
-                                                  const std::vector<int>& level_kept,
+                                                  const EdgeFacts& facts,
                                                   const MeasureOptions& measuring,
                                                   const RunControl& control);
 

@@ -201,6 +201,10 @@ constexpr std::array kParameters = {
               [](const Given& given, Options& options) {
                 return ReadCount(given, "a whole number from 0 to 1000", options.apron);
               }},
+    Parameter{"horizonContext",
+              [](const Given& given, Options& options) {
+                return ReadFlag(given, options.horizon_context);
+              }},
     Parameter{"tileTriangles",
               [](const Given& given, Options& options) {
                 return ReadCount(given, "0, or a whole number from 1000 on",
@@ -290,6 +294,10 @@ Status CheckOptions(const BuildOptions& options) {
   }
   if (options.apron < 0 || options.apron > kMostApron) {
     return Given{"apron", std::to_string(options.apron)}.Expected("0 to 1000");
+  }
+  if (options.horizon_context && options.apron == 0) {
+    return Given{"horizonContext", "true"}.Expected(
+        "false where --apron is 0: there is no ground around the tile; give --apron N too");
   }
   const std::int64_t tile = options.tile_triangles;
   if (tile != 0 && (tile < kFewestTileTriangles || tile > kMostTriangles)) {

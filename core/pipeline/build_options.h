@@ -52,6 +52,7 @@ struct BuildOptions {
   FrameChoice frame = {};  ///< whose axes the lattice has
   /// Rows and columns on each side that are the neighbours' ground: for normals, not meshed.
   int apron = 0;
+  bool horizon_context = false;  ///< whether the apron's ground is asked about the horizon too
   /// Levels of more triangles are cut into parts of so many in the mean; 0: none is.
   std::int64_t tile_triangles = 20'000;
   int threads = 1;  ///< never changes a byte of the result

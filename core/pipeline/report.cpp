@@ -94,6 +94,9 @@ Json ToJson(const HorizonStatistics& s, std::int64_t horizon_edges) {
 void ReadHorizon(const Json& json, Report& report) {
   HorizonStatistics& s = report.statistics;
   json.at("horizon_edges").get_to(report.horizon_edges);
+  if (json.contains("edges_in_context")) {
+    report.edges_in_context = json.at("edges_in_context").get<std::int64_t>();
+  }
   json.at("terrain_edges").get_to(s.terrain_edges);
   // Reports of versions without a budget have neither.
   s.undecided = json.value("undecided", std::int64_t{0});
@@ -238,6 +241,7 @@ std::string WriteReport(const Report& report) {
                {"assumptions", ToJson(report.assumptions)},
                {"horizon", ToJson(report.statistics, report.horizon_edges)},
                {"levels", levels}};
+  if (report.edges_in_context) json["horizon"]["edges_in_context"] = *report.edges_in_context;
   if (report.frame) json["frame"] = ToJson(*report.frame);
   return json.dump(1) + "\n";
 }

@@ -97,6 +97,7 @@ struct Report {
   DemReport dem;
   Assumptions assumptions;
   std::int64_t horizon_edges = 0;
+  std::optional<std::int64_t> edges_in_context;  ///< as FindInContext has it; nullopt: not asked
   HorizonStatistics statistics;
   std::vector<LevelReport> levels;
   std::optional<FrameReport> frame;  ///< nullopt: of a version that knew the tile's own alone

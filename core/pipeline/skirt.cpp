@@ -56,6 +56,11 @@ double DiagonalOf(const TerrainInput& input) {
                     georeference.row_step_m() * (input.dem().rows - 1));
 }
 
+double ReliefOf(const TerrainInput& input) {
+  const auto& [least_m, greatest_m] = input.report().heights_m;
+  return greatest_m - least_m;
+}
+
 }  // namespace
 
 LocalMesh SkirtOf(const LocalMesh& surface, const TangentFrame& frame,
@@ -99,9 +104,8 @@ double MostSkirtDepth(const TerrainInput& input, std::optional<double> asked_m) 
   if (asked_m) return *asked_m;
   // A level is off by no more than the relief and the Earth's bend under the longest edge.
   const double diagonal_m = DiagonalOf(input);
-  const auto& [least_m, greatest_m] = input.report().heights_m;
-  const double error_m = greatest_m - least_m + diagonal_m * diagonal_m / (8 * kEarthRadiusM);
-  return 2 * error_m + kThinnestShare * diagonal_m;
+  const double bend_m = diagonal_m * diagonal_m / (8 * kEarthRadiusM);
+  return 3 * ReliefOf(input) + 2 * bend_m + kThinnestShare * diagonal_m;
 }
 
 std::vector<double> SkirtDepths(const TerrainInput& input, const std::vector<LevelReport>& levels,
@@ -112,9 +116,8 @@ std::vector<double> SkirtDepths(const TerrainInput& input, const std::vector<Lev
   for (const LevelReport& level : levels) {
     const double errors_m =
         level.geometric_error_m + coarsest.geometric_error_m + coarsest.side_step_m;
-    const double wanted_m = asked_m ? *asked_m
-                                    : std::clamp(errors_m, kThinnestShare * DiagonalOf(input),
-                                                 MostSkirtDepth(input, asked_m));
+    const double deep_m = ReliefOf(input) + std::max(errors_m, kThinnestShare * DiagonalOf(input));
+    const double wanted_m = asked_m ? *asked_m : std::min(deep_m, MostSkirtDepth(input, asked_m));
     const double step_m = level.quantization_step_m;
     depths.push_back(std::ceil(wanted_m / step_m) * step_m);
   }

@@ -35,6 +35,8 @@ double MostSkirtDepth(const TerrainInput& input, std::optional<double> asked_m);
 /// that a step of the coarsest sides, by which a slope of 45 degrees rises where a rim is rounded
 /// aside. It is a 512th of the tile's diagonal at least: thinner walls would be less than a pixel
 /// from where the tile fills half a screen, and a rim whose slope faces away would not be drawn.
+/// And the relief, so that walls end below all ground: who looks level, or from above, at a tile
+/// that stands alone sees none of it, nor the sky, below a high rim.
 /// levels: measured, the finest first.
 std::vector<double> SkirtDepths(const TerrainInput& input, const std::vector<LevelReport>& levels,
                                 std::optional<double> asked_m);

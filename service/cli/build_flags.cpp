@@ -57,8 +57,8 @@ void AddBuildFlags(Command& command, BuildFlags& flags) {
   Add(command, flags, "formats", "a,b,...",
       "of 3dtiles, drc, geojson, flatgeobuf, geopackage, quantized-mesh (3dtiles,drc,geojson)");
   Add(command, flags, "skirt", "auto|M",
-      "depth of the walls at the tile's sides and around holes, metres; 0: none (auto: as deep as "
-      "the errors of the level and of the coarsest one)");
+      "depth of the walls at the tile's sides and around holes, metres; 0: none (auto: the errors "
+      "of the level and of the coarsest one, and the relief)");
   Add(command, flags, "horizonDetail", "HOW",
       "what horizon.geojson has: chains: edges one behind the other as lines; edges: every edge "
       "with all that is known of it, some five times the bytes (chains)");
@@ -69,6 +69,10 @@ void AddBuildFlags(Command& command, BuildFlags& flags) {
       "a level of more triangles is cut into parts of so many in the mean, lodN-X-Y.glb, so that a "
       "look at a corner fetches a corner; 0: none is (20000)");
   AddTileFlags(command, flags);
+  command.AddSwitch(
+      "--horizon-context",
+      "say of each horizon edge whether it is one with the apron's ground too (context)",
+      [&flags] { flags.parameters["horizonContext"] = "true"; });
   AddReadFlags(command, flags);
   AddWorkFlags(command, flags);
 }

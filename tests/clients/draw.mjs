@@ -44,14 +44,27 @@ const checkLooks = async ({ opened, name, client, pictures, report }) => {
   }
 };
 
-const checkSkylines = async ({ opened, name, posts, client, pictures, report }, views) => {
+// Between the DEM's greatest height and its least.
+const middleHeight = ({ geodetic }) => {
+  let [least, greatest] = [Infinity, -Infinity];
+  for (let i = 2; i < geodetic.length; i += 3) {
+    if (Number.isNaN(geodetic[i])) continue;
+    least = Math.min(least, geodetic[i]);
+    greatest = Math.max(greatest, geodetic[i]);
+  }
+  return (least + greatest) / 2;
+};
+
+const checkSkylines = async ({ opened, name, dir, posts, client, pictures, report }, views) => {
   const faults = [];
+  const { levels: [finest] } = JSON.parse(readFileSync(join(dir, 'report.json'), 'utf8'));
   let [most, columns, straight] = [0, 0, 0];
+  const height = middleHeight(posts);
   for (const view of views) {
-    const { matrix } = await opened.ask('look', view);
+    const { matrix } = await opened.ask('look', { ...view, height });
     const picture = await opened.shoot();
     const found = compareSkylines(skylineOf(picture, kSky),
-      demSkyline(posts, matrix, picture.width, picture.height));
+      demSkyline(posts, matrix, picture.width, picture.height), finest.geometric_error_m);
     most = Math.max(most, found.most);
     straight = Math.max(straight, found.straight);
     columns += found.columns;
@@ -67,8 +80,9 @@ const checkSkylines = async ({ opened, name, posts, client, pictures, report }, 
     `square of the worst view ${straight.toFixed(2)} straight up`);
 };
 
-// The edges of each level over that level, from afar and level, as horizons are defined.
-const kEdgeLook = { heading: 75, pitch: 0, range: 8, fov: 14.5, error: 0.05 };
+// The edges of each level over that level, from so far that lines of sight are nearly parallel, and
+// level, as horizons are defined.
+const kEdgeLook = { heading: 75, pitch: 0, range: 40, fov: 2.9, error: 0.05 };
 // How much of a level's skyline its own edges have at least, as pixels show it.
 const kCarried = 0.99;
 // CesiumJS draws the edges of models at the depth where they are, so that some are behind the
@@ -83,9 +97,10 @@ const fallIn = ({ radius }, { width }) => {
 };
 // Two pictures, without lines and with them. what: says which, show: draws them.
 const checkLines = async (
-  { opened, name, pictures, report }, what, { show, colour, least, file },
+  { opened, name, posts, pictures, report }, what, { show, colour, least, file },
 ) => {
-  const seen = await opened.ask('look', kEdgeLook);
+  const height = posts && middleHeight(posts);
+  const seen = await opened.ask('look', { ...kEdgeLook, height });
   const without = await opened.shoot();
   await show();
   const drawn = await opened.shoot(join(pictures, `${name}-${file}.png`));

@@ -204,7 +204,7 @@ TEST_F(ServiceE2e, ServesPartsAndKnowsWhatTheClientHas) {
 }
 
 TEST_F(ServiceE2e, AWorkerEndsItsOwnJobAlone) {
-  StartStandIn({"FARHORIZON_WORKER_WALL_SECONDS=3", "FARHORIZON_WORKER_CPU_SECONDS=1",
+  StartStandIn({"FARHORIZON_WORKER_WALL_SECONDS=8", "FARHORIZON_WORKER_CPU_SECONDS=1",
                 "FARHORIZON_WORKER_FILE_BYTES=4194304", "FARHORIZON_WORKERS=3"});
   const std::vector<std::pair<std::string, std::string>> fates = {
       {"segv", "worker-crashed"},    {"exit3", "worker-crashed"}, {"nonsense", "worker-crashed"},

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <optional>
 #include <utility>
 
@@ -16,12 +15,14 @@
 #include "core/io/horizon_features.h"
 #include "core/io/manifest.h"
 #include "core/pipeline/build_features.h"
+#include "core/pipeline/horizon_context.h"
 #include "core/pipeline/level_artifact.h"
 #include "core/pipeline/level_edges.h"
 #include "core/pipeline/post_places.h"
 #include "core/pipeline/report.h"
 #include "core/pipeline/terrain_input.h"
 #include "core/pipeline/verify/claims.h"
+#include "core/pipeline/verify/kept_edges.h"
 #include "core/pipeline/verify/verify_chains.h"
 #include "core/pipeline/verify/verify_edges.h"
 #include "core/pipeline/verify/verify_features.h"
@@ -94,42 +95,6 @@ void VerifyAbsence(const fs::path& directory, const LevelReport& level, Claims& 
              name + " has no bytes in the report and no file: its numbers cannot be measured");
 }
 
-// For each horizon edge the coarsest level so far that has it, as long as no finer one has lost it.
-class KeptEdges {
- public:
-  explicit KeptEdges(const Horizon& horizon)
-      : horizon_(horizon), coarsest_(horizon.edges.size(), -1) {}
-
-  // Places of the edges that level `level` keeps, whose mesh has `edges`, rising.
-  std::vector<std::int32_t> Take(int level, const std::vector<Edge>& edges) {
-    std::vector<std::int32_t> kept;
-    for (std::size_t i = 0; i < coarsest_.size(); ++i) {
-      if (coarsest_[i] != level - 1) continue;
-      if (!std::binary_search(edges.begin(), edges.end(), horizon_.edges[i].edge)) continue;
-      coarsest_[i] = level;
-      kept.push_back(static_cast<std::int32_t>(i));
-    }
-    return kept;
-  }
-
-  // Whether `published` has this of each edge.
-  [[nodiscard]] bool Are(const PublishedEdges& published) const {
-    std::map<Edge, int> claimed;
-    for (std::size_t i = 0; i < published.edges.size(); ++i) {
-      claimed.emplace(published.edges[i], published.level_kept[i]);
-    }
-    for (std::size_t i = 0; i < coarsest_.size(); ++i) {
-      const auto at = claimed.find(horizon_.edges[i].edge);
-      if (at == claimed.end() || at->second != coarsest_[i]) return false;
-    }
-    return true;
-  }
-
- private:
-  const Horizon& horizon_;
-  std::vector<int> coarsest_;
-};
-
 // What the levels' GLBs hold. contents: a level each, none of a level without any. globe: of the
 // levels that have GLBs, for terrain tiles, if there are some.
 struct VerifiedLevels {
@@ -187,7 +152,7 @@ VerifiedLevels VerifyLevels(const LevelContext& context, const Artifacts& artifa
 
 // Checks horizon.geojson, and finds the measures of edges again where a file has some.
 Result<HorizonClaims> VerifyHorizonFiles(const TerrainInput& input, const Horizon& horizon,
-                                         const Artifacts& artifacts,
+                                         const EdgeFacts& facts, const Artifacts& artifacts,
                                          const MeasureOptions& measuring,
                                          const RunControl& control) {
   HorizonClaims result;
@@ -202,7 +167,8 @@ Result<HorizonClaims> VerifyHorizonFiles(const TerrainInput& input, const Horizo
     control.Report(Stage::kEdgeMeasures, 1);
     return result;
   }
-  Result<std::vector<HorizonFeature>> found = BuildFeatures(input, horizon, {}, measuring, control);
+  Result<std::vector<HorizonFeature>> found =
+      BuildFeatures(input, horizon, facts, measuring, control);
   if (!found) return std::move(found.error());
   result.found = *std::move(found);
   control.Report(Stage::kVerify, kVerifiedBeforeSights);
@@ -286,9 +252,18 @@ Result<std::vector<ClaimCheck>> VerifyArtifacts(const fs::path& dem, const fs::p
   claims.Same("horizon edges", report->horizon_edges,
               static_cast<std::int64_t>(horizon->edges.size()));
 
+  EdgeFacts facts;
+  if (report->edges_in_context) {
+    Result<std::vector<bool>> in_context = FindInContext(**input, *horizon, claimed, control);
+    if (!in_context) return std::move(in_context.error());
+    facts.in_context = *std::move(in_context);
+    claims.Same("horizon edges in context", *report->edges_in_context,
+                std::ranges::count(facts.in_context, true));
+  }
+
   control.Report(Stage::kVerify, 0);
   Result<HorizonClaims> horizon_claims =
-      VerifyHorizonFiles(**input, *horizon, {directory, *report},
+      VerifyHorizonFiles(**input, *horizon, facts, {directory, *report},
                          {.budget = budget, .threads = options.threads}, control);
   if (!horizon_claims) return std::move(horizon_claims.error());
   claims.Append(std::move(horizon_claims->checks));

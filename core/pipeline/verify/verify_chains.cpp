@@ -26,8 +26,9 @@ bool Near(const std::vector<Geodetic>& claimed, const std::vector<Geodetic>& fou
 }
 
 bool SameWeights(const HorizonChain& claimed, const HorizonChain& found) {
-  return claimed.undecided == found.undecided && claimed.sights == found.sights &&
-         claimed.drop == found.drop && claimed.azimuths == found.azimuths &&
+  return claimed.undecided == found.undecided && claimed.in_context == found.in_context &&
+         claimed.sights == found.sights && claimed.drop == found.drop &&
+         claimed.azimuths == found.azimuths &&
          Close(claimed.line_measure_m, found.line_measure_m) &&
          Close(claimed.skyline_drop_m, found.skyline_drop_m);
 }
@@ -97,7 +98,8 @@ PublishedEdges VerifyChains(const TerrainInput& input, std::vector<HorizonChain>
   claims.Same("horizon.geojson chains of other posts", std::int64_t{0}, others);
   claims.Same("horizon.geojson chains that are not where their posts are", std::int64_t{0},
               misplaced);
-  claims.Same("horizon.geojson chains with other azimuths or weights", std::int64_t{0}, different);
+  claims.Same("horizon.geojson chains with other azimuths or weights, or context", std::int64_t{0},
+              different);
   return published;
 }
 

@@ -172,10 +172,13 @@ Result<std::vector<ClaimCheck>> VerifyEdges(const TerrainInput& input, const Hor
   if (!steps) return std::move(steps.error());
 
   std::int64_t different = 0;
+  std::int64_t other_context = 0;
   for (std::size_t i = 0; i < features.size(); ++i) {
     different += Same(features[i].measures, found[i].measures) ? 0 : 1;
+    other_context += features[i].in_context == found[i].in_context ? 0 : 1;
   }
   claims.Same(source + " edges with other azimuths, spans or weights", std::int64_t{0}, different);
+  claims.Same(source + " edges with another context", std::int64_t{0}, other_context);
   const PublishedSet set(terrain, horizon);
   const LineCounts lines = CountLines(terrain, horizon, set, features, *steps);
   claims.Same(std::to_string(kRandomLines) +

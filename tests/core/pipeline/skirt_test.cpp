@@ -111,10 +111,18 @@ LevelReport LevelOff(double error_m, double step_m) {
   return level;
 }
 
-TEST(SkirtDepths, AreAsDeepAsTheErrorsOfTwoLevelsThatMeet) {
+double ReliefOf(const PlacedDem& dem) {
+  const auto& [least_m, greatest_m] = dem.input().report().heights_m;
+  return greatest_m - least_m;
+}
+
+TEST(SkirtDepths, AreAsDeepAsTheErrorsOfTwoLevelsThatMeetAndTheRelief) {
   const PlacedDem dem;
+  const double relief_m = ReliefOf(dem);
+  ASSERT_EQ(relief_m, std::floor(relief_m));
   const std::vector<LevelReport> levels = {LevelOff(3, 0.25), LevelOff(10, 0.5), LevelOff(30, 1)};
-  EXPECT_THAT(SkirtDepths(dem.input(), levels, std::nullopt), testing::ElementsAre(35, 42, 62));
+  EXPECT_THAT(SkirtDepths(dem.input(), levels, std::nullopt),
+              testing::ElementsAre(relief_m + 35, relief_m + 42, relief_m + 62));
   EXPECT_THAT(SkirtDepths(dem.input(), levels, 12.6), testing::ElementsAre(12.75, 13, 13));
   EXPECT_THAT(SkirtDepths(dem.input(), levels, 0), testing::ElementsAre(0, 0, 0));
 }
@@ -124,9 +132,9 @@ TEST(SkirtDepths, AreNoThinnerThanAPixelAndNoDeeperThanTheRoom) {
   const double diagonal_m = std::hypot(29 * dem.input().georeference().column_step_m(),
                                        19 * dem.input().georeference().row_step_m());
   EXPECT_THAT(SkirtDepths(dem.input(), {LevelOff(0, 0.25)}, std::nullopt),
-              testing::ElementsAre(std::ceil(diagonal_m / 512 * 4) / 4));
+              testing::ElementsAre(ReliefOf(dem) + std::ceil(diagonal_m / 512 * 4) / 4));
   const double room_m = MostSkirtDepth(dem.input(), std::nullopt);
-  EXPECT_GE(room_m, 2 * (dem.input().report().heights_m[1] - dem.input().report().heights_m[0]));
+  EXPECT_GE(room_m, 3 * ReliefOf(dem));
   EXPECT_LE(SkirtDepths(dem.input(), {LevelOff(9000, 0.25)}, std::nullopt).front(), room_m + 0.25);
 }
 

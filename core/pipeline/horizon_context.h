@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/base/run_control.h"
+#include "core/horizon/find_horizon.h"
+#include "core/horizon/horizon.h"
+#include "core/pipeline/terrain_input.h"
+
+namespace farhorizon {
+
+/// For each edge of the terrain's horizon, in its order, whether it is also on the horizon of the
+/// terrain with its apron: whether a line of sight that touches it clears the neighbours' ground.
+///
+/// A line that clears the terrain with its apron clears the terrain, so that no other edge of the
+/// terrain can be. Where the work budget ran out before an edge was decided there, it counts as on
+/// that horizon.
+/// horizon: of input.terrain(). Errors and cost: those of FindHorizon on input.around().
+Result<std::vector<bool>> FindInContext(const TerrainInput& input, const Horizon& horizon,
+                                        const HorizonOptions& options, const RunControl& control);
+
+}  // namespace farhorizon
