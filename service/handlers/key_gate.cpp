@@ -16,8 +16,8 @@ namespace farhorizon {
 namespace {
 
 // What a browser asks for by itself, without a field of the page's: links, EventSource.
-constexpr std::array<std::string_view, 2> kTakeTickets = {"/jobs/{id}/results/{name}",
-                                                          "/jobs/{id}/events"};
+constexpr std::array<std::string_view, 3> kTakeTickets = {
+    "/jobs/{id}/results", "/jobs/{id}/results/{name}", "/jobs/{id}/events"};
 
 HttpResponse Challenge(const HttpRequest& request, const Problem& problem,
                        const std::string& parameters) {

@@ -105,6 +105,15 @@ export const checkJobs = async (run) => {
     same(answer.status, 204, 'the status');
     same(answer.headers.link.split(', <').length, Object.keys(plain).length, 'the links');
   });
+  await claim('jobs: all artifacts in one archive', async () => {
+    const location = await run1({ inputs });
+    const tar = await get(`${location}/results?f=tar`);
+    same([tar.status, tar.type, tar.text.slice(257, 262)], [200, 'application/x-tar', 'ustar'], 'tar');
+    const zip = await get(`${location}/results?f=zip`);
+    same([zip.status, zip.type, zip.text.slice(0, 2)], [200, 'application/zip', 'PK'], 'zip');
+    same((await get(`${location}/results?f=rar`)).status, 400, 'rar');
+    return `${tar.bytes.length} and ${zip.bytes.length} bytes`;
+  });
   await claim('jobs: events and a long poll follow a job to its end', async () => {
     const posted = await postJson(`${base}/jobs`, { inputs: { ...inputs, levels: 1 } });
     const { location } = posted.headers;

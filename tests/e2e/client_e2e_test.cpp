@@ -165,5 +165,47 @@ TEST_F(ClientE2e, SendsAFolderAndGoesOnWhereItWasCutOff) {
   EXPECT_THAT(SlurpFile(table), HasSubstr("\tunreached\tconnection\t"));
 }
 
+TEST_F(ClientE2e, AllArtifactsComeAsOneArchive) {
+  Start();
+  const std::string job = Submit("a.asc&levels=2");
+  ASSERT_EQ(WaitForEnd(job), "successful");
+  const std::string url = "http://127.0.0.1:" + std::to_string(port_);
+  ASSERT_EQ(Client("fetch " + IdOf(job) + " -o " + (folder_ / "fetched").string()), 0) << Said();
+  for (const std::string form : {"zip", "tar"}) {
+    const RawAnswer whole = Ask(port_, "GET", job + "/results?f=" + form);
+    ASSERT_EQ(whole.status, 200) << whole.body;
+    EXPECT_THAT(whole.head, HasSubstr("filename=\"" + IdOf(job) + "." + form + "\""));
+    EXPECT_THAT(whole.head, HasSubstr("Content-Length: " + std::to_string(whole.body.size())));
+    const std::string archive = (folder_ / ("all." + form)).string();
+    SpillFile(archive, whole.body);
+    const std::string out = (folder_ / ("out-" + form)).string();
+    std::filesystem::create_directories(out);
+    const std::string command = form == "zip" ? "exec python3 -m zipfile -e " + archive + " " + out
+                                              : "exec tar -xf " + archive + " -C " + out;
+    ASSERT_EQ(Process({"/bin/sh", "-c", command}, {}, folder_ / "stderr").Wait(), 0) << Said();
+    std::size_t files = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_ / "fetched")) {
+      const std::string name = entry.path().filename().string();
+      EXPECT_EQ(SlurpFile(entry.path()), SlurpFile(out + "/" + name)) << name;
+      ++files;
+    }
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(out), {}),
+              static_cast<std::ptrdiff_t>(files));
+    const std::size_t half = whole.body.size() / 2;
+    const RawAnswer rest = Ask(port_, "GET", job + "/results?f=" + form,
+                               "Range: bytes=" + std::to_string(half) + "-\r\n");
+    EXPECT_EQ(rest.status, 206);
+    EXPECT_EQ(rest.body, whole.body.substr(half));
+    const std::string head = Ask(port_, "HEAD", job + "/results?f=" + form).head;
+    const std::size_t tag = head.find("ETag: ") + 6;
+    EXPECT_EQ(Ask(port_, "GET", job + "/results?f=" + form,
+                  "If-None-Match: " + head.substr(tag, head.find('\r', tag) - tag) + "\r\n")
+                  .status,
+              304);
+  }
+  EXPECT_EQ(Ask(port_, "GET", job + "/results?f=rar").status, 400);
+  EXPECT_EQ(Ask(port_, "GET", Submit("b.asc&levels=1") + "/results?f=zip").status, 404);
+}
+
 }  // namespace
 }  // namespace farhorizon
