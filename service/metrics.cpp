@@ -68,6 +68,8 @@ struct Registry {
                                            "Artifacts that were not what had been stored");
   prometheus::Family<prometheus::Gauge>& jobs =
       FamilyIn(all, BuildGauge(), "farhorizon_jobs", "Jobs that have not ended, by state");
+  prometheus::Gauge& waiting = GaugeIn(all, "farhorizon_waiting_requests",
+                                       "Requests that wait for changes of jobs, event streams too");
   prometheus::Gauge& free_bytes =
       GaugeIn(all, "farhorizon_storage_free_bytes", "Room on the disk of the data folder");
   prometheus::Counter& dropped =
@@ -141,6 +143,7 @@ std::string MetricsText(const Gauges& gauges) {
   Registry& registry = Registered();
   registry.jobs.Add({{"state", "accepted"}}).Set(static_cast<double>(gauges.jobs_accepted));
   registry.jobs.Add({{"state", "running"}}).Set(static_cast<double>(gauges.jobs_running));
+  registry.waiting.Set(static_cast<double>(gauges.waiting_requests));
   registry.free_bytes.Set(static_cast<double>(gauges.free_bytes));
   RaiseTo(registry.dropped, static_cast<double>(gauges.log_lines_dropped));
   registry.ready.Set(gauges.ready ? 1 : 0);

@@ -33,7 +33,8 @@ struct Gauges {
   std::int64_t free_bytes = 0;
   std::int64_t log_lines_dropped = 0;
   bool ready = false;
-  std::string version;  ///< of the program
+  std::string version;                ///< of the program
+  std::int64_t waiting_requests = 0;  ///< for changes of jobs
 };
 
 /// All metrics in the text format, version 0.0.4, with what is known of the process.

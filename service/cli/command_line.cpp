@@ -59,8 +59,9 @@ void Command::AddChoice(const Argument& argument, std::string& value,
 
 void Command::AddList(const Argument& argument,
                       const std::function<void(const std::vector<std::string>&)>& take) {
-  AddTaker<std::vector<std::string>>(*app_, argument, take)
-      ->allow_extra_args(false);  // one value after each flag: the next word may be positional
+  CLI::Option* const option = AddTaker<std::vector<std::string>>(*app_, argument, take);
+  // One value after each flag: the next word may be positional.
+  if (argument.names.front() == '-') option->allow_extra_args(false);
 }
 
 void Command::AddSwitch(const char* names, const char* help, bool& value) {

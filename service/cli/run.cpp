@@ -9,6 +9,7 @@
 #include "core/pipeline/version.h"
 #include "service/cli/command.h"
 #include "service/cli/environment.h"
+#include "service/cli/job_commands.h"
 
 namespace farhorizon {
 
@@ -22,7 +23,8 @@ int RunProgram(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer(
       "Exit status: 0 done, 1 the data or a claim is at fault, 2 the call is, 70 our own bug,\n"
-      "74 the disk under a service failed, 130 interrupted.\n"
+      "74 the disk under a service failed, 75 a service is busy or out of reach, or a job has not\n"
+      "ended: try again, 130 interrupted.\n"
       "'farhorizon COMMAND --help' tells more.");
   Command program(app);
   SelectedCommand selected;
@@ -37,6 +39,7 @@ int RunProgram(int argc, char** argv) {
   AddFsck(program, selected);
   AddKeys(program, selected);
   AddSubmit(program, selected);
+  AddJobCommands(program, selected);
   AddHealthcheck(program, selected);
   AddWorker(program, selected);
   try {

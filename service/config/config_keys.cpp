@@ -161,6 +161,9 @@ std::vector<ConfigKey> JobKeys() {
              "highest priority that a client may ask for"),
       Number("jobs.deadlineSeconds", jobs(&JobServiceOptions::deadline_seconds), 0, 366 * kDay,
              "deadline of a job that comes without one; 0: none"),
+      Number("jobs.maxWatches", jobs(&JobServiceOptions::max_watches), 0, 1'000'000,
+             "requests at once that wait for changes of jobs: event streams, Prefer: wait; of one "
+             "client all but an eighth"),
       Number("jobs.drainSeconds", Path(&Config::drain_time), 0, kDay,
              "time that running jobs get to end when the service is stopped"),
   };

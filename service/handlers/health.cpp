@@ -64,8 +64,9 @@ HttpResponse Metrics(const HandlerContext& context) {
   HttpResponse response;
   response.Set("Content-Type", "text/plain; version=0.0.4; charset=utf-8");
   response.Set("Cache-Control", "no-store");
-  response.body = MetricsText({counts.accepted, counts.running, room ? *room : 0, LogLinesDropped(),
-                               AllSucceed(context.jobs.CheckReady()), Version()});
+  response.body =
+      MetricsText({counts.accepted, counts.running, room ? *room : 0, LogLinesDropped(),
+                   AllSucceed(context.jobs.CheckReady()), Version(), context.jobs.CountWatches()});
   return response;
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -60,13 +62,49 @@ struct FileBody {
   std::int64_t bytes = 0;
 };
 
+/// Something that is waited for without a thread.
+class Awaited {
+ public:
+  Awaited() = default;
+  virtual ~Awaited() = default;
+  Awaited(const Awaited&) = delete;
+  Awaited& operator=(const Awaited&) = delete;
+
+  /// Calls `wake` from now on, from any thread, whenever it is worth asking again.
+  virtual void Listen(std::function<void()> wake) = 0;
+};
+
+/// A body that comes over time. How long it will be is not known.
+class EventSource : public Awaited {
+ public:
+  struct Piece {
+    std::string text;  ///< to be sent now; may be empty
+    bool last = false;
+  };
+  /// What there is to send by now.
+  virtual Piece Next() = 0;
+};
+
+struct HttpResponse;
+
+/// A response that waits for something to happen.
+class LateResponse : public Awaited {
+ public:
+  /// When it is to be given in any case, from its admission on.
+  [[nodiscard]] virtual std::chrono::seconds Most() const = 0;
+  /// nullptr if it is worth waiting on. last: it is not.
+  virtual std::unique_ptr<HttpResponse> Try(bool last) = 0;
+};
+
 /// What a handler answers. The server adds Date, Connection, Content-Length, the CORS fields, and a
 /// Content-Security-Policy that forbids everything where there is none.
 struct HttpResponse {
   int status = 200;
   std::vector<std::pair<std::string, std::string>> headers;
   std::string body;
-  std::optional<FileBody> file;  ///< sent in place of `body`
+  std::optional<FileBody> file;         ///< sent in place of `body`
+  std::shared_ptr<EventSource> events;  ///< likewise
+  std::shared_ptr<LateResponse> late;   ///< gives the response in place of this one
 
   std::string code;    ///< of the problem that it is, for the log
   std::string job_id;  ///< of the job that it is about, for the log

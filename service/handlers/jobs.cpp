@@ -4,6 +4,7 @@
 
 #include "service/clock.h"
 #include "service/handlers/job_query.h"
+#include "service/handlers/job_wait.h"
 #include "service/handlers/json.h"
 #include "service/handlers/problem.h"
 #include "service/handlers/status_info.h"
@@ -42,15 +43,6 @@ HttpResponse ListJobs(const HandlerContext& context, const HttpRequest& request)
   return TaggedJsonResponse(request, document);
 }
 
-HttpResponse ShowJob(const HandlerContext& context, const HttpRequest& request) {
-  const Result<Job> job = FindJob(context, request);
-  if (!job) return ProblemResponse(request, ProblemOf(job.error()));
-  HttpResponse response = TaggedJsonResponse(request, StatusInfo(*job, context.base));
-  response.job_id = job->id;
-  if (!IsTerminal(job->state)) response.Set("Retry-After", "1");
-  return response;
-}
-
 HttpResponse DismissJob(const HandlerContext& context, const HttpRequest& request) {
   Result<Job> job = FindJob(context, request);
   if (job) job = context.jobs.Dismiss(job->id);
@@ -70,12 +62,24 @@ Result<Job> FindJob(const HandlerContext& context, const HttpRequest& request) {
   return job;
 }
 
+HttpResponse ShowJob(const HandlerContext& context, const HttpRequest& request) {
+  const Result<Job> job = FindJob(context, request);
+  if (!job) return ProblemResponse(request, ProblemOf(job.error()));
+  HttpResponse response = TaggedJsonResponse(request, StatusInfo(*job, context.base));
+  response.job_id = job->id;
+  if (!IsTerminal(job->state)) response.Set("Retry-After", "1");
+  return response;
+}
+
 std::vector<Route> JobRoutes(const HandlerContext& context) {
   return {
       BodylessRoute("GET", "/jobs",
                     [context](const HttpRequest& request) { return ListJobs(context, request); }),
       BodylessRoute("GET", "/jobs/{id}",
-                    [context](const HttpRequest& request) { return ShowJob(context, request); }),
+                    [context](const HttpRequest& request) {
+                      std::optional<HttpResponse> late = WaitForJob(context, request);
+                      return late ? *std::move(late) : ShowJob(context, request);
+                    }),
       BodylessRoute("DELETE", "/jobs/{id}", [context](const HttpRequest& request) {
         return DismissJob(context, request);
       })};

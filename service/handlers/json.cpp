@@ -10,6 +10,8 @@ std::string DumpJson(const nlohmann::ordered_json& document) {
   return document.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
+std::string TagOf(const std::string& text) { return "\"" + Sha256Hex(text) + "\""; }
+
 HttpResponse JsonResponse(const nlohmann::ordered_json& document) {
   HttpResponse response;
   response.Set("Content-Type", "application/json");
@@ -22,7 +24,7 @@ HttpResponse TaggedJsonResponse(const HttpRequest& request, const nlohmann::orde
                                 const char* type) {
   HttpResponse response;
   response.body = DumpJson(document);
-  const std::string etag = "\"" + Sha256Hex(response.body) + "\"";
+  const std::string etag = TagOf(response.body);
   response.status = StatusByConditions(request, etag);
   if (response.status == 412) {
     return ProblemResponse(request,

@@ -12,6 +12,9 @@ namespace farhorizon {
 /// replaced by U+FFFD.
 std::string DumpJson(const nlohmann::ordered_json& document);
 
+/// The entity tag of a document with this text, with its quotes.
+std::string TagOf(const std::string& text);
+
 /// 200 with `document` as application/json, not to be cached.
 HttpResponse JsonResponse(const nlohmann::ordered_json& document);
 

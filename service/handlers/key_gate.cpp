@@ -2,6 +2,8 @@
 // where there was one, 403 "insufficient_scope".
 #include "service/handlers/key_gate.h"
 
+#include <algorithm>
+#include <array>
 #include <string_view>
 #include <utility>
 #include <variant>
@@ -13,7 +15,9 @@ namespace farhorizon {
 
 namespace {
 
-constexpr const char* kResult = "/jobs/{id}/results/{name}";
+// What a browser asks for by itself, without a field of the page's: links, EventSource.
+constexpr std::array<std::string_view, 3> kTakeTickets = {
+    "/jobs/{id}/results", "/jobs/{id}/results/{name}", "/jobs/{id}/events"};
 
 HttpResponse Challenge(const HttpRequest& request, const Problem& problem,
                        const std::string& parameters) {
@@ -63,9 +67,9 @@ std::optional<std::string_view> BearerOf(std::string_view field) {
 }
 
 std::optional<std::string> TicketOf(const HttpRequest& request) {
-  if (request.route != kResult || (request.method != "GET" && request.method != "HEAD")) {
-    return std::nullopt;
-  }
+  const bool takes =
+      std::find(kTakeTickets.begin(), kTakeTickets.end(), request.route) != kTakeTickets.end();
+  if (!takes || (request.method != "GET" && request.method != "HEAD")) return std::nullopt;
   const std::optional<Parameters> query = DecodeQuery(request.query);
   const auto found = query ? query->find("ticket") : Parameters::const_iterator();
   return query && found != query->end() ? std::optional(found->second) : std::nullopt;
@@ -153,6 +157,10 @@ std::optional<HttpResponse> KeyGate::Admit(HttpRequest& request, const Route* ro
   if (wait > 0) return TooMany(request, wait);
   request.caller = {key.id, key.owner, key.scopes};
   return std::nullopt;
+}
+
+bool KeyGate::StillGood(const Caller& caller) const {
+  return !AsksForKeys() || keys_->Find(caller.key_id, NowMs()).has_value();
 }
 
 void KeyGate::CountUpload(const HttpRequest& request, std::int64_t bytes) {

@@ -34,10 +34,14 @@ class KeyGate {
   [[nodiscard]] bool AsksForKeys() const;
 
   /// Sets request.caller, or returns the response that refuses the request: 401, 403, 429. A key is
-  /// taken in the field Authorization alone, a ticket in the query of a GET of a result.
+  /// taken in the field Authorization alone, a ticket in the query of a GET of a result or of a
+  /// job's events.
   /// route: as Router::Find gives it; a path or a method without a route needs any key, so that
   /// strangers do not learn what there is.
   [[nodiscard]] std::optional<HttpResponse> Admit(HttpRequest& request, const Route* route);
+
+  /// Whether who was admitted still would be, as to the key.
+  [[nodiscard]] bool StillGood(const Caller& caller) const;
 
   /// Counts the bytes of a body that has come in.
   void CountUpload(const HttpRequest& request, std::int64_t bytes);

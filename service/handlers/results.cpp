@@ -11,6 +11,7 @@
 #include "service/handlers/jobs.h"
 #include "service/handlers/problem.h"
 #include "service/handlers/result_answer.h"
+#include "service/handlers/result_archive.h"
 #include "service/log.h"
 #include "service/metrics.h"
 
@@ -39,7 +40,14 @@ Result<Job> FinishedJob(const HandlerContext& context, const HttpRequest& reques
 HttpResponse ListResults(const HandlerContext& context, const HttpRequest& request) {
   Result<Job> job = FinishedJob(context, request);
   if (!job) return ProblemResponse(request, ProblemOf(job.error()));
-  HttpResponse response = AnswerResults(context, request, *job);
+  const std::optional<Parameters> query = DecodeQuery(request.query);
+  const auto form = query ? query->find("f") : Parameters::const_iterator();
+  const bool asked = query && form != query->end() && form->second != "json";
+  if (asked && form->second != "zip" && form->second != "tar") {
+    return ProblemResponse(request, {"invalid-query-parameter-value", "f is json, zip or tar"});
+  }
+  HttpResponse response = asked ? SendArchive(context, request, *job, form->second)
+                                : AnswerResults(context, request, *job);
   response.job_id = job->id;
   return response;
 }
@@ -50,16 +58,6 @@ HttpResponse ListResults(const HandlerContext& context, const HttpRequest& reque
 constexpr const char* kPagePolicy =
     "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'; "
     "base-uri 'none'; form-action 'none'; frame-ancestors 'none'; sandbox allow-scripts";
-
-void SetDisposition(HttpResponse& response, const Artifact& artifact) {
-  const bool page = MediaTypeIn(artifact.media_type) == "text/html";
-  response.Set("Content-Disposition", std::string(page ? "inline" : "attachment") +
-                                          "; filename=\"" + artifact.name + "\"");
-  if (!page) return;
-  response.Set("Content-Security-Policy", kPagePolicy);
-  // Its address may have a ticket.
-  response.Set("Referrer-Policy", "no-referrer");
-}
 
 // Tiles of terrain are files in gzip, for servers that know of nothing else; there is no other
 // representation of them, so that all get this one.
@@ -88,43 +86,67 @@ class ArtifactSource : public BodySource {
 
 }  // namespace
 
-HttpResponse SendArtifact(const HttpRequest& request, OpenArtifact open) {
-  const StoredObject& stored = open.stored;
-  const std::string etag = "\"" + stored.sha256 + "\"";
-  const Selection selection = SelectBytes(request, etag, stored.bytes);
+HttpResponse SendSource(const HttpRequest& request, SentSource sent) {
+  const Selection selection = SelectBytes(request, sent.etag, sent.bytes);
   HttpResponse response;
   response.status = selection.status;
   if (selection.status == 416) {
     response = ProblemResponse(
-        request, {"range-not-satisfiable", "the artifact has " + std::to_string(stored.bytes) +
+        request, {"range-not-satisfiable", "the artifact has " + std::to_string(sent.bytes) +
                                                " bytes; the range starts after them"});
-    response.Set("Content-Range", "bytes */" + std::to_string(stored.bytes));
+    response.Set("Content-Range", "bytes */" + std::to_string(sent.bytes));
     return response;
   }
   if (selection.status == 412) {
     return ProblemResponse(
         request, {"precondition-failed", "the artifact is not the one that If-Match names"});
   }
-  response.Set("ETag", etag);
-  response.Set("Vary", "Accept-Encoding");
+  response.Set("ETag", sent.etag);
   response.Set("Cache-Control", "private, max-age=31536000, immutable");
   if (selection.status == 304) return response;
-  response.Set("Content-Type", open.artifact.media_type);
-  if (open.coding == Coding::kGzip || IsStoredInGzip(open.artifact)) {
-    response.Set("Content-Encoding", "gzip");
-  }
+  response.Set("Content-Type", sent.media_type);
   response.Set("Accept-Ranges", "bytes");
-  SetDisposition(response, open.artifact);
+  response.Set("Content-Disposition", sent.disposition);
   if (selection.status == 206) {
     response.Set("Content-Range", "bytes " + std::to_string(selection.offset) + "-" +
                                       std::to_string(selection.offset + selection.bytes - 1) + "/" +
-                                      std::to_string(stored.bytes));
+                                      std::to_string(sent.bytes));
+  }
+  response.file = FileBody{std::move(sent.source), selection.offset, selection.bytes};
+  return response;
+}
+
+Result<std::shared_ptr<BodySource>> OpenSource(JobService& jobs, const std::string& id,
+                                               const std::string& name) {
+  Result<OpenArtifact> open = jobs.Open(id, name, Coding::kIdentity);
+  if (!open) return std::move(open.error());
+  return std::shared_ptr<BodySource>(std::make_shared<ArtifactSource>(std::move(open->object)));
+}
+
+HttpResponse SendArtifact(const HttpRequest& request, OpenArtifact open) {
+  const StoredObject& stored = open.stored;
+  const bool page = MediaTypeIn(open.artifact.media_type) == "text/html";
+  HttpResponse response =
+      SendSource(request, {.source = std::make_shared<ArtifactSource>(std::move(open.object)),
+                           .bytes = stored.bytes,
+                           .etag = "\"" + stored.sha256 + "\"",
+                           .media_type = open.artifact.media_type,
+                           .disposition = std::string(page ? "inline" : "attachment") +
+                                          "; filename=\"" + open.artifact.name + "\""});
+  if (response.status >= 400) return response;
+  response.Set("Vary", "Accept-Encoding");
+  if (response.status == 304) return response;
+  if (open.coding == Coding::kGzip || IsStoredInGzip(open.artifact)) {
+    response.Set("Content-Encoding", "gzip");
+  }
+  if (page) {
+    response.Set("Content-Security-Policy", kPagePolicy);
+    // Its address may have a ticket.
+    response.Set("Referrer-Policy", "no-referrer");
   }
   const std::optional<Digest> digest = Digest::FromHex(stored.sha256);
   Check(digest.has_value(), "an object's name is a sha256");
   response.Set("Repr-Digest", "sha-256=:" + digest->Base64() + ":");
-  response.file = FileBody{std::make_shared<ArtifactSource>(std::move(open.object)),
-                           selection.offset, selection.bytes};
   return response;
 }
 

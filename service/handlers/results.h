@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdint>
+#include <memory>
+#include <string>
 #include <vector>
 
 #include "service/handlers/handler_context.h"
@@ -7,8 +10,24 @@
 
 namespace farhorizon {
 
-/// GET /jobs/{id}/results: links to the artifacts. GET /jobs/{id}/results/{name}: the bytes of one.
+/// GET /jobs/{id}/results: links to the artifacts, with f=zip or f=tar all in one.
+/// GET /jobs/{id}/results/{name}: the bytes of one.
 std::vector<Route> ResultRoutes(const HandlerContext& context);
+
+/// What is sent, whole or in part.
+struct SentSource {
+  std::shared_ptr<BodySource> source;
+  std::int64_t bytes = 0;
+  std::string etag;  ///< strong, with its quotes
+  std::string media_type;
+  std::string disposition;
+};
+/// The part of it that the request asks for.
+HttpResponse SendSource(const HttpRequest& request, SentSource sent);
+
+/// The bytes of an artifact as it is, for a body. Errors: those of JobService::Open.
+Result<std::shared_ptr<BodySource>> OpenSource(JobService& jobs, const std::string& id,
+                                               const std::string& name);
 
 /// The bytes of an artifact, or the part of them that the request asks for.
 HttpResponse SendArtifact(const HttpRequest& request, OpenArtifact open);

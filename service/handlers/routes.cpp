@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "service/handlers/capabilities.h"
+#include "service/handlers/events.h"
 #include "service/handlers/execute.h"
 #include "service/handlers/health.h"
 #include "service/handlers/jobs.h"
@@ -15,7 +16,8 @@
 namespace farhorizon {
 
 Router BuildRouter(const HandlerContext& context) {
-  std::vector<Route> routes = {SubmitRoute(context), ExecutionRoute(context), TicketRoute(context)};
+  std::vector<Route> routes = {SubmitRoute(context), ExecutionRoute(context), TicketRoute(context),
+                               EventsRoute(context)};
   for (const std::vector<Route>& group :
        {JobRoutes(context), ResultRoutes(context), HealthRoutes(context), PageRoutes(context),
         CapabilityRoutes(context)}) {

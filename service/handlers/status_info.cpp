@@ -56,6 +56,7 @@ ordered_json StatusInfo(const Job& job, const std::string& base) {
                          {"code", problem.code.name()}};
   }
   ordered_json links = {Link("self", self), Link("monitor", self), Link("up", base + "/jobs")};
+  links.push_back({{"rel", "monitor"}, {"type", "text/event-stream"}, {"href", self + "/events"}});
   if (job.state == JobState::kSuccessful) {
     links.push_back(Link(std::string(kRelations) + "results", self + "/results"));
   } else if (job.state == JobState::kFailed) {

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "service/asio.h"
+#include "service/handlers/http_message.h"
 
 namespace farhorizon {
 
@@ -76,6 +77,10 @@ class ClientConnection {
                        "\r\nUser-Agent: farhorizon\r\nAccept: */*\r\nConnection: close\r\n";
     for (const auto& [name, value] : request_.headers)
       head.append(name).append(": ").append(value).append("\r\n");
+    if (const std::uintmax_t have = Have(); have > 0) {
+      head +=
+          "Range: bytes=" + std::to_string(have) + "-\r\nIf-Range: " + request_.resumes + "\r\n";
+    }
     if (request_.upload) {
       error_code none;
       std::error_code failure;
@@ -88,6 +93,27 @@ class ClientConnection {
     co_await asio::async_write(stream_, asio::buffer(head), Into(failure));
     if (failure) co_return Broken("send", failure);
     co_return Ok{};
+  }
+
+  // Bytes of the download that are there.
+  [[nodiscard]] std::uintmax_t Have() const {
+    if (!request_.download || request_.resumes.empty()) return 0;
+    std::error_code none;
+    const std::uintmax_t size = std::filesystem::file_size(*request_.download, none);
+    return none ? 0 : size;
+  }
+
+  // Opens the file for the body of this response, if it is for one.
+  Status OpenDownload(const ClientResponse& response, std::ofstream& file) const {
+    if (!request_.download || (response.status != 200 && response.status != 206)) return Ok{};
+    const std::string from = "bytes " + std::to_string(Have()) + "-";
+    if (response.status == 206 && !response.Header("content-range").starts_with(from)) {
+      return Error{ErrorCode::kIo, "the service sent another part than it was asked for"};
+    }
+    file.open(*request_.download,
+              std::ios::binary | (response.status == 206 ? std::ios::app : std::ios::trunc));
+    if (file) return Ok{};
+    return Error{ErrorCode::kIo, "cannot write " + request_.download->string()};
   }
 
   asio::awaitable<Status> SendUpload() {
@@ -119,11 +145,11 @@ class ClientConnection {
     if (failure) co_return Broken("read the answer", failure);
     ClientResponse response;
     response.status = static_cast<int>(parser.get().result_int());
-    response.location = std::string(parser.get()[http::field::location]);
-    std::ofstream file;
-    if (request_.download && response.status == 200) {
-      file.open(*request_.download, std::ios::binary | std::ios::trunc);
+    for (const auto& field : parser.get()) {
+      response.headers[LowerCase(std::string(field.name_string()))] = std::string(field.value());
     }
+    std::ofstream file;
+    if (Status opened = OpenDownload(response, file); !opened) co_return std::move(opened.error());
     std::string piece(kPieceBytes, '\0');
     while (!parser.is_done()) {
       parser.get().body() = {piece.data(), piece.size(), true};
@@ -140,7 +166,7 @@ class ClientConnection {
       }
     }
     if (file.is_open()) file.close();
-    if (request_.download && response.status == 200 && !file) {
+    if (!file) {
       co_return Error{ErrorCode::kIo, "cannot write " + request_.download->string()};
     }
     co_return response;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -29,13 +30,22 @@ struct ClientRequest {
   std::vector<std::pair<std::string, std::string>> headers = {};
   std::optional<std::filesystem::path> upload = {};    ///< the body
   std::optional<std::filesystem::path> download = {};  ///< file for the body of a 200
-  std::function<void(double)> uploaded = {};           ///< called with the share that has been sent
+  /// The entity tag of what is downloaded, with its quotes: what the file has of it already is not
+  /// asked for again, and the rest is added to it. Empty: the file is written anew.
+  std::string resumes = {};
+  std::function<void(double)> uploaded = {};  ///< called with the share that has been sent
 };
 
 struct ClientResponse {
   int status = 0;
-  std::string location;
+  std::map<std::string, std::string> headers;  ///< the last of each name, in lower case
   std::string body;  ///< at most 64 MiB; empty if it went to ClientRequest::download
+
+  /// The field of that name, in lower case; empty where there is none.
+  [[nodiscard]] std::string Header(const std::string& name) const {
+    const auto found = headers.find(name);
+    return found == headers.end() ? "" : found->second;
+  }
 };
 
 /// Sends one request on a connection of its own. Every wait has a deadline.

@@ -15,7 +15,10 @@ std::string ResponseHead(const HttpRequest& request, const HttpResponse& respons
     head.append(name).append(": ").append(value).append("\r\n");
   };
   for (const auto& [name, value] : response.headers) add(name, value);
-  if (response.status != 204 && response.status != 304) {
+  if (response.events) {
+    // To a client of HTTP/1.0 the end of the connection is the end of the body.
+    if (request.version != 10) add("Transfer-Encoding", "chunked");
+  } else if (response.status != 204 && response.status != 304) {
     add("Content-Length", std::to_string(response.BodyBytes()));
   }
   add("Date", FormatHttpDate(NowMs()));

@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <charconv>
 #include <chrono>
 #include <memory>
+#include <sys/socket.h>
 #include <utility>
 #include <variant>
 
@@ -22,6 +25,7 @@ namespace farhorizon {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+using asio::ip::tcp;
 using boost::system::error_code;
 
 constexpr std::size_t kLingerBytes = std::size_t{1} << 20U;
@@ -30,6 +34,10 @@ constexpr std::chrono::seconds kLingerTime{2};
 // when it cannot send, and answers 502 where the connection breaks before.
 constexpr std::size_t kLingerAtOnce = std::size_t{1} << 18U;
 constexpr std::chrono::milliseconds kLingerPause{10};
+
+// So that proxies do not take a stream of events for dead, and nor does the session a client.
+constexpr std::chrono::seconds kHeartbeat{15};
+constexpr std::string_view kComment = ":\n\n";
 
 auto Into(error_code& failure) { return asio::redirect_error(asio::use_awaitable, failure); }
 
@@ -42,6 +50,7 @@ Session::Session(const SessionContext& context, beast::tcp_stream stream, std::s
     : context_(context),
       stream_(std::move(stream)),
       deadline_(stream_.get_executor()),
+      alarm_(stream_.get_executor()),
       peer_(std::move(peer)),
       // Room for a head beside a piece of a body: Beast keeps a chunk's head and the trailers in
       // it until they are whole.
@@ -90,6 +99,7 @@ void Session::WaitUntil(std::chrono::steady_clock::time_point time) {
 void Session::CloseIfIdle() {
   asio::post(stream_.get_executor(), [self = shared_from_this()] {
     if (self->idle_) self->stream_.close();
+    self->Wake();
   });
 }
 
@@ -155,12 +165,14 @@ asio::awaitable<std::invoke_result_t<Work>> Session::RunOn(WaitsFor waits_for, W
 asio::awaitable<Session::Next> Session::Answer(HttpRequest request) {
   const Clock::time_point start = Clock::now();
   bool read_whole = true;
-  const HttpResponse response = co_await MakeResponse(request, read_whole);
-  const bool keep_alive =
-      read_whole && request.keep_alive && !context_.stopping && !context_.surplus;
+  slept_ = {};
+  HttpResponse response = co_await MakeResponse(request, read_whole);
+  if (response.late) response = co_await WaitFor(response.late);
+  const bool keep_alive = read_whole && request.keep_alive && !context_.stopping &&
+                          !context_.surplus && !response.events;
   const bool sent = co_await Send(request, response, keep_alive);
   const Clock::duration took = Clock::now() - start;
-  CountRequest(request.method, request.route, response.status, took);
+  CountRequest(request.method, request.route, response.status, took - slept_);
   LogRequest(request, response, took);
   if (sent && !read_whole) co_await Linger();
   co_return sent&& keep_alive ? Next::kKeepAlive : Next::kClose;
@@ -192,6 +204,61 @@ asio::awaitable<HttpResponse> Session::MakeResponse(HttpRequest& request, bool& 
   // Not by ?: with co_await in one arm: g++ 12 destroys the response twice.
   if (refusal) co_return *std::move(refusal);
   co_return co_await RunOn(waits_for, [&] { return FinishExchange(exchange, request); });
+}
+
+asio::awaitable<HttpResponse> Session::WaitFor(std::shared_ptr<LateResponse> late) {
+  const Clock::time_point end = Clock::now() + late->Most();
+  ListenTo(*late);
+  for (;;) {
+    woken_ = false;
+    const bool last = !MayWait() || Clock::now() >= end;
+    std::unique_ptr<HttpResponse> response =
+        co_await RunOn(WaitsFor::kStore, [&] { return late->Try(last); });
+    if (response) {
+      error_code ignored;
+      stream_.socket().cancel(ignored);  // the wait for the client's end
+      co_return std::move(*response);
+    }
+    co_await Sleep(end);
+  }
+}
+
+void Session::ListenTo(Awaited& awaited) {
+  // The deadline of an earlier wait would end that for the client's end.
+  deadline_.cancel();
+  const std::weak_ptr<Session> weak = weak_from_this();
+  awaited.Listen([weak, executor = stream_.get_executor()] {
+    asio::post(executor, [weak] {
+      if (const auto self = weak.lock()) self->Wake();
+    });
+  });
+  stream_.socket().async_wait(
+      tcp::socket::wait_read, [self = shared_from_this()](const error_code& failure) {
+        const bool open = self->stream_.socket().is_open();
+        if (failure && open) return;  // cancelled: nobody waits any more
+        char next = 0;
+        const ssize_t size =
+            open ? ::recv(self->stream_.socket().native_handle(), &next, 1, MSG_PEEK | MSG_DONTWAIT)
+                 : 0;
+        // A client may send its next request before it has the response to this one.
+        if (size == 0 || (size < 0 && errno != EAGAIN)) self->peer_gone_ = true;
+        self->Wake();
+      });
+}
+
+asio::awaitable<void> Session::Sleep(Clock::time_point time) {
+  const Clock::time_point start = Clock::now();
+  if (!woken_ && MayWait()) {
+    error_code ignored;
+    alarm_.expires_at(time);
+    co_await alarm_.async_wait(Into(ignored));
+  }
+  slept_ += Clock::now() - start;
+}
+
+void Session::Wake() {
+  woken_ = true;
+  alarm_.cancel();
 }
 
 asio::awaitable<std::optional<HttpResponse>> Session::ReadBody(const HttpRequest& request,
@@ -241,8 +308,41 @@ asio::awaitable<bool> Session::Send(const HttpRequest& request, const HttpRespon
       request.method != "HEAD" && response.status != 204 && response.status != 304;
   if (has_body && !response.file) text += response.body;
   bool sent = co_await SendText(text);
+  if (sent && has_body && response.events) {
+    sent = co_await SendEvents(*response.events, request.version != 10);
+  }
   if (sent && has_body && response.file) sent = co_await SendFile(*response.file);
   co_return sent;
+}
+
+asio::awaitable<bool> Session::SendEvents(EventSource& events, bool chunked) {
+  const auto framed = [chunked](std::string_view text) {
+    if (!chunked || text.empty()) return std::string(text);
+    std::array<char, 16> size{};
+    const auto end = std::to_chars(size.data(), size.data() + size.size(), text.size(), 16).ptr;
+    return std::string(size.data(), end).append("\r\n").append(text).append("\r\n");
+  };
+  ListenTo(events);
+  Clock::time_point said = Clock::now();
+  for (;;) {
+    woken_ = false;
+    EventSource::Piece piece =
+        co_await RunOn(WaitsFor::kStore, [&events] { return events.Next(); });
+    if (piece.text.empty() && Clock::now() >= said + kHeartbeat) piece.text = kComment;
+    if (!piece.text.empty()) {
+      said = Clock::now();
+      const std::string frame = framed(piece.text);
+      const bool taken = co_await SendText(frame);
+      if (!taken) co_return false;
+      deadline_.cancel();
+    }
+    if (piece.last || !MayWait()) break;
+    co_await Sleep(said + kHeartbeat);
+  }
+  if (peer_gone_) co_return false;
+  // Not by ?: with co_await in one arm, as above.
+  if (!chunked) co_return true;
+  co_return co_await SendText("0\r\n\r\n");
 }
 
 asio::awaitable<bool> Session::SendText(std::string_view text) {

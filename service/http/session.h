@@ -50,7 +50,7 @@ class Session : public std::enable_shared_from_this<Session> {
 
   [[nodiscard]] beast::tcp_stream::executor_type executor() { return stream_.get_executor(); }
 
-  /// Closes if no request is being answered.
+  /// Closes if no request is being answered; what waits for something to happen waits no longer.
   void CloseIfIdle();
   /// Closes at once.
   void Close();
@@ -67,6 +67,14 @@ class Session : public std::enable_shared_from_this<Session> {
   asio::awaitable<Next> Answer(HttpRequest request);
   /// The response, and in `read_whole` whether nothing of the request is left in the socket.
   asio::awaitable<HttpResponse> MakeResponse(HttpRequest& request, bool& read_whole);
+  /// Gives the response that `late` has, as soon as it has one.
+  asio::awaitable<HttpResponse> WaitFor(std::shared_ptr<LateResponse> late);
+  /// Lets `awaited`, and the end of the client, wake this session from now on.
+  void ListenTo(Awaited& awaited);
+  /// Waits until something wakes this session, at most until `time`.
+  asio::awaitable<void> Sleep(std::chrono::steady_clock::time_point time);
+  void Wake();
+  [[nodiscard]] bool MayWait() const { return !peer_gone_ && !context_.stopping; }
   /// Gives the body to `exchange`. The response that refuses the request, if there was an error.
   asio::awaitable<std::optional<HttpResponse>> ReadBody(const HttpRequest& request,
                                                         Exchange& exchange);
@@ -78,6 +86,7 @@ class Session : public std::enable_shared_from_this<Session> {
   asio::awaitable<bool> Send(const HttpRequest& request, const HttpResponse& response,
                              bool keep_alive);
   asio::awaitable<bool> SendFile(const FileBody& file);
+  asio::awaitable<bool> SendEvents(EventSource& events, bool chunked);
   asio::awaitable<bool> SendText(std::string_view text);
   /// Reads on for a moment: to close while the client still sends would reset the connection, and
   /// the response could be lost on its way.
@@ -87,6 +96,10 @@ class Session : public std::enable_shared_from_this<Session> {
   beast::tcp_stream stream_;
   asio::steady_timer deadline_;
   bool late_ = false;
+  asio::steady_timer alarm_;  ///< of Sleep
+  bool woken_ = false;
+  bool peer_gone_ = false;
+  std::chrono::steady_clock::duration slept_{};  ///< while the current request was answered
   std::string peer_;
   beast::flat_buffer buffer_;
   bool idle_ = true;

@@ -54,13 +54,16 @@ JobService::JobService(JobServiceOptions options, const MemoryPlan& memory, Data
     : memory_(memory),
       options_(Within(memory, std::move(options))),
       directory_(std::move(directory)),
+      changes_(std::make_shared<JobChanges>(options_.max_watches)),
       jobs_(std::move(stores.jobs)),
       objects_(std::move(stores.objects)),
       collector_(*jobs_, *objects_),
       health_(directory_, *jobs_, options_.min_free_bytes),
       reserve_(directory_.Reserve()),
       probe_(directory_.Work(), options_.probe, options_.runner),
-      runner_({*jobs_, *objects_, collector_, health_}, directory_.Work(), options_.runner) {}
+      runner_({*jobs_, *objects_, collector_, health_}, directory_.Work(), options_.runner) {
+  jobs_->OnChange([changes = changes_](const std::string& id) { changes->Tell(id); });
+}
 
 JobService::~JobService() { Stop(); }
 

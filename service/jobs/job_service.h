@@ -13,6 +13,7 @@
 #include "core/pipeline/build_options.h"
 #include "service/jobs/data_directory.h"
 #include "service/jobs/housekeeper.h"
+#include "service/jobs/job_changes.h"
 #include "service/jobs/job_engine.h"
 #include "service/jobs/job_runner.h"
 #include "service/jobs/job_store.h"
@@ -41,6 +42,7 @@ struct JobServiceOptions {
   std::int64_t memory_bytes = 0;  ///< of workers and probes together; 0: the machine's
   Priority highest_priority = Priority::kHigh;
   std::int64_t deadline_seconds = 0;  ///< of a job that comes without one; 0: none
+  std::int64_t max_watches = 512;     ///< requests at once that wait for changes of jobs
 };
 
 /// A client's DEM and its parameters.
@@ -102,6 +104,11 @@ class JobService {
 
   Result<Job> Find(const std::string& id);
   Result<JobPage> List(const JobQuery& query);
+  /// For who waits for changes of the job: nullptr where as many do as may.
+  std::unique_ptr<JobChanges::Watch> Watch(const std::string& id, const std::string& client) {
+    return changes_->Add(id, client);
+  }
+  [[nodiscard]] std::int64_t CountWatches() const { return changes_->Count(); }
   Result<std::vector<Artifact>> Artifacts(const std::string& id) { return jobs_->Artifacts(id); }
   /// coding: in which the artifact is wanted; it is given as it is where there is no such copy.
   /// Errors: kNotFound; kIo "result-corrupt" where the object is missing or damaged.
@@ -147,6 +154,7 @@ class JobService {
   MemoryPlan memory_;
   JobServiceOptions options_;  // limits as memory_ has them
   DataDirectory directory_;
+  std::shared_ptr<JobChanges> changes_;
   std::unique_ptr<JobStore> jobs_;
   std::unique_ptr<ObjectStore> objects_;
   ObjectCollector collector_;

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/base/result.h"
@@ -99,7 +101,8 @@ struct StoreIdentity {
 /// (2) A call with a `run` has an effect only while the job is running and `run` is its current
 ///     run; otherwise the call returns false.
 /// (3) One idempotency key of an owner makes at most one job.
-/// (4) No time of a job is before one that the store had already, even where the clock goes back;
+/// (4) After each change of a job that it has, it calls its listener, whoever made the change.
+/// (5) No time of a job is before one that the store had already, even where the clock goes back;
 ///     of two jobs that it has, the one that was inserted later has the greater id.
 /// Errors, of every call: kIo where the store cannot be read or written, kResourceExhausted where
 /// the disk is full.
@@ -110,6 +113,12 @@ class JobStore {
   virtual ~JobStore() = default;
   JobStore(const JobStore&) = delete;
   JobStore& operator=(const JobStore&) = delete;
+
+  /// Who is to be told of changes: called with the job's id, or with an empty text where any may
+  /// have changed, from any thread. Requires: no other thread calls the store yet.
+  void OnChange(std::function<void(const std::string& id)> listener) {
+    listener_ = std::move(listener);
+  }
 
   /// Stores an accepted job and returns it. If the store knows the idempotency key of the owner,
   /// stores nothing and returns the key's job.
@@ -183,6 +192,14 @@ class JobStore {
 
   /// Writes to the store; succeeds if what it wrote is durable.
   virtual Status Ping() = 0;
+
+ protected:
+  void Changed(const std::string& id) const {
+    if (listener_) listener_(id);
+  }
+
+ private:
+  std::function<void(const std::string& id)> listener_;
 };
 
 }  // namespace farhorizon

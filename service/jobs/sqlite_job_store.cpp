@@ -75,6 +75,13 @@ class SqliteJobStore : public JobStore {
   auto Call(Work work) -> Result<decltype(work())> {
     return Guarded([&]() -> Result<decltype(work())> { return work(); });
   }
+  // The same for a change of the job that is told to the listener.
+  template <typename Work>
+  Result<bool> Change(const std::string& id, Work work) {
+    const Result<bool> changed = Call(work);
+    if (changed && *changed) Changed(id);
+    return changed;
+  }
   // Runs work(connection) beside whoever writes.
   template <typename Work>
   auto Read(Work work) -> decltype(work(std::declval<const Database&>())) {
@@ -161,16 +168,22 @@ Result<UnfinishedJobs> SqliteJobStore::CountUnfinished() {
 }
 
 Result<std::optional<Job>> SqliteJobStore::ClaimNext(std::int64_t now_ms, const MemoryRoom& room) {
-  return Call([&] { return ClaimJob(database_, turns_, room, Later(now_ms)); });
+  Result<std::optional<Job>> job =
+      Call([&] { return ClaimJob(database_, turns_, room, Later(now_ms)); });
+  if (job && *job) Changed((*job)->id);
+  return job;
 }
 
 Result<std::vector<std::string>> SqliteJobStore::FailOverdue(std::int64_t now_ms) {
-  return Call([&] { return FailOverdueJobs(database_, Later(now_ms)); });
+  Result<std::vector<std::string>> failed =
+      Call([&] { return FailOverdueJobs(database_, Later(now_ms)); });
+  if (failed) std::for_each(failed->begin(), failed->end(), [&](auto& id) { Changed(id); });
+  return failed;
 }
 
 Result<bool> SqliteJobStore::ReportProgress(const std::string& id, std::int64_t run, int progress,
                                             const std::string& message, std::int64_t now_ms) {
-  return Call([&] {
+  return Change(id, [&] {
     return StoreProgress(database_, {id, run, Later(now_ms)}, progress, message);
   });
 }
@@ -178,49 +191,62 @@ Result<bool> SqliteJobStore::ReportProgress(const std::string& id, std::int64_t 
 Result<bool> SqliteJobStore::ReportAssumptions(const std::string& id, std::int64_t run,
                                                const Assumptions& assumptions,
                                                std::int64_t now_ms) {
-  return Call([&] { return StoreAssumptions(database_, {id, run, Later(now_ms)}, assumptions); });
+  return Change(id, [&] {
+    return StoreAssumptions(database_, {id, run, Later(now_ms)}, assumptions);
+  });
 }
 
 Result<bool> SqliteJobStore::Publish(const std::string& id, std::int64_t run,
                                      const std::vector<Artifact>& artifacts,
                                      const std::map<std::string, double>& timings,
                                      std::int64_t now_ms) {
-  return Call([&] { return PublishRun(database_, {id, run, Later(now_ms)}, artifacts, timings); });
+  return Change(id, [&] {
+    return PublishRun(database_, {id, run, Later(now_ms)}, artifacts, timings);
+  });
 }
 
 Result<bool> SqliteJobStore::Fail(const std::string& id, std::int64_t run, const Error& failure,
                                   std::int64_t now_ms) {
-  return Call([&] { return FailRun(database_, {id, run, Later(now_ms)}, failure); });
+  return Change(id, [&] { return FailRun(database_, {id, run, Later(now_ms)}, failure); });
 }
 
 Result<bool> SqliteJobStore::Requeue(const std::string& id, std::int64_t run, RequeueReason reason,
                                      std::int64_t now_ms) {
-  return Call([&] { return RequeueRun(database_, {id, run, Later(now_ms)}, reason); });
+  return Change(id, [&] { return RequeueRun(database_, {id, run, Later(now_ms)}, reason); });
 }
 
 Result<bool> SqliteJobStore::RequeueWithMemory(const std::string& id, std::int64_t run,
                                                std::int64_t memory_bytes, std::int64_t now_ms) {
-  return Call([&] {
+  return Change(id, [&] {
     return farhorizon::RequeueWithMemory(database_, {id, run, Later(now_ms)}, memory_bytes);
   });
 }
 
 Result<bool> SqliteJobStore::Postpone(const std::string& id, std::int64_t run,
                                       std::int64_t delay_ms, std::int64_t now_ms) {
-  return Call([&] { return PostponeRun(database_, {id, run, Later(now_ms)}, delay_ms); });
+  return Change(id, [&] { return PostponeRun(database_, {id, run, Later(now_ms)}, delay_ms); });
 }
 
 Result<Job> SqliteJobStore::Dismiss(const std::string& id, std::int64_t now_ms) {
-  return Guarded([&]() -> Result<Job> { return DismissJob(database_, id, Later(now_ms)); });
+  Result<Job> job =
+      Guarded([&]() -> Result<Job> { return DismissJob(database_, id, Later(now_ms)); });
+  if (job) Changed(id);
+  return job;
 }
 
 Result<std::int64_t> SqliteJobStore::RemoveExpired(const Retention& retention,
                                                    std::int64_t now_ms) {
-  return Call([&] { return RemoveExpiredJobs(database_, retention, now_ms); });
+  const Result<std::int64_t> removed =
+      Call([&] { return RemoveExpiredJobs(database_, retention, now_ms); });
+  if (removed && *removed > 0) Changed("");
+  return removed;
 }
 
 Result<std::int64_t> SqliteJobStore::RecoverRunning(PreviousEnd end, std::int64_t now_ms) {
-  return Call([&] { return RecoverJobs(database_, end, Later(now_ms)); });
+  const Result<std::int64_t> recovered =
+      Call([&] { return RecoverJobs(database_, end, Later(now_ms)); });
+  if (recovered && *recovered > 0) Changed("");
+  return recovered;
 }
 
 Result<std::vector<Artifact>> SqliteJobStore::Artifacts(const std::string& id) {

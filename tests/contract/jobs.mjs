@@ -105,6 +105,29 @@ export const checkJobs = async (run) => {
     same(answer.status, 204, 'the status');
     same(answer.headers.link.split(', <').length, Object.keys(plain).length, 'the links');
   });
+  await claim('jobs: all artifacts in one archive', async () => {
+    const location = await run1({ inputs });
+    const tar = await get(`${location}/results?f=tar`);
+    same([tar.status, tar.type, tar.text.slice(257, 262)], [200, 'application/x-tar', 'ustar'], 'tar');
+    const zip = await get(`${location}/results?f=zip`);
+    same([zip.status, zip.type, zip.text.slice(0, 2)], [200, 'application/zip', 'PK'], 'zip');
+    same((await get(`${location}/results?f=rar`)).status, 400, 'rar');
+    return `${tar.bytes.length} and ${zip.bytes.length} bytes`;
+  });
+  await claim('jobs: events and a long poll follow a job to its end', async () => {
+    const posted = await postJson(`${base}/jobs`, { inputs: { ...inputs, levels: 1 } });
+    const { location } = posted.headers;
+    const stream = (await get(`${location}/events`)).text;
+    const events = stream.split('\n\n').filter((event) => event.includes('event: status'));
+    const statuses = events.map((event) => JSON.parse(/^data: (.*)$/m.exec(event)[1]));
+    for (const status of statuses) document.validate(ogc.statusInfo, status, 'statusInfo');
+    same(statuses.at(-1).status, 'successful', 'the last');
+    const id = /^id: (.*)$/m.exec(events.at(-1))[1];
+    same((await get(`${location}/events`, { 'last-event-id': id })).status, 204, 'resumed');
+    const poll = await get(location, { prefer: 'wait=30' });
+    same([poll.headers.etag, poll.headers['preference-applied']], [`"${id}"`, 'wait=30'], 'the poll');
+    return `${events.length} events`;
+  });
   await claim('jobs: a failed job answers with why', async () => {
     const answer = await postJson(`${base}/jobs`, { inputs: { ...inputs, workBudget: 1 } });
     document.hold(answer);

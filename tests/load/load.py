@@ -8,6 +8,7 @@ sys.path[:0] = [HERE, os.path.join(HERE, "../support/stress")]
 
 import bodies  # noqa: E402
 import command  # noqa: E402
+import events  # noqa: E402
 import overload  # noqa: E402
 import poll  # noqa: E402
 import slow  # noqa: E402
@@ -16,7 +17,7 @@ import submit  # noqa: E402
 import tiles  # noqa: E402
 
 LOADS = {"poll": poll.run, "submit": submit.run, "overload": overload.run, "slow": slow.run, "bodies": bodies.run,
-         "tiles": tiles.run, "soak": soak.run}
+         "tiles": tiles.run, "events": events.run, "soak": soak.run}
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:

@@ -203,6 +203,8 @@ TEST_F(KeyGateTest, ATicketOpensLinksToTheResultsOfItsJobAlone) {
   EXPECT_EQ(CodeOf(Send("GET", "/jobs/" + job + result + query)), "result-not-ready");
   EXPECT_EQ(CodeOf(Send("HEAD", "/jobs/" + job + result + query)), "result-not-ready");
   EXPECT_EQ(CodeOf(Send("GET", "/jobs/" + other + result + query)), "invalid-key");
+  EXPECT_TRUE(Send("GET", "/jobs/" + job + "/events" + query).events);
+  EXPECT_EQ(CodeOf(Send("GET", "/jobs/" + other + "/events" + query)), "invalid-key");
   EXPECT_EQ(CodeOf(Send("GET", "/jobs/" + job + query)), "key-required");
   EXPECT_EQ(CodeOf(Send("DELETE", "/jobs/" + job + query)), "key-required");
   EXPECT_EQ(CodeOf(Send("GET", "/jobs/" + job + result + "?ticket=x")), "invalid-key");
@@ -211,6 +213,20 @@ TEST_F(KeyGateTest, ATicketOpensLinksToTheResultsOfItsJobAlone) {
     return Ok{};
   }));
   EXPECT_EQ(CodeOf(Send("GET", "/jobs/" + job + result + query)), "invalid-key");
+}
+
+TEST_F(KeyGateTest, AStreamOfEventsEndsWithItsKey) {
+  const Headers ada = KeyWith(usual_);
+  const std::string path = "/jobs/" + JobOf(ada) + "/events";
+  EXPECT_EQ(CodeOf(Send("GET", path, KeyWith(usual_))), "no-such-job");
+  const HttpResponse stream = Send("GET", path, ada);
+  ASSERT_TRUE(stream.events);
+  EXPECT_FALSE(stream.events->Next().last);
+  ASSERT_TRUE(ChangeKeys(folder_ / "data" / "keys.json", [](std::vector<ApiKey>& keys) -> Status {
+    keys.at(0).revoked_ms = 1;
+    return Ok{};
+  }));
+  EXPECT_TRUE(stream.events->Next().last);
 }
 
 TEST_F(KeyGateTest, PagesAndHealthAreForEverybodyAndTellNothingOfJobs) {

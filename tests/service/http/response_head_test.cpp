@@ -33,6 +33,21 @@ TEST(ResponseHead, LeavesAPageItsOwnPolicy) {
   EXPECT_THAT(head, Not(HasSubstr("default-src 'none'")));
 }
 
+TEST(ResponseHead, HasNoLengthWhereNobodyKnowsIt) {
+  struct Nothing : EventSource {
+    void Listen(std::function<void()> /*wake*/) override {}
+    Piece Next() override { return {"", true}; }
+  };
+  HttpResponse response;
+  response.events = std::make_shared<Nothing>();
+  const std::string head = ResponseHead({}, response, false, {});
+  EXPECT_THAT(head, HasSubstr("Transfer-Encoding: chunked\r\n"));
+  EXPECT_THAT(head, Not(HasSubstr("Content-Length")));
+  HttpRequest old;
+  old.version = 10;
+  EXPECT_THAT(ResponseHead(old, response, false, {}), Not(HasSubstr("Transfer-Encoding")));
+}
+
 TEST(ResponseHead, HasNoLengthWhereThereIsNoBody) {
   for (const int status : {204, 304}) {
     HttpResponse response;

@@ -1,5 +1,7 @@
 // The properties of every JobStore. A new implementation adds a line to INSTANTIATE_TEST_SUITE_P.
+#include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <set>
@@ -61,6 +63,58 @@ TEST_P(JobStoreConformance, KeepsAJobOverAReopen) {
   EXPECT_EQ(found->parameters, job.parameters);
   EXPECT_EQ(found->filename, "dem.tif");
   EXPECT_EQ(found->input_bytes, 5);
+}
+
+TEST_P(JobStoreConformance, TellsOfEveryChange) {
+  std::vector<std::string> told;
+  store_->OnChange([&](const std::string& id) { told.push_back(id); });
+  // A store that many use may tell later, or more than once.
+  const auto tells_of = [&](const std::string& id) {
+    for (int tries = 0; told.empty() && tries < 500; ++tries) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    const bool was_told =
+        std::any_of(told.begin(), told.end(), [&](auto& one) { return one.empty() || one == id; });
+    told.clear();
+    return was_told;
+  };
+  const Job job = Insert();
+  told.clear();
+  Job claimed = Claim();
+  EXPECT_TRUE(tells_of(job.id));
+  const auto check = [&](const char* what, const Result<bool>& changed) {
+    EXPECT_TRUE(changed && *changed) << what;
+    EXPECT_TRUE(tells_of(job.id)) << what;
+  };
+  check("progress", store_->ReportProgress(job.id, claimed.run, 5, "sweep", ++time_));
+  check("assumptions", store_->ReportAssumptions(job.id, claimed.run, {{"a", "b"}}, ++time_));
+  check("requeue", store_->Requeue(job.id, claimed.run, RequeueReason::kServiceStopped, ++time_));
+  claimed = Claim();
+  EXPECT_TRUE(tells_of(job.id));
+  check("memory", store_->RequeueWithMemory(job.id, claimed.run, 1 << 20, ++time_));
+  claimed = Claim();
+  EXPECT_TRUE(tells_of(job.id));
+  check("postpone", store_->Postpone(job.id, claimed.run, 0, ++time_));
+  claimed = Claim();
+  EXPECT_TRUE(tells_of(job.id));
+  check("failure",
+        store_->Fail(job.id, claimed.run, {ErrorCode::kIo, "x", "internal-error"}, ++time_));
+  EXPECT_FALSE(*store_->ReportProgress(job.id, claimed.run, 6, "sweep", ++time_));
+  EXPECT_TRUE(told.empty()) << "nothing was changed";
+  ASSERT_TRUE(store_->Dismiss(job.id, ++time_));
+  EXPECT_TRUE(tells_of(job.id)) << "removal";
+  const Job other = Insert("b");
+  told.clear();
+  claimed = Claim();
+  EXPECT_TRUE(tells_of(other.id));
+  ASSERT_TRUE(*store_->RecoverRunning(PreviousEnd::kOrderly, ++time_));
+  EXPECT_TRUE(tells_of(other.id)) << "recovery";
+  claimed = Claim();
+  EXPECT_TRUE(tells_of(other.id));
+  Succeed(claimed);
+  EXPECT_TRUE(tells_of(other.id)) << "publication";
+  ASSERT_EQ(*store_->RemoveExpired({1, 0, 0}, time_ + 10'000), 1);
+  EXPECT_TRUE(tells_of(other.id)) << "expiry";
 }
 
 TEST_P(JobStoreConformance, HandsOutEachJobOnceOldestFirst) {

@@ -1,0 +1,204 @@
+#include "service/cli/remote_job.h"
+
+#include <algorithm>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "core/io/file.h"
+#include "core/io/manifest.h"
+#include "core/io/sha256.h"
+#include "service/clock.h"
+#include "service/jobs/job.h"
+
+namespace farhorizon {
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using Clock = std::chrono::steady_clock;
+
+constexpr milliseconds kFirstPause{100};
+constexpr milliseconds kLongestPause{2000};
+// Less than the client's patience with a silent connection.
+constexpr int kLongPollSeconds = 20;
+
+fs::path PartOf(const fs::path& file) { return file.string() + ".part"; }
+
+bool IsWhole(const fs::path& file, const ManifestEntry& entry) {
+  std::error_code failure;
+  const bool same_size = fs::file_size(file, failure) == entry.bytes && !failure;
+  if (!same_size) return false;
+  const Result<std::string> found = Sha256OfFile(file);
+  return found && *found == entry.sha256;
+}
+
+// Fetches the artifact to the file `part`, which may have its beginning.
+Status FetchPart(const JobClient& client, const std::string& target, const ManifestEntry& entry,
+                 const fs::path& part) {
+  std::error_code failure;
+  const std::uintmax_t have = fs::file_size(part, failure);
+  if (!failure && have >= entry.bytes) fs::remove(part, failure);
+  ClientRequest request;
+  request.target = target;
+  request.download = part;
+  request.resumes = "\"" + entry.sha256 + "\"";
+  const Result<ClientResponse> response = client.Send(std::move(request));
+  if (!response) return response.error();
+  if (response->status != 200 && response->status != 206) return ErrorOfProblem(*response);
+  if (IsWhole(part, entry)) return Ok{};
+  fs::remove(part, failure);
+  return Error{ErrorCode::kIo, entry.name + " is not what manifest.json says; fetch it again",
+               "result-corrupt"};
+}
+
+Status FetchOne(const JobClient& client, const std::string& results, const ManifestEntry& entry,
+                const fs::path& directory) {
+  if (!IsArtifactName(entry.name)) {
+    return Error{ErrorCode::kIo, "the service names an artifact that cannot be a file"};
+  }
+  const fs::path file = directory / entry.name;
+  if (IsWhole(file, entry)) return Ok{};
+  const fs::path part = PartOf(file);
+  std::error_code failure;
+  const bool begun = fs::exists(part, failure);
+  if (!IsWhole(part, entry)) {
+    const std::string target = results + "/" + entry.name;
+    Status fetched = FetchPart(client, target, entry, part);
+    // What was begun may be another job's.
+    const bool again = !fetched && begun && fetched.error().kind == "result-corrupt";
+    if (again) fetched = FetchPart(client, target, entry, part);
+    if (!fetched) return fetched;
+  }
+  fs::rename(part, file, failure);
+  if (!failure) return Ok{};
+  return Error{ErrorCode::kIo, "cannot write " + file.string() + ": " + failure.message()};
+}
+
+}  // namespace
+
+Result<json> SendDem(const JobClient& client, const RemoteSubmission& submission) {
+  std::error_code failure;
+  if (!fs::is_regular_file(submission.dem, failure)) {
+    return Error{ErrorCode::kNotFound, "there is no file " + submission.dem.string()};
+  }
+  Parameters query = submission.parameters;
+  query["filename"] = SafeFilename(submission.dem.filename().string());
+  ClientRequest request;
+  request.method = "POST";
+  request.upload = submission.dem;
+  request.headers = {{"Content-Type", "application/octet-stream"},
+                     {"Idempotency-Key", "\"" + submission.idempotency_key + "\""}};
+  request.uploaded = submission.uploaded;
+  Result<json> job = client.SendForJson("/jobs?" + EncodeQuery(query), 201, std::move(request));
+  if (job && !IsJobId(job->value("jobID", ""))) {
+    return Error{ErrorCode::kIo, "the service's answer names no job; is it a farhorizon?"};
+  }
+  return job;
+}
+
+Result<json> WaitForEnd(const JobClient& client, const std::string& id,
+                        const std::function<void(const json& status)>& heard,
+                        std::optional<seconds> most) {
+  const Clock::time_point start = Clock::now();
+  std::string tag;
+  milliseconds pause = kFirstPause;
+  for (;;) {
+    const auto left =
+        most ? std::chrono::ceil<seconds>(start + *most - Clock::now()) : seconds(kLongPollSeconds);
+    ClientRequest request;
+    request.target = "/jobs/" + id;
+    const bool asks_to_wait = !tag.empty() && left.count() > 0;
+    if (asks_to_wait) {
+      request.headers = {{"If-None-Match", tag},
+                         {"Prefer", "wait=" + std::to_string(std::min<std::int64_t>(
+                                                  left.count(), kLongPollSeconds))}};
+    }
+    const Result<ClientResponse> response = client.Send(std::move(request));
+    if (client.stop().stop_requested()) {
+      return Error{ErrorCode::kCancelled, "interrupted; the job goes on as /jobs/" + id};
+    }
+    if (!response) return response.error();
+    if (response->status != 304) {
+      if (response->status != 200) return ErrorOfProblem(*response);
+      Result<json> status = JsonOf(*response);
+      if (!status) return status;
+      heard(*status);
+      const std::optional<JobState> state = JobStateOf(status->value("status", ""));
+      if (state && IsTerminal(*state)) return status;
+      tag = response->Header("etag");
+    }
+    if (most && Clock::now() >= start + *most) {
+      return Error{ErrorCode::kResourceExhausted,
+                   "the job has not ended yet; it goes on as /jobs/" + id, "timeout"};
+    }
+    // A service that does not wait is not to be asked again without a pause.
+    if (!asks_to_wait || !response->Header("preference-applied").empty()) continue;
+    Pause(pause, client.stop());
+    pause = std::min(pause * 3 / 2, kLongestPause);
+  }
+}
+
+Status SuccessOf(const json& status) {
+  const std::string state = status.value("status", "");
+  if (state == "successful") return Ok{};
+  if (state == "dismissed") {
+    return Error{ErrorCode::kUnsupportedData, "the job was dismissed by somebody"};
+  }
+  const auto why = status.find("exception");
+  if (state != "failed" || why == status.end() || !why->is_object()) {
+    return Error{ErrorCode::kIo, "the job is " + state};
+  }
+  const std::string code = why->value("code", "");
+  return Error{why->value("status", 500) >= 500 ? ErrorCode::kIo : ErrorCode::kUnsupportedData,
+               "the job failed: " + code + ": " + why->value("detail", ""),
+               ErrorKind::FromName(code).value_or(ErrorKind())};
+}
+
+Status FetchArtifacts(const JobClient& client, const std::string& id, const fs::path& directory,
+                      const std::function<void(double share)>& heard) {
+  const std::string results = "/jobs/" + id + "/results";
+  ClientRequest request;
+  request.target = results + "/manifest.json";
+  const Result<ClientResponse> manifest = client.Send(std::move(request));
+  if (!manifest) return manifest.error();
+  if (manifest->status != 200) return ErrorOfProblem(*manifest);
+  Result<std::vector<ManifestEntry>> entries = ReadManifest(manifest->body);
+  if (!entries) return std::move(entries.error()).WithContext("manifest.json");
+  std::error_code failure;
+  fs::create_directories(directory, failure);
+  if (failure) {
+    return Error{ErrorCode::kIo,
+                 "cannot make the folder " + directory.string() + ": " + failure.message()};
+  }
+  double fetched = 0;
+  for (const ManifestEntry& entry : *entries) {
+    heard(fetched++ / static_cast<double>(entries->size()));
+    if (Status one = FetchOne(client, results, entry, directory); !one) return one;
+  }
+  heard(1);
+  return WriteFile(directory / "manifest.json", manifest->body);
+}
+
+bool HasArtifacts(const fs::path& directory) {
+  const Result<std::string> text = ReadFile(directory / "manifest.json");
+  if (!text) return false;
+  const Result<std::vector<ManifestEntry>> entries = ReadManifest(*text);
+  return entries && std::all_of(entries->begin(), entries->end(), [&](const ManifestEntry& entry) {
+           return IsArtifactName(entry.name) && IsWhole(directory / entry.name, entry);
+         });
+}
+
+Result<std::string> ReadJobId(const std::string& text) {
+  std::string_view id = text;
+  while (!id.empty() && id.back() == '/') id.remove_suffix(1);
+  id.remove_prefix(id.rfind('/') + 1);  // npos + 1 is 0
+  if (IsJobId(id)) return std::string(id);
+  return Error{ErrorCode::kInvalidArgument,
+               "\"" + text + "\" is no job's id; submit and GET /jobs say the ids"};
+}
+
+}  // namespace farhorizon

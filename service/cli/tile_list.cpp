@@ -1,0 +1,84 @@
+#include "service/cli/tile_list.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <set>
+#include <string_view>
+#include <system_error>
+
+namespace farhorizon {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array<std::string_view, 12> kEndings = {".tif", ".tiff", ".asc",     ".grd",
+                                                       ".xyz", ".hgt",  ".hgt.zip", ".dt0",
+                                                       ".dt1", ".dt2",  ".dem",     ".img"};
+
+bool IsOfADem(std::string name) {
+  std::transform(name.begin(), name.end(), name.begin(), [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  });
+  return name.front() != '.' && std::any_of(kEndings.begin(), kEndings.end(),
+                                            [&](auto ending) { return name.ends_with(ending); });
+}
+
+Status AddFolder(const std::string& folder, std::vector<std::string>& tiles) {
+  std::error_code failure;
+  std::vector<std::string> found;
+  for (const auto& entry : fs::directory_iterator(folder, failure)) {
+    std::error_code none;
+    if (entry.is_regular_file(none) && IsOfADem(entry.path().filename().string())) {
+      found.push_back(entry.path().string());
+    }
+  }
+  if (failure) return Error{ErrorCode::kIo, "cannot read " + folder + ": " + failure.message()};
+  std::sort(found.begin(), found.end());
+  tiles.insert(tiles.end(), found.begin(), found.end());
+  return Ok{};
+}
+
+void AddLines(std::istream& lines, std::vector<std::string>& tiles) {
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    if (!line.empty() && line.front() != '#') tiles.push_back(line);
+  }
+}
+
+}  // namespace
+
+Result<std::vector<std::string>> ReadTileList(const std::vector<std::string>& words,
+                                              const std::string& list) {
+  std::vector<std::string> tiles;
+  std::error_code failure;
+  for (const std::string& word : words) {
+    if (!fs::is_directory(word, failure)) {
+      tiles.push_back(word);
+    } else if (Status added = AddFolder(word, tiles); !added) {
+      return std::move(added.error());
+    }
+  }
+  if (list == "-") {
+    AddLines(std::cin, tiles);
+  } else if (!list.empty()) {
+    std::ifstream file(list);
+    if (!file) return Error{ErrorCode::kNotFound, "cannot read the list " + list};
+    AddLines(file, tiles);
+  }
+  if (tiles.empty()) return Error{ErrorCode::kInvalidArgument, "there is no DEM to send"};
+  std::set<std::string> names;
+  for (const std::string& tile : tiles) {
+    const std::string name = fs::path(tile).filename().string();
+    if (names.insert(name).second) continue;
+    return Error{ErrorCode::kInvalidArgument,
+                 "two of the DEMs are called " + name +
+                     ", and the artifacts of each go to a folder of its name; send them apart"};
+  }
+  return tiles;
+}
+
+}  // namespace farhorizon
