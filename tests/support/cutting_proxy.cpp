@@ -51,7 +51,7 @@ void CuttingProxy::Pass(int client, std::size_t most) const {
     ssize_t size = ::recv(answer ? service : client, bytes.data(), bytes.size(), 0);
     if (size <= 0) break;
     if (answer) {
-      size = std::min(size, static_cast<ssize_t>(most));
+      size = static_cast<ssize_t>(std::min(static_cast<std::size_t>(size), most));
       most -= static_cast<std::size_t>(size);
     }
     if (::send(answer ? client : service, bytes.data(), static_cast<std::size_t>(size),
