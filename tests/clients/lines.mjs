@@ -3,11 +3,10 @@ import { distanceTo, kLeast } from './picture.mjs';
 
 // What lines are drawn in: no lit terrain has that colour, nor the sky.
 export const kLineColour = [0, 255, 0];
-// A line is as wide as a pixel, so that most of its pixels are mixtures of what is below it.
-const kMixture = 240;
 
-// Pixels that the lines have changed towards their colour, as a mask. colour: null where the model
-// has a colour for them that is its own.
+// Pixels that the lines have changed towards their colour, as a mask: a line is as wide as a pixel,
+// so that most of its pixels are mixtures with what is below it. colour: null where the model has a
+// colour for them that is its own.
 const lineMask = (without, with_, colour) => {
   const { width, height, data } = without;
   const mask = new Uint8Array(width * height);
@@ -16,7 +15,9 @@ const lineMask = (without, with_, colour) => {
       const at = 3 * (y * width + x);
       const before = data.subarray(at, at + 3);
       if (distanceTo(with_, x, y, before) < kLeast) continue;
-      if (!colour || distanceTo(with_, x, y, colour) < kMixture) mask[y * width + x] = 1;
+      const nearer = colour &&
+        distanceTo(without, x, y, colour) - distanceTo(with_, x, y, colour);
+      if (!colour || nearer >= kLeast) mask[y * width + x] = 1;
     }
   }
   return mask;

@@ -224,7 +224,7 @@ export const checkKeys = async ({ browser, farhorizon, dem, cache, pictures, rep
     await page.waitForFunction(() => farhorizon.scene.lines !== null);
     await page.waitForTimeout(1000);
     writeFileSync(join(pictures, 'keys-viewer.png'), await page.screenshot());
-    const { colours } = await shareOf(page, await page.locator('#view').screenshot(), [0, 0, 0]);
+    const { colours } = shareOf(readPng(await page.locator('#view').screenshot()), [0, 0, 0]);
     if (colours < 20) faults.push('the picture is empty');
     faults.push(...await page.evaluate(() => farhorizon.scene.failures));
     const kept = await page.evaluate(() => location.href + document.cookie +
