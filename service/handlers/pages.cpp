@@ -74,13 +74,24 @@ HttpResponse ShowIndex(const HandlerContext& context, const HttpRequest& request
   return response;
 }
 
+// For people where a program would get the problem; its status either way.
+HttpResponse NoViewer(const HttpRequest& request, const Problem& problem) {
+  HttpResponse response = ProblemResponse(request, problem);
+  response.Set("Vary", "Accept");
+  if (!WantsHtml(request)) return response;
+  response.Set("Content-Type", "text/html; charset=utf-8");
+  response.Set("Content-Security-Policy", kIndexPolicy);
+  response.body = NoJobPage(problem.detail);
+  return response;
+}
+
 HttpResponse ShowViewer(const HandlerContext& context, const HttpRequest& request) {
   const std::string& id = request.parameters.at(0);
   // A browser that opens a page sends no key: the page is the same then for every id there may be,
   // and asks for one.
   if (!request.caller.IsStranger() || !IsJobId(id)) {
     const Result<Job> job = FindJob(context, request);
-    if (!job) return ProblemResponse(request, ProblemOf(job.error()));
+    if (!job) return NoViewer(request, ProblemOf(job.error()));
   }
   const std::string cesium =
       context.cesium == nullptr ? "" : "../assets/" + context.cesium->fingerprint();

@@ -50,6 +50,11 @@ std::string IndexPage() {
   return FillTemplate(kIndexHtml, {{"assets", Html::Markup("assets/" + PageFingerprint())}});
 }
 
+std::string NoJobPage(const std::string& why) {
+  return FillTemplate(kNoJobHtml, {{"assets", Html::Markup("assets/" + PageFingerprint())},
+                                   {"why", Html::Text(why)}});
+}
+
 std::string ViewerPage(const ViewerPlaces& places) {
   const std::string folder = "../assets/" + PageFingerprint() + "/";
   std::string styles;

@@ -9,6 +9,9 @@ namespace farhorizon {
 /// that it works below any prefix that a proxy puts before it.
 std::string IndexPage();
 
+/// What a browser is shown at "/viewer/ID" in the place of a job that is not there. why: a sentence.
+std::string NoJobPage(const std::string& why);
+
 /// What a page of the viewer shows.
 ///
 /// results: where the artifacts are, with a slash at its end, or empty: beside the page.

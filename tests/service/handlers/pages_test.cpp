@@ -104,10 +104,23 @@ TEST_F(PagesTest, ShowsAViewerForJobsThatThereAre) {
   const HttpResponse page = Send("GET", "/viewer/" + id, {kBrowser});
   EXPECT_THAT(page.body, HasSubstr("data-results=\"../jobs/" + id + "/results/\""));
   EXPECT_THAT(page.body, HasSubstr("data-cesium=\"\""));
-  EXPECT_EQ(CodeOf(Send("GET", "/viewer/%22%3E%3Cscript%3E", {kBrowser})), "no-such-job");
+  EXPECT_EQ(CodeOf(Send("GET", "/viewer/%22%3E%3Cscript%3E")), "no-such-job");
   InstallCesium();
   EXPECT_THAT(Send("GET", "/viewer/" + id, {kBrowser}).body,
               HasSubstr("data-cesium=\".." + assets_.substr(0, assets_.size() - 1) + "\""));
+}
+
+TEST_F(PagesTest, SaysToPeopleThatThereIsNoSuchJob) {
+  for (const std::string id :
+       {"0190f1e2-0000-7000-8000-000000000000", "%22%3E%3Cscript%3Ealert(1)%3C/script%3E"}) {
+    const HttpResponse page = Send("GET", "/viewer/" + id, {kBrowser});
+    EXPECT_EQ(page.status, 404) << id;
+    EXPECT_EQ(FieldOf(page, "Content-Type"), "text/html; charset=utf-8");
+    EXPECT_THAT(page.body, HasSubstr("<h1>No such job</h1>"));
+    EXPECT_THAT(page.body, HasSubstr("<a href=\"../\">All jobs</a>"));
+    EXPECT_THAT(page.body, Not(HasSubstr("<script>")));
+    EXPECT_THAT(FieldOf(page, "Content-Security-Policy"), HasSubstr("default-src 'none'"));
+  }
 }
 
 TEST_F(PagesTest, SendsTheFilesOfCesiumJs) {
