@@ -69,7 +69,8 @@ TEST(HorizonContext, IsWhatEachEdgeByItselfIsInTheTerrainWithItsApron) {
       ++(found[i] ? in : out);
     }
     // No other edge of the tile is on the wider horizon.
-    for (const HorizonEdge& e : FindHorizon(input->around(), {}, {})->edges) {
+    const Horizon wider = *FindHorizon(input->around(), {}, {});
+    for (const HorizonEdge& e : wider.edges) {
       const auto inside = [&](VertexId v) {
         const int c = v % wide - kApron;
         const int r = v / wide - kApron;
@@ -99,8 +100,9 @@ TEST(HorizonContext, IsPublishedWithEachEdgeAndVerified) {
       BuildOptions stated;
       stated.vertical_datum = "ellipsoid";
       stated.height_unit = "m";
-      for (const ClaimCheck& check :
-           *VerifyArtifacts(folder / "dem.tif", folder / "out", stated, {})) {
+      const std::vector<ClaimCheck> claims =
+          *VerifyArtifacts(folder / "dem.tif", folder / "out", stated, {});
+      for (const ClaimCheck& check : claims) {
         if (!check.holds) texts.push_back(check.claim);
       }
       return texts;
