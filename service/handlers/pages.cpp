@@ -76,9 +76,11 @@ HttpResponse ShowIndex(const HandlerContext& context, const HttpRequest& request
 
 // For people where a program would get the problem; its status either way.
 HttpResponse NoViewer(const HttpRequest& request, const Problem& problem) {
-  HttpResponse response = ProblemResponse(request, problem);
+  if (!WantsHtml(request)) return ProblemResponse(request, problem);
+  HttpResponse response;
+  response.status = problem.status;
+  response.code = problem.code.name();
   response.Set("Vary", "Accept");
-  if (!WantsHtml(request)) return response;
   response.Set("Content-Type", "text/html; charset=utf-8");
   response.Set("Content-Security-Policy", kIndexPolicy);
   response.body = NoJobPage(problem.detail);

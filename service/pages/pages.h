@@ -9,7 +9,7 @@ namespace farhorizon {
 /// that it works below any prefix that a proxy puts before it.
 std::string IndexPage();
 
-/// What a browser is shown at "/viewer/ID" in the place of a job that is not there. why: a sentence.
+/// What a browser is shown at "/viewer/ID" where there is no such job. why: a sentence.
 std::string NoJobPage(const std::string& why);
 
 /// What a page of the viewer shows.

@@ -112,7 +112,7 @@ TEST_F(PagesTest, ShowsAViewerForJobsThatThereAre) {
 
 TEST_F(PagesTest, SaysToPeopleThatThereIsNoSuchJob) {
   for (const std::string id :
-       {"0190f1e2-0000-7000-8000-000000000000", "%22%3E%3Cscript%3Ealert(1)%3C/script%3E"}) {
+       {"0190f1e2-0000-7000-8000-000000000000", "%22%3E%3Cscript%3Ealert(1)"}) {
     const HttpResponse page = Send("GET", "/viewer/" + id, {kBrowser});
     EXPECT_EQ(page.status, 404) << id;
     EXPECT_EQ(FieldOf(page, "Content-Type"), "text/html; charset=utf-8");
