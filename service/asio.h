@@ -14,4 +14,9 @@ namespace asio = boost::asio;
 namespace beast = boost::beast;
 namespace http = boost::beast::http;
 
+/// For a wait of a coroutine whose error goes to `failure`.
+inline auto Into(boost::system::error_code& failure) {
+  return asio::redirect_error(asio::use_awaitable, failure);
+}
+
 }  // namespace farhorizon

@@ -1,3 +1,5 @@
+// Text that is put together by hand, for the reasons that horizon_features.cpp has. A chain is its
+// line alone, to save bytes: its posts are the nearest to its points, and edges follow from those.
 #include "core/io/horizon_chains.h"
 
 #include <algorithm>

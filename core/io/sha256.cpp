@@ -1,3 +1,5 @@
+// Wraps OpenSSL's digests. Each call can fail only for want of memory or of the algorithm, neither
+// of which a caller could do anything about: that is a bug of this program's installation (Check).
 #include "core/io/sha256.h"
 
 #include <algorithm>

@@ -113,20 +113,12 @@ Status BuildArtifacts(const fs::path& dem, const fs::path& directory, const Buil
 
   const HorizonOptions horizon_options = HorizonOptionsOf(options);
   WorkBudget budget = WorkBudgetOf((*input)->terrain(), horizon_options);
-  const bool asks_context = options.horizon_context;
-  Result<Horizon> horizon = FindHorizon((*input)->terrain(), horizon_options, budget,
-                                        asks_context ? control.Between(0, 0.5) : control);
-  if (!horizon) return std::move(horizon.error());
-  EdgeFacts facts;
-  if (asks_context) {
-    Result<std::vector<bool>> in_context =
-        FindInContext(**input, *horizon, horizon_options, control.Between(0.5, 1));
-    if (!in_context) return std::move(in_context.error());
-    facts.in_context = *std::move(in_context);
-  }
+  Result<HorizonInContext> found =
+      FindHorizonInContext(**input, options.horizon_context, horizon_options, budget, control);
+  if (!found) return std::move(found.error());
+  const Horizon& horizon = found->horizon;
 
-  Result<std::vector<Lod>> chain =
-      BuildLodChain((*input)->terrain(), *horizon, plan->lods, control);
+  Result<std::vector<Lod>> chain = BuildLodChain((*input)->terrain(), horizon, plan->lods, control);
   if (!chain) return std::move(chain.error());
 
   control.Report(Stage::kEncode, 0);
@@ -138,11 +130,11 @@ Status BuildArtifacts(const fs::path& dem, const fs::path& directory, const Buil
   if (!opened) return opened;
   Result<PostPlaces> places = FindPostPlaces((*input)->terrain(), (*input)->georeference());
   if (!places) return std::move(places.error());
-  MeshMeasurer measurer((*input)->terrain(), *horizon, *std::move(places));
+  MeshMeasurer measurer((*input)->terrain(), horizon, *std::move(places));
   const LevelContext context{
-      (*input)->terrain(), *horizon, (*input)->georeference(), *normals, measurer, control};
+      (*input)->terrain(), horizon, (*input)->georeference(), *normals, measurer, control};
   Result<ReportPage> page =
-      ReportPage::Start((*input)->terrain(), (*input)->georeference(), *horizon);
+      ReportPage::Start((*input)->terrain(), (*input)->georeference(), horizon);
   if (!page) return std::move(page.error());
   Result<WrittenLevels> levels =
       WriteLevels(context, **input, *plan, *chain, options, writer, *page);
@@ -159,9 +151,9 @@ Status BuildArtifacts(const fs::path& dem, const fs::path& directory, const Buil
                                      });
     if (!tiles) return tiles;
   }
-  facts.level_kept = LevelsKept(*horizon, *chain);
+  const EdgeFacts facts{LevelsKept(horizon, *chain), std::move(found->in_context)};
   Result<std::vector<HorizonFeature>> features = BuildFeatures(
-      **input, *horizon, facts, {.budget = budget, .threads = options.threads}, control);
+      **input, horizon, facts, {.budget = budget, .threads = options.threads}, control);
   if (!features) return std::move(features.error());
   control.Report(Stage::kWrite, 0);
   Status written = WriteFeatures(*features, (*input)->georeference(), options, writer);
@@ -173,9 +165,9 @@ Status BuildArtifacts(const fs::path& dem, const fs::path& directory, const Buil
   const Report report{Version(),
                       (*input)->report(),
                       (*input)->assumptions(),
-                      static_cast<std::int64_t>(horizon->edges.size()),
+                      static_cast<std::int64_t>(horizon.edges.size()),
                       CountInContext(options, facts),
-                      horizon->statistics,
+                      horizon.statistics,
                       levels->reports,
                       FrameReport{options.frame, (*input)->georeference().frame().EnuToEcef()}};
   Status reported = writer.Add("report.json", WriteReport(report));

@@ -26,4 +26,19 @@ Result<std::vector<bool>> FindInContext(const TerrainInput& input, const Horizon
   return in_context;
 }
 
+Result<HorizonInContext> FindHorizonInContext(const TerrainInput& input, bool asks_context,
+                                              const HorizonOptions& options, WorkBudget& budget,
+                                              const RunControl& control) {
+  Result<Horizon> horizon = FindHorizon(input.terrain(), options, budget,
+                                        asks_context ? control.Between(0, 0.5) : control);
+  if (!horizon) return std::move(horizon.error());
+  HorizonInContext found{*std::move(horizon), {}};
+  if (!asks_context) return found;
+  Result<std::vector<bool>> in_context =
+      FindInContext(input, found.horizon, options, control.Between(0.5, 1));
+  if (!in_context) return std::move(in_context.error());
+  found.in_context = *std::move(in_context);
+  return found;
+}
+
 }  // namespace farhorizon

@@ -20,4 +20,16 @@ namespace farhorizon {
 Result<std::vector<bool>> FindInContext(const TerrainInput& input, const Horizon& horizon,
                                         const HorizonOptions& options, const RunControl& control);
 
+/// A terrain's horizon. in_context: as FindInContext has it; empty where that was not asked.
+struct HorizonInContext {
+  Horizon horizon;
+  std::vector<bool> in_context;
+};
+
+/// The horizon of input.terrain(), and its context where `asks_context`. budget: of the former.
+/// Errors and cost: those of FindHorizon, and of FindInContext.
+Result<HorizonInContext> FindHorizonInContext(const TerrainInput& input, bool asks_context,
+                                              const HorizonOptions& options, WorkBudget& budget,
+                                              const RunControl& control);
+
 }  // namespace farhorizon

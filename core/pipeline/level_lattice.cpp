@@ -1,3 +1,7 @@
+// How finely a level's vertices are rounded. Steps are powers of two that follow from the level's
+// error and the cell's size alone, so that tiles which know nothing of one another round the posts
+// that they share alike; they become finer only where rounding would flip a triangle, and coarser
+// only where the lattice would have more steps than Draco's bits.
 #include "core/pipeline/level_lattice.h"
 
 #include <algorithm>

@@ -47,10 +47,7 @@ Status ShowStatus(const JobRun& run) {
 }
 
 Status Wait(const JobRun& run) {
-  const auto heard = [&](const json& status) {
-    const int percent = status.value("progress", 0);
-    run.reporter.Show(status.value("message", ""), percent / 100.0, percent);
-  };
+  const auto heard = [&](const json& status) { ShowProgress(status, run.reporter); };
   std::optional<std::chrono::seconds> most;
   if (run.arguments.most_seconds > 0) most.emplace(run.arguments.most_seconds);
   const Result<json> status = WaitForEnd(run.client, run.id, heard, most);

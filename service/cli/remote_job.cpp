@@ -142,6 +142,11 @@ Result<json> WaitForEnd(const JobClient& client, const std::string& id,
   }
 }
 
+void ShowProgress(const json& status, Reporter& reporter) {
+  const int percent = status.value("progress", 0);
+  reporter.Show(status.value("message", ""), percent / 100.0, percent);
+}
+
 Status SuccessOf(const json& status) {
   const std::string state = status.value("status", "");
   if (state == "successful") return Ok{};

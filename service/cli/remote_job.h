@@ -10,6 +10,7 @@
 
 #include "core/base/result.h"
 #include "service/cli/job_client.h"
+#include "service/cli/reporter.h"
 #include "service/url_query.h"
 
 namespace farhorizon {
@@ -32,6 +33,9 @@ Result<nlohmann::json> SendDem(const JobClient& client, const RemoteSubmission& 
 Result<nlohmann::json> WaitForEnd(const JobClient& client, const std::string& id,
                                   const std::function<void(const nlohmann::json& status)>& heard,
                                   std::optional<std::chrono::seconds> most = {});
+
+/// Shows how far the job with that status is.
+void ShowProgress(const nlohmann::json& status, Reporter& reporter);
 
 /// Succeeds for the status of a successful job.
 /// Errors: why it failed; kUnsupportedData where it was dismissed.

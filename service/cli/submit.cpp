@@ -60,8 +60,7 @@ Status SubmitOne(const JobClient& client, const SubmitArguments& arguments, cons
   const std::string id = sent->value("jobID", "");
   const Result<json> end = WaitForEnd(client, id, [&](const json& status) {
     assumptions.Hear(status);
-    const int percent = status.value("progress", 0);
-    run.reporter.Show(status.value("message", ""), percent / 100.0, percent);
+    ShowProgress(status, run.reporter);
   });
   if (!end) return end.error();
   if (Status success = SuccessOf(*end); !success) return success;

@@ -9,6 +9,8 @@
 #include <string_view>
 #include <system_error>
 
+#include "service/handlers/http_message.h"
+
 namespace farhorizon {
 
 namespace {
@@ -19,10 +21,8 @@ constexpr std::array<std::string_view, 12> kEndings = {".tif", ".tiff", ".asc", 
                                                        ".xyz", ".hgt",  ".hgt.zip", ".dt0",
                                                        ".dt1", ".dt2",  ".dem",     ".img"};
 
-bool IsOfADem(std::string name) {
-  std::transform(name.begin(), name.end(), name.begin(), [](char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  });
+bool IsOfADem(const std::string& file) {
+  const std::string name = LowerCase(file);
   return name.front() != '.' && std::any_of(kEndings.begin(), kEndings.end(),
                                             [&](auto ending) { return name.ends_with(ending); });
 }

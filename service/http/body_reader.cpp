@@ -81,8 +81,7 @@ asio::awaitable<std::string_view> BodyReader::ReadSome(beast::tcp_stream& stream
     failure = {};
     if (room == 0) failure = http::error::buffer_overflow;
     if (failure) break;
-    buffer.commit(co_await stream.async_read_some(
-        buffer.prepare(room), asio::redirect_error(asio::use_awaitable, failure)));
+    buffer.commit(co_await stream.async_read_some(buffer.prepare(room), Into(failure)));
     if (failure) break;
   }
   if (failure == http::error::need_buffer) failure = {};

@@ -21,8 +21,6 @@ constexpr std::chrono::seconds kPatience{60};
 constexpr std::size_t kPieceBytes = 65536;
 constexpr std::uint64_t kLargestText = std::uint64_t{64} << 20U;
 
-auto Into(error_code& failure) { return asio::redirect_error(asio::use_awaitable, failure); }
-
 // One connection, for one request and its response.
 class ClientConnection {
  public:

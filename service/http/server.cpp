@@ -147,14 +147,14 @@ bool AsioServer::Responds(std::chrono::milliseconds most) {
 asio::awaitable<void> AsioServer::Accept(const Router& router, KeyGate& gate) {
   while (!stopping_) {
     error_code failure;
-    tcp::socket socket = co_await acceptor_.async_accept(
-        asio::make_strand(context_), asio::redirect_error(asio::use_awaitable, failure));
+    tcp::socket socket =
+        co_await acceptor_.async_accept(asio::make_strand(context_), Into(failure));
     if (failure == asio::error::operation_aborted || !acceptor_.is_open()) break;
     // Such as: the process has no descriptors left. A pause lets some connections end.
     if (failure) {
       Log(LogLevel::kWarning, "cannot accept", {{"error", failure.message()}});
       asio::steady_timer pause(acceptor_.get_executor(), kAcceptPause);
-      co_await pause.async_wait(asio::redirect_error(asio::use_awaitable, failure));
+      co_await pause.async_wait(Into(failure));
       continue;
     }
     Begin(router, gate, std::move(socket));

@@ -4,11 +4,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <charconv>
 #include <chrono>
 #include <memory>
-#include <sys/socket.h>
 #include <utility>
 #include <variant>
 
@@ -25,7 +22,6 @@ namespace farhorizon {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-using asio::ip::tcp;
 using boost::system::error_code;
 
 constexpr std::size_t kLingerBytes = std::size_t{1} << 20U;
@@ -34,12 +30,6 @@ constexpr std::chrono::seconds kLingerTime{2};
 // when it cannot send, and answers 502 where the connection breaks before.
 constexpr std::size_t kLingerAtOnce = std::size_t{1} << 18U;
 constexpr std::chrono::milliseconds kLingerPause{10};
-
-// So that proxies do not take a stream of events for dead, and nor does the session a client.
-constexpr std::chrono::seconds kHeartbeat{15};
-constexpr std::string_view kComment = ":\n\n";
-
-auto Into(error_code& failure) { return asio::redirect_error(asio::use_awaitable, failure); }
 
 // A surplus connection is there to ask for the service's health: a head comes at once.
 constexpr std::chrono::seconds kSurplusTime{2};
@@ -149,19 +139,6 @@ asio::awaitable<std::optional<std::string>> Session::ReadHeadBytes() {
   }
 }
 
-template <typename Work>
-asio::awaitable<std::invoke_result_t<Work>> Session::RunOn(WaitsFor waits_for, Work work) {
-  if (waits_for == WaitsFor::kNothing) co_return work();
-  asio::thread_pool& threads =
-      waits_for == WaitsFor::kStore ? context_.threads.store : context_.threads.uploads;
-  // Asio 1.74 wants a value that can be made out of nothing.
-  using Value = std::invoke_result_t<Work>;
-  const auto on_thread = [&work]() -> asio::awaitable<std::optional<Value>> { co_return work(); };
-  std::optional<Value> value =
-      co_await asio::co_spawn(threads.get_executor(), on_thread, asio::use_awaitable);
-  co_return *std::move(value);
-}
-
 asio::awaitable<Session::Next> Session::Answer(HttpRequest request) {
   const Clock::time_point start = Clock::now();
   bool read_whole = true;
@@ -194,8 +171,8 @@ asio::awaitable<HttpResponse> Session::MakeResponse(HttpRequest& request, bool& 
   }
   // What decides on a request looks into the store and makes a file, but waits for no process.
   const WaitsFor begin_waits = std::min(waits_for, WaitsFor::kStore);
-  Admission admission =
-      co_await RunOn(begin_waits, [&] { return context_.router.Begin(route, request); });
+  Admission admission = co_await RunOn(context_.threads, begin_waits,
+                                       [&] { return context_.router.Begin(route, request); });
   if (HttpResponse* early = std::get_if<HttpResponse>(&admission)) co_return std::move(*early);
   // The exchange, and with it the spooled body, is gone before the client has the response.
   Exchange& exchange = *std::get<std::unique_ptr<Exchange>>(admission);
@@ -203,62 +180,8 @@ asio::awaitable<HttpResponse> Session::MakeResponse(HttpRequest& request, bool& 
   read_whole = !refusal;
   // Not by ?: with co_await in one arm: g++ 12 destroys the response twice.
   if (refusal) co_return *std::move(refusal);
-  co_return co_await RunOn(waits_for, [&] { return FinishExchange(exchange, request); });
-}
-
-asio::awaitable<HttpResponse> Session::WaitFor(std::shared_ptr<LateResponse> late) {
-  const Clock::time_point end = Clock::now() + late->Most();
-  ListenTo(*late);
-  for (;;) {
-    woken_ = false;
-    const bool last = !MayWait() || Clock::now() >= end;
-    std::unique_ptr<HttpResponse> response =
-        co_await RunOn(WaitsFor::kStore, [&] { return late->Try(last); });
-    if (response) {
-      error_code ignored;
-      stream_.socket().cancel(ignored);  // the wait for the client's end
-      co_return std::move(*response);
-    }
-    co_await Sleep(end);
-  }
-}
-
-void Session::ListenTo(Awaited& awaited) {
-  // The deadline of an earlier wait would end that for the client's end.
-  deadline_.cancel();
-  const std::weak_ptr<Session> weak = weak_from_this();
-  awaited.Listen([weak, executor = stream_.get_executor()] {
-    asio::post(executor, [weak] {
-      if (const auto self = weak.lock()) self->Wake();
-    });
-  });
-  stream_.socket().async_wait(
-      tcp::socket::wait_read, [self = shared_from_this()](const error_code& failure) {
-        const bool open = self->stream_.socket().is_open();
-        if (failure && open) return;  // cancelled: nobody waits any more
-        char next = 0;
-        const ssize_t size =
-            open ? ::recv(self->stream_.socket().native_handle(), &next, 1, MSG_PEEK | MSG_DONTWAIT)
-                 : 0;
-        // A client may send its next request before it has the response to this one.
-        if (size == 0 || (size < 0 && errno != EAGAIN)) self->peer_gone_ = true;
-        self->Wake();
-      });
-}
-
-asio::awaitable<void> Session::Sleep(Clock::time_point time) {
-  const Clock::time_point start = Clock::now();
-  if (!woken_ && MayWait()) {
-    error_code ignored;
-    alarm_.expires_at(time);
-    co_await alarm_.async_wait(Into(ignored));
-  }
-  slept_ += Clock::now() - start;
-}
-
-void Session::Wake() {
-  woken_ = true;
-  alarm_.cancel();
+  co_return co_await RunOn(context_.threads, waits_for,
+                           [&] { return FinishExchange(exchange, request); });
 }
 
 asio::awaitable<std::optional<HttpResponse>> Session::ReadBody(const HttpRequest& request,
@@ -283,7 +206,8 @@ asio::awaitable<std::optional<HttpResponse>> Session::ReadBody(const HttpRequest
     }
     if (failure) co_return ProblemResponse(request, ProblemOfBody(failure));
     if (piece.empty()) continue;
-    const Status taken = co_await RunOn(WaitsFor::kStore, [&] { return exchange.Take(piece); });
+    const Status taken =
+        co_await RunOn(context_.threads, WaitsFor::kStore, [&] { return exchange.Take(piece); });
     context_.gate.CountUpload(request, static_cast<std::int64_t>(piece.size()));
     if (!taken) co_return ProblemResponse(request, ProblemOf(taken.error()));
   }
@@ -315,36 +239,6 @@ asio::awaitable<bool> Session::Send(const HttpRequest& request, const HttpRespon
   co_return sent;
 }
 
-asio::awaitable<bool> Session::SendEvents(EventSource& events, bool chunked) {
-  const auto framed = [chunked](std::string_view text) {
-    if (!chunked || text.empty()) return std::string(text);
-    std::array<char, 16> size{};
-    const auto end = std::to_chars(size.data(), size.data() + size.size(), text.size(), 16).ptr;
-    return std::string(size.data(), end).append("\r\n").append(text).append("\r\n");
-  };
-  ListenTo(events);
-  Clock::time_point said = Clock::now();
-  for (;;) {
-    woken_ = false;
-    EventSource::Piece piece =
-        co_await RunOn(WaitsFor::kStore, [&events] { return events.Next(); });
-    if (piece.text.empty() && Clock::now() >= said + kHeartbeat) piece.text = kComment;
-    if (!piece.text.empty()) {
-      said = Clock::now();
-      const std::string frame = framed(piece.text);
-      const bool taken = co_await SendText(frame);
-      if (!taken) co_return false;
-      deadline_.cancel();
-    }
-    if (piece.last || !MayWait()) break;
-    co_await Sleep(said + kHeartbeat);
-  }
-  if (peer_gone_) co_return false;
-  // Not by ?: with co_await in one arm, as above.
-  if (!chunked) co_return true;
-  co_return co_await SendText("0\r\n\r\n");
-}
-
 asio::awaitable<bool> Session::SendText(std::string_view text) {
   while (!text.empty()) {
     error_code failure;
@@ -361,8 +255,9 @@ asio::awaitable<bool> Session::SendFile(const FileBody& file) {
   for (std::int64_t sent = 0; sent < file.bytes;) {
     const std::int64_t most =
         std::min<std::int64_t>(file.bytes - sent, static_cast<std::int64_t>(kBodyPieceBytes));
-    const Result<std::string_view> piece = co_await RunOn(
-        WaitsFor::kStore, [&] { return file.source->Read(file.offset + sent, most); });
+    const Result<std::string_view> piece = co_await RunOn(context_.threads, WaitsFor::kStore, [&] {
+      return file.source->Read(file.offset + sent, most);
+    });
     if (!piece) co_return false;
     const bool taken = co_await SendText(*piece);
     if (!taken) co_return false;

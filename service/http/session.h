@@ -13,18 +13,9 @@
 #include "service/http/access_rules.h"
 #include "service/http/server.h"
 #include "service/http/trusted_proxies.h"
+#include "service/http/work_threads.h"
 
 namespace farhorizon {
-
-/// The threads of a server that do what may wait, so that those that move bytes never do.
-struct WorkThreads {
-  explicit WorkThreads(const ServerOptions& options)
-      : store(static_cast<std::size_t>(options.handler_threads)),
-        uploads(static_cast<std::size_t>(options.upload_threads)) {}
-
-  asio::thread_pool store;    ///< for what waits for disk and database
-  asio::thread_pool uploads;  ///< for what waits for a process
-};
 
 /// What the connections of a server share.
 struct SessionContext {
@@ -78,9 +69,6 @@ class Session : public std::enable_shared_from_this<Session> {
   /// Gives the body to `exchange`. The response that refuses the request, if there was an error.
   asio::awaitable<std::optional<HttpResponse>> ReadBody(const HttpRequest& request,
                                                         Exchange& exchange);
-  /// Runs `work` on the threads for what `waits_for` says, and waits for it without a thread.
-  template <typename Work>
-  asio::awaitable<std::invoke_result_t<Work>> RunOn(WaitsFor waits_for, Work work);
   /// Sends `problem` as the last response of the connection.
   asio::awaitable<void> SendLast(const Problem& problem);
   asio::awaitable<bool> Send(const HttpRequest& request, const HttpResponse& response,

@@ -82,6 +82,13 @@ class SqliteJobStore : public JobStore {
     if (changed && *changed) Changed(id);
     return changed;
   }
+  // The same for a change of as many jobs as `work` says.
+  template <typename Work>
+  Result<std::int64_t> ChangeSome(Work work) {
+    const Result<std::int64_t> changed = Call(work);
+    if (changed && *changed > 0) Changed("");
+    return changed;
+  }
   // Runs work(connection) beside whoever writes.
   template <typename Work>
   auto Read(Work work) -> decltype(work(std::declval<const Database&>())) {
@@ -157,14 +164,8 @@ Result<JobPage> SqliteJobStore::List(const JobQuery& query) {
 }
 
 Result<UnfinishedJobs> SqliteJobStore::CountUnfinished() {
-  return Read([&](const Database& database) -> Result<UnfinishedJobs> {
-    Statement count(database,
-                    "SELECT count(*) FILTER (WHERE state = 'accepted'), "
-                    "count(*) FILTER (WHERE state = 'running') "
-                    "FROM jobs WHERE state IN ('accepted', 'running')");
-    count.Step();
-    return UnfinishedJobs{count.Integer(0), count.Integer(1)};
-  });
+  return Read(
+      [](const Database& database) -> Result<UnfinishedJobs> { return CountQueue(database); });
 }
 
 Result<std::optional<Job>> SqliteJobStore::ClaimNext(std::int64_t now_ms, const MemoryRoom& room) {
@@ -236,17 +237,11 @@ Result<Job> SqliteJobStore::Dismiss(const std::string& id, std::int64_t now_ms) 
 
 Result<std::int64_t> SqliteJobStore::RemoveExpired(const Retention& retention,
                                                    std::int64_t now_ms) {
-  const Result<std::int64_t> removed =
-      Call([&] { return RemoveExpiredJobs(database_, retention, now_ms); });
-  if (removed && *removed > 0) Changed("");
-  return removed;
+  return ChangeSome([&] { return RemoveExpiredJobs(database_, retention, now_ms); });
 }
 
 Result<std::int64_t> SqliteJobStore::RecoverRunning(PreviousEnd end, std::int64_t now_ms) {
-  const Result<std::int64_t> recovered =
-      Call([&] { return RecoverJobs(database_, end, Later(now_ms)); });
-  if (recovered && *recovered > 0) Changed("");
-  return recovered;
+  return ChangeSome([&] { return RecoverJobs(database_, end, Later(now_ms)); });
 }
 
 Result<std::vector<Artifact>> SqliteJobStore::Artifacts(const std::string& id) {

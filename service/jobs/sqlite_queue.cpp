@@ -46,6 +46,15 @@ Error Full(std::int64_t waiting, const std::string& whose, ErrorKind kind) {
 
 }  // namespace
 
+UnfinishedJobs CountQueue(const Database& database) {
+  Statement count(database,
+                  "SELECT count(*) FILTER (WHERE state = 'accepted'), "
+                  "count(*) FILTER (WHERE state = 'running') "
+                  "FROM jobs WHERE state IN ('accepted', 'running')");
+  count.Step();
+  return {count.Integer(0), count.Integer(1)};
+}
+
 Status CheckQueue(const Database& database, const std::string& client, const QueueBounds& bounds) {
   Statement own(database, "SELECT count(*) FROM jobs WHERE state = 'accepted' AND client = ?");
   own.Bind(client).Step();

@@ -12,6 +12,8 @@ namespace farhorizon {
 
 /// As JobStore::CheckQueue has it.
 Status CheckQueue(const Database& database, const std::string& client, const QueueBounds& bounds);
+/// As JobStore::CountUnfinished has it.
+UnfinishedJobs CountQueue(const Database& database);
 /// As JobStore::Insert has it. Requires: within a transaction.
 Result<Job> InsertInQueue(const Database& database, const NewJob& job, const QueueBounds& bounds,
                           std::int64_t now_ms);

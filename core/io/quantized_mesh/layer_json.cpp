@@ -1,3 +1,5 @@
+// The list of tiles as clients of CesiumJS read it. What it says is available has to be so, or they
+// ask in vain: tiles are listed by rectangles, joined from runs, and not as one box a zoom.
 #include "core/io/quantized_mesh/layer_json.h"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// Where the bytes of a build went, and its time. Files that come in hundreds, terrain tiles and the
+// parts of a level, are summed: a row each would hide the others.
 #include "core/pipeline/report_page/account.h"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// What the page says in words: what was read, what was assumed, and what is exact. Each sentence
+// follows from the report's numbers, so that none is said of a build of which it is not true.
 #include "core/pipeline/report_page/claims.h"
 
 #include <string>

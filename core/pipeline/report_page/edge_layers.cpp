@@ -1,3 +1,6 @@
+// A layer for each sector of azimuths, so that the page can show one without drawing anything.
+// Edges are drawn as pixels of a palette, the weightiest last: where several lie on one pixel, it
+// has the colour of the one that matters most.
 #include "core/pipeline/report_page/edge_layers.h"
 
 #include <algorithm>

@@ -1,3 +1,6 @@
+// Errors against triangles, both on logarithmic axes, where a level with half the error at twice
+// the triangles is as far away at any size. SVG that is put together by hand: the page has no
+// script for it.
 #include "core/pipeline/report_page/error_chart.h"
 
 #include <algorithm>

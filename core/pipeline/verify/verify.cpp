@@ -245,25 +245,24 @@ Result<std::vector<ClaimCheck>> VerifyArtifacts(const fs::path& dem, const fs::p
   }
   const HorizonOptions claimed = OptionsAsClaimed(*report, options.threads);
   WorkBudget budget = WorkBudgetOf((*input)->terrain(), claimed);
-  Result<Horizon> horizon = FindHorizon((*input)->terrain(), claimed, budget, control);
-  if (!horizon) return std::move(horizon.error());
-  claims.Same("undecided edges", report->statistics.undecided, horizon->statistics.undecided);
+  Result<HorizonInContext> found =
+      FindHorizonInContext(**input, report->edges_in_context.has_value(), claimed, budget, control);
+  if (!found) return std::move(found.error());
+  const Horizon& horizon = found->horizon;
+  claims.Same("undecided edges", report->statistics.undecided, horizon.statistics.undecided);
   claims.Same("terrain edges", report->statistics.terrain_edges, (*input)->terrain().CountEdges());
   claims.Same("horizon edges", report->horizon_edges,
-              static_cast<std::int64_t>(horizon->edges.size()));
+              static_cast<std::int64_t>(horizon.edges.size()));
 
-  EdgeFacts facts;
+  const EdgeFacts facts{{}, std::move(found->in_context)};
   if (report->edges_in_context) {
-    Result<std::vector<bool>> in_context = FindInContext(**input, *horizon, claimed, control);
-    if (!in_context) return std::move(in_context.error());
-    facts.in_context = *std::move(in_context);
     claims.Same("horizon edges in context", *report->edges_in_context,
                 std::ranges::count(facts.in_context, true));
   }
 
   control.Report(Stage::kVerify, 0);
   Result<HorizonClaims> horizon_claims =
-      VerifyHorizonFiles(**input, *horizon, facts, {directory, *report},
+      VerifyHorizonFiles(**input, horizon, facts, {directory, *report},
                          {.budget = budget, .threads = options.threads}, control);
   if (!horizon_claims) return std::move(horizon_claims.error());
   claims.Append(std::move(horizon_claims->checks));
@@ -273,9 +272,9 @@ Result<std::vector<ClaimCheck>> VerifyArtifacts(const fs::path& dem, const fs::p
   if (!normals) return std::move(normals.error());
   Result<PostPlaces> places = FindPostPlaces((*input)->terrain(), (*input)->georeference());
   if (!places) return std::move(places.error());
-  MeshMeasurer measurer((*input)->terrain(), *horizon, *std::move(places));
+  MeshMeasurer measurer((*input)->terrain(), horizon, *std::move(places));
   const LevelContext context{
-      (*input)->terrain(), *horizon, (*input)->georeference(), *normals, measurer, control};
+      (*input)->terrain(), horizon, (*input)->georeference(), *normals, measurer, control};
   VerifiedLevels levels = VerifyLevels(context, {directory, *report}, *horizon_claims, claims);
   VerifyTileset(**input, directory, report->levels, levels.contents, claims);
   // Without GLBs there is nothing that they could be compared with but the .drc's other order.

@@ -12,6 +12,7 @@
 #include "core/pipeline/build.h"
 #include "core/pipeline/report.h"
 #include "core/pipeline/verify/verify.h"
+#include "tests/support/progress_checks.h"
 #include "tests/support/temp_dir.h"
 #include "tests/support/test_raster.h"
 
@@ -116,6 +117,20 @@ TEST(HorizonContext, IsPublishedWithEachEdgeAndVerified) {
       return claim.find("context") != std::string::npos;
     }));
   }
+}
+
+// The horizon is found twice, and each stage of it is one all the same.
+TEST(HorizonContext, LetsNoProgressFall) {
+  const TempDir folder;
+  WriteTiff(folder / "dem.tif", Ground(20, 18, 5));
+  std::vector<ProgressReport> built;
+  ASSERT_TRUE(BuildArtifacts(folder / "dem.tif", folder / "out", WithContext(),
+                             {.progress = RecordInto(built)}));
+  EXPECT_EQ(OffencesAgainstPlan(Workflow::kBuild, built), std::vector<std::string>());
+  std::vector<ProgressReport> verified;
+  ASSERT_TRUE(
+      VerifyArtifacts(folder / "dem.tif", folder / "out", {}, {.progress = RecordInto(verified)}));
+  EXPECT_EQ(OffencesAgainstPlan(Workflow::kVerify, verified), std::vector<std::string>());
 }
 
 TEST(HorizonContext, NeedsAnApron) {
