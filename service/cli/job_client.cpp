@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "core/geo/short_text.h"
 #include "service/cli/client_key.h"
 #include "service/cli/command.h"
 #include "service/clock.h"
@@ -84,6 +85,13 @@ Result<json> JobClient::SendForJson(const std::string& target, int expected,
   return JsonOf(*response);
 }
 
+std::string TextOf(const json& object, const char* name) {
+  constexpr std::size_t kLongest = 2000;
+  const auto found = object.find(name);
+  if (found == object.end() || !found->is_string()) return {};
+  return ShortText(found->get<std::string>(), kLongest);
+}
+
 Result<json> JsonOf(const ClientResponse& response) {
   json document = json::parse(response.body, nullptr, false);
   if (document.is_object()) return document;
@@ -95,10 +103,9 @@ Error ErrorOfProblem(const ClientResponse& response) {
   std::string detail = "the service answered " + std::to_string(response.status);
   std::string code;
   if (problem.is_object()) {
-    if (problem.contains("code") && problem["code"].is_string()) code = problem["code"];
-    if (problem.contains("detail") && problem["detail"].is_string()) {
-      detail += " " + code + ": " + problem["detail"].get<std::string>();
-    }
+    code = TextOf(problem, "code");
+    const std::string why = TextOf(problem, "detail");
+    if (!why.empty()) detail += " " + code + ": " + why;
   }
   const int status = response.status;
   const bool call =

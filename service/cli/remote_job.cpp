@@ -1,6 +1,8 @@
 #include "service/cli/remote_job.h"
 
 #include <algorithm>
+#include <set>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -9,6 +11,7 @@
 #include "core/io/manifest.h"
 #include "core/io/sha256.h"
 #include "service/clock.h"
+#include "service/jobs/collect_artifacts.h"
 #include "service/jobs/job.h"
 
 namespace farhorizon {
@@ -21,12 +24,38 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 using Clock = std::chrono::steady_clock;
 
+constexpr const char* kManifest = "manifest.json";
 constexpr milliseconds kFirstPause{100};
 constexpr milliseconds kLongestPause{2000};
 // Less than the client's patience with a silent connection.
 constexpr int kLongPollSeconds = 20;
 
-fs::path PartOf(const fs::path& file) { return file.string() + ".part"; }
+// Of a file that is not there whole yet.
+constexpr std::string_view kPart = ".part";
+
+fs::path PartOf(const fs::path& file) { return file.string() + std::string(kPart); }
+
+// A manifest that a service has sent, whoever that is: what it names can be files of one folder,
+// none of them another's beginning.
+Result<std::vector<ManifestEntry>> ReadTheirManifest(const std::string& text) {
+  const auto wrong = [](const std::string& why) {
+    return Error{ErrorCode::kIo, "manifest.json, as the service sends it, " + why, "bad-manifest"};
+  };
+  Result<std::vector<ManifestEntry>> entries = ReadManifest(text);
+  if (!entries) return wrong("cannot be read; is it a farhorizon?");
+  if (entries->size() > kMostArtifacts) {
+    return wrong("names more than " + std::to_string(kMostArtifacts) + " files");
+  }
+  std::set<std::string> names = {kManifest};
+  for (const ManifestEntry& entry : *entries) {
+    if (!IsArtifactName(entry.name)) return wrong("names an artifact that cannot be a file");
+    if (entry.name.ends_with(kPart)) {
+      return wrong("names " + entry.name + ", as a file is called that is not there whole yet");
+    }
+    if (!names.insert(entry.name).second) return wrong("names " + entry.name + " twice");
+  }
+  return entries;
+}
 
 bool IsWhole(const fs::path& file, const ManifestEntry& entry) {
   std::error_code failure;
@@ -45,10 +74,16 @@ Status FetchPart(const JobClient& client, const std::string& target, const Manif
   ClientRequest request;
   request.target = target;
   request.download = part;
+  request.most_bytes = entry.bytes;
   request.resumes = "\"" + entry.sha256 + "\"";
   const Result<ClientResponse> response = client.Send(std::move(request));
-  if (!response) return response.error();
-  if (response->status != 200 && response->status != 206) return ErrorOfProblem(*response);
+  if (!response) {
+    if (response.error().kind == "result-corrupt") fs::remove(part, failure);
+    return Error(response.error()).WithContext(entry.name);
+  }
+  if (response->status != 200 && response->status != 206) {
+    return ErrorOfProblem(*response).WithContext(entry.name);
+  }
   if (IsWhole(part, entry)) return Ok{};
   fs::remove(part, failure);
   return Error{ErrorCode::kIo, entry.name + " is not what manifest.json says; fetch it again",
@@ -57,9 +92,6 @@ Status FetchPart(const JobClient& client, const std::string& target, const Manif
 
 Status FetchOne(const JobClient& client, const std::string& results, const ManifestEntry& entry,
                 const fs::path& directory) {
-  if (!IsArtifactName(entry.name)) {
-    return Error{ErrorCode::kIo, "the service names an artifact that cannot be a file"};
-  }
   const fs::path file = directory / entry.name;
   if (IsWhole(file, entry)) return Ok{};
   const fs::path part = PartOf(file);
@@ -94,7 +126,7 @@ Result<json> SendDem(const JobClient& client, const RemoteSubmission& submission
                      {"Idempotency-Key", "\"" + submission.idempotency_key + "\""}};
   request.uploaded = submission.uploaded;
   Result<json> job = client.SendForJson("/jobs?" + EncodeQuery(query), 201, std::move(request));
-  if (job && !IsJobId(job->value("jobID", ""))) {
+  if (job && !IsJobId(TextOf(*job, "jobID"))) {
     return Error{ErrorCode::kIo, "the service's answer names no job; is it a farhorizon?"};
   }
   return job;
@@ -127,7 +159,7 @@ Result<json> WaitForEnd(const JobClient& client, const std::string& id,
       Result<json> status = JsonOf(*response);
       if (!status) return status;
       heard(*status);
-      const std::optional<JobState> state = JobStateOf(status->value("status", ""));
+      const std::optional<JobState> state = JobStateOf(TextOf(*status, "status"));
       if (state && IsTerminal(*state)) return status;
       tag = response->Header("etag");
     }
@@ -143,12 +175,14 @@ Result<json> WaitForEnd(const JobClient& client, const std::string& id,
 }
 
 void ShowProgress(const json& status, Reporter& reporter) {
-  const int percent = status.value("progress", 0);
-  reporter.Show(status.value("message", ""), percent / 100.0, percent);
+  const auto progress = status.find("progress");
+  const bool known = progress != status.end() && progress->is_number_integer();
+  const int percent = std::clamp(known ? progress->get<int>() : 0, 0, 100);
+  reporter.Show(TextOf(status, "message"), percent / 100.0, percent);
 }
 
 Status SuccessOf(const json& status) {
-  const std::string state = status.value("status", "");
+  const std::string state = TextOf(status, "status");
   if (state == "successful") return Ok{};
   if (state == "dismissed") {
     return Error{ErrorCode::kUnsupportedData, "the job was dismissed by somebody"};
@@ -157,9 +191,11 @@ Status SuccessOf(const json& status) {
   if (state != "failed" || why == status.end() || !why->is_object()) {
     return Error{ErrorCode::kIo, "the job is " + state};
   }
-  const std::string code = why->value("code", "");
-  return Error{why->value("status", 500) >= 500 ? ErrorCode::kIo : ErrorCode::kUnsupportedData,
-               "the job failed: " + code + ": " + why->value("detail", ""),
+  const std::string code = TextOf(*why, "code");
+  const auto number = why->find("status");
+  const bool theirs = number != why->end() && number->is_number_integer() && *number < 500;
+  return Error{theirs ? ErrorCode::kUnsupportedData : ErrorCode::kIo,
+               "the job failed: " + code + ": " + TextOf(*why, "detail"),
                ErrorKind::FromName(code).value_or(ErrorKind())};
 }
 
@@ -167,12 +203,12 @@ Status FetchArtifacts(const JobClient& client, const std::string& id, const fs::
                       const std::function<void(double share)>& heard) {
   const std::string results = "/jobs/" + id + "/results";
   ClientRequest request;
-  request.target = results + "/manifest.json";
+  request.target = results + "/" + kManifest;
   const Result<ClientResponse> manifest = client.Send(std::move(request));
   if (!manifest) return manifest.error();
   if (manifest->status != 200) return ErrorOfProblem(*manifest);
-  Result<std::vector<ManifestEntry>> entries = ReadManifest(manifest->body);
-  if (!entries) return std::move(entries.error()).WithContext("manifest.json");
+  const Result<std::vector<ManifestEntry>> entries = ReadTheirManifest(manifest->body);
+  if (!entries) return entries.error();
   std::error_code failure;
   fs::create_directories(directory, failure);
   if (failure) {
@@ -185,15 +221,15 @@ Status FetchArtifacts(const JobClient& client, const std::string& id, const fs::
     if (Status one = FetchOne(client, results, entry, directory); !one) return one;
   }
   heard(1);
-  return WriteFile(directory / "manifest.json", manifest->body);
+  return WriteFile(directory / kManifest, manifest->body);
 }
 
 bool HasArtifacts(const fs::path& directory) {
-  const Result<std::string> text = ReadFile(directory / "manifest.json");
+  const Result<std::string> text = ReadFile(directory / kManifest);
   if (!text) return false;
-  const Result<std::vector<ManifestEntry>> entries = ReadManifest(*text);
-  return entries && std::all_of(entries->begin(), entries->end(), [&](const ManifestEntry& entry) {
-           return IsArtifactName(entry.name) && IsWhole(directory / entry.name, entry);
+  const Result<std::vector<ManifestEntry>> entries = ReadTheirManifest(*text);
+  return entries && std::ranges::all_of(*entries, [&](const ManifestEntry& entry) {
+           return IsWhole(directory / entry.name, entry);
          });
 }
 

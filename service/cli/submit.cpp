@@ -39,7 +39,7 @@ class AssumptionsSaid {
     if (list == status.end() || !list->is_array()) return;
     for (const json& one : *list) {
       if (!one.is_object()) continue;
-      const Assumption assumption{one.value("code", ""), one.value("text", "")};
+      const Assumption assumption{TextOf(one, "code"), TextOf(one, "text")};
       if (said_.insert(assumption.text).second) control_.Assume(assumption);
     }
   }
@@ -57,7 +57,7 @@ Status SubmitOne(const JobClient& client, const SubmitArguments& arguments, cons
                        [&](double share) { run.reporter.Show("upload", share, 0); }});
   if (!sent) return sent.error();
   assumptions.Hear(*sent);
-  const std::string id = sent->value("jobID", "");
+  const std::string id = TextOf(*sent, "jobID");
   const Result<json> end = WaitForEnd(client, id, [&](const json& status) {
     assumptions.Hear(status);
     ShowProgress(status, run.reporter);

@@ -105,8 +105,8 @@ class TilesRun {
     if (!row.job.empty()) return;
     const Result<json> sent = SendDem(client_, {row.dem, submission_.parameters, row.key});
     if (!sent) return SetError(row, "refused", sent.error());
-    row.job = sent->value("jobID", "");
-    row.status = sent->value("status", "");
+    row.job = TextOf(*sent, "jobID");
+    row.status = TextOf(*sent, "status");
     Store(index, row);
     Follow(index, row, folder);
   }
@@ -114,7 +114,7 @@ class TilesRun {
   // Waits for the job of `row` and fetches its artifacts; false where there is no such job.
   bool Follow(std::size_t index, TileRow& row, const fs::path& folder) {
     const auto heard = [&](const json& status) {
-      const std::string now = status.value("status", "");
+      const std::string now = TextOf(status, "status");
       if (now == row.status || now == "successful") return;
       row.status = now;
       Store(index, row);
@@ -127,7 +127,7 @@ class TilesRun {
     }
     if (const Status success = SuccessOf(*end); !success) {
       SetError(row, "failed", success.error());
-      row.status = end->value("status", "failed");
+      row.status = TextOf(*end, "status");
       return true;
     }
     const Status fetched = FetchArtifacts(client_, row.job, folder, [](double) {});

@@ -148,8 +148,9 @@ class ClientConnection {
     }
     std::ofstream file;
     if (Status opened = OpenDownload(response, file); !opened) co_return std::move(opened.error());
+    std::uintmax_t written = response.status == 206 ? Have() : 0;
     std::string piece(kPieceBytes, '\0');
-    while (!parser.is_done()) {
+    while (!parser.is_done() && file) {
       parser.get().body() = {piece.data(), piece.size(), true};
       stream_.expires_after(kPatience);
       co_await http::async_read_some(stream_, buffer_, parser, Into(failure));
@@ -157,6 +158,11 @@ class ClientConnection {
       if (failure) co_return Broken("read the answer", failure);
       const std::size_t size = piece.size() - parser.get().body().size;
       if (file.is_open()) {
+        written += size;
+        if (written > request_.most_bytes) {
+          co_return Error{ErrorCode::kIo, "the service sends more than it says there is",
+                          "result-corrupt"};
+        }
         file.write(piece.data(), static_cast<std::streamsize>(size));
       } else {
         response.body.append(piece, 0, size);

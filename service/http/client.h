@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <map>
 #include <optional>
 #include <stop_token>
@@ -30,6 +31,8 @@ struct ClientRequest {
   std::vector<std::pair<std::string, std::string>> headers = {};
   std::optional<std::filesystem::path> upload = {};    ///< the body
   std::optional<std::filesystem::path> download = {};  ///< file for the body of a 200
+  /// How many bytes the file may have in the end; the answer is given up where it has more.
+  std::uintmax_t most_bytes = std::numeric_limits<std::uintmax_t>::max();
   /// The entity tag of what is downloaded, with its quotes: what the file has of it already is not
   /// asked for again, and the rest is added to it. Empty: the file is written anew.
   std::string resumes = {};

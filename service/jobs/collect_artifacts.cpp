@@ -18,8 +18,6 @@ namespace {
 
 constexpr const char* kManifest = "manifest.json";
 constexpr std::int64_t kLargestManifest = 1 << 20;
-// 12 levels of 256 parts, 800 terrain tiles, and what else there is.
-constexpr std::size_t kMostArtifacts = 4000;
 
 Error InvalidArtifacts(const std::string& why) {
   return {ErrorCode::kUnsupportedData, "the worker's artifacts: " + why + "; the fault is ours",

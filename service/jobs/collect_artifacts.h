@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <vector>
 
@@ -8,6 +9,9 @@
 #include "service/jobs/object_store.h"
 
 namespace farhorizon {
+
+/// Of one job: 12 levels of 256 parts, 800 terrain tiles, and what else there is.
+constexpr std::size_t kMostArtifacts = 4000;
 
 /// Puts a worker's files into the store: those that `directory`/manifest.json lists, and the
 /// manifest. Every size and SHA-256 of the manifest is checked against the file's bytes.

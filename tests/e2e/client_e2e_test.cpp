@@ -4,6 +4,7 @@
 #include <limits>
 #include <signal.h>
 #include <string>
+#include <sys/socket.h>
 #include <thread>
 #include <vector>
 
@@ -13,6 +14,7 @@
 
 #include "core/io/sha256.h"
 #include "tests/support/cutting_proxy.h"
+#include "tests/support/loopback_server.h"
 #include "tests/support/service_fixture.h"
 
 namespace farhorizon {
@@ -112,6 +114,83 @@ TEST_F(ClientE2e, GoesOnWithADownloadThatIsCutOff) {
                    "http://127.0.0.1:" + std::to_string(proxy.port())),
             0);
   EXPECT_LE(proxy.connections() - before, 2);
+}
+
+// A service that answers whatever a test wants it to.
+class HostileE2e : public ClientE2e {
+ protected:
+  // manifest: of its results. artifact: the whole answer to a request for anything else.
+  int FetchFrom(const json& manifest, const std::string& artifact) {
+    const auto with_length = [](const std::string& body) {
+      return "HTTP/1.1 200 OK\r\nContent-Length: " + std::to_string(body.size()) + "\r\n\r\n" +
+             body;
+    };
+    const std::string listed = with_length(manifest.dump());
+    LoopbackServer server;
+    server.Start([=](int client) {
+      std::string request(4096, '\0');
+      if (::recv(client, request.data(), request.size(), 0) <= 0) return;
+      const bool asks_list = request.find("/manifest.json ") != std::string::npos;
+      const std::string& answer = asks_list ? listed : artifact;
+      for (std::size_t sent = 0; sent < answer.size();) {
+        const ssize_t size =
+            ::send(client, answer.data() + sent, answer.size() - sent, MSG_NOSIGNAL);
+        if (size <= 0) return;
+        sent += static_cast<std::size_t>(size);
+      }
+    });
+    return Client("fetch 0190f1e2-0000-7000-8000-000000000000 --patience 0 -o " + out_folder_,
+                  "http://127.0.0.1:" + std::to_string(server.port()));
+  }
+  static json Entry(const std::string& name, std::size_t bytes = 12) {
+    return {{"name", name},
+            {"media_type", "text/plain"},
+            {"bytes", bytes},
+            {"sha256", Sha256Hex("twelve bytes")}};
+  }
+  static json Manifest(const std::vector<json>& entries) { return {{"artifacts", entries}}; }
+  std::size_t FilesFetched() {
+    if (!std::filesystem::exists(out_folder_)) return 0;
+    return static_cast<std::size_t>(
+        std::distance(std::filesystem::directory_iterator(out_folder_), {}));
+  }
+
+  const std::string out_folder_ = (folder_ / "fetched").string();
+};
+
+TEST_F(HostileE2e, AnArtifactIsReadNoFurtherThanItsEnd) {
+  // Sixteen mebibytes, and no word of how many there are.
+  const std::string endless = "HTTP/1.1 200 OK\r\n\r\n" + std::string(std::size_t{1} << 24U, 'x');
+  EXPECT_EQ(FetchFrom(Manifest({Entry("a")}), endless), 1);
+  EXPECT_THAT(Said(), HasSubstr("a: the service sends more than it says there is"));
+  EXPECT_EQ(FilesFetched(), 0U);
+}
+
+TEST_F(HostileE2e, AManifestOfWhatCannotBeIsRefused) {
+  const std::string whole = "HTTP/1.1 200 OK\r\nContent-Length: 12\r\n\r\ntwelve bytes";
+  const std::vector<std::pair<std::vector<json>, std::string>> cases = {
+      {{Entry("a.part"), Entry("a")}, "names a.part, as a file is called"},
+      {{Entry("a"), Entry("a")}, "names a twice"},
+      {{Entry("manifest.json")}, "names manifest.json twice"},
+      {{Entry("../a")}, "names an artifact that cannot be a file"},
+      {std::vector<json>(4001, Entry("a")), "names more than 4000 files"}};
+  for (const auto& [entries, why] : cases) {
+    EXPECT_EQ(FetchFrom(Manifest(entries), whole), 1) << why;
+    EXPECT_THAT(Said(), HasSubstr(why));
+    EXPECT_EQ(FilesFetched(), 0U) << why;
+  }
+  EXPECT_EQ(FetchFrom("no manifest", whole), 1);
+  EXPECT_THAT(Said(), HasSubstr("cannot be read; is it a farhorizon?"));
+  EXPECT_EQ(FetchFrom(Manifest({Entry("a"), Entry("b")}), whole), 0) << Said();
+  EXPECT_EQ(FilesFetched(), 3U);
+}
+
+TEST_F(HostileE2e, ATerminalObeysNoneOfItsWords) {
+  const std::string problem = R"({"code": "\u001b[31mred", "detail": "one\nfarhorizon: two"})";
+  const std::string answer =
+      "HTTP/1.1 500 No\r\nContent-Length: " + std::to_string(problem.size()) + "\r\n\r\n" + problem;
+  EXPECT_EQ(FetchFrom(Manifest({Entry("a")}), answer), 1);
+  EXPECT_EQ(Said(), "farhorizon: a: the service answered 500  [31mred: one farhorizon: two\n");
 }
 
 TEST_F(ClientE2e, SendsAFolderAndGoesOnWhereItWasCutOff) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <netinet/in.h>
 #include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -12,38 +11,10 @@
 
 namespace farhorizon {
 
-CuttingProxy::CuttingProxy(std::uint16_t service, std::function<std::size_t(int)> most)
-    : service_(service), most_(std::move(most)) {
-  listener_ = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-  struct sockaddr_in address {};
-  address.sin_family = AF_INET;
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  auto* const any = reinterpret_cast<struct sockaddr*>(&address);
-  socklen_t size = sizeof(address);
-  if (::bind(listener_, any, size) == 0 && ::listen(listener_, 64) == 0 &&
-      ::getsockname(listener_, any, &size) == 0) {
-    port_ = ntohs(address.sin_port);
-  }
-  thread_ = std::thread([this] { Run(); });
-}
+namespace {
 
-CuttingProxy::~CuttingProxy() {
-  ::shutdown(listener_, SHUT_RDWR);
-  thread_.join();
-  ::close(listener_);
-}
-
-void CuttingProxy::Run() {
-  for (;;) {
-    const int client = ::accept4(listener_, nullptr, nullptr, SOCK_CLOEXEC);
-    if (client < 0) return;
-    Pass(client, most_(connections_++));
-    ::close(client);
-  }
-}
-
-void CuttingProxy::Pass(int client, std::size_t most) const {
-  const int service = Connect(service_);
+void Pass(int client, std::uint16_t port, std::size_t most) {
+  const int service = Connect(port);
   std::array<struct pollfd, 2> both = {{{client, POLLIN, 0}, {service, POLLIN, 0}}};
   std::array<char, 4096> bytes{};
   while (service >= 0 && ::poll(both.data(), both.size(), 20'000) > 0) {
@@ -61,6 +32,14 @@ void CuttingProxy::Pass(int client, std::size_t most) const {
     }
   }
   if (service >= 0) ::close(service);
+}
+
+}  // namespace
+
+CuttingProxy::CuttingProxy(std::uint16_t service, std::function<std::size_t(int connection)> most) {
+  server_.Start([this, service, most = std::move(most)](int client) {
+    Pass(client, service, most(connections() - 1));
+  });
 }
 
 }  // namespace farhorizon

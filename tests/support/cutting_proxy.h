@@ -1,9 +1,10 @@
 #pragma once
 
-#include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <thread>
+
+#include "tests/support/loopback_server.h"
 
 namespace farhorizon {
 
@@ -12,23 +13,12 @@ namespace farhorizon {
 class CuttingProxy {
  public:
   CuttingProxy(std::uint16_t service, std::function<std::size_t(int connection)> most);
-  ~CuttingProxy();
-  CuttingProxy(const CuttingProxy&) = delete;
-  CuttingProxy& operator=(const CuttingProxy&) = delete;
 
-  [[nodiscard]] std::uint16_t port() const { return port_; }
-  [[nodiscard]] int connections() const { return connections_; }
+  [[nodiscard]] std::uint16_t port() const { return server_.port(); }
+  [[nodiscard]] int connections() const { return server_.connections(); }
 
  private:
-  void Run();
-  void Pass(int client, std::size_t most) const;
-
-  std::uint16_t service_;
-  std::function<std::size_t(int)> most_;
-  int listener_ = -1;
-  std::uint16_t port_ = 0;
-  std::atomic<int> connections_{0};
-  std::thread thread_;
+  LoopbackServer server_;
 };
 
 }  // namespace farhorizon
