@@ -56,8 +56,8 @@ class JobClient {
   std::stop_token stop_;
 };
 
-/// The member `name` of what a service says; empty where it is no text. No terminal obeys it: it has
-/// blanks for control characters, and no more than two thousand bytes.
+/// The member `name` of what a service says; empty where it is no text. No terminal obeys it: it
+/// has blanks for control characters, and no more than two thousand bytes.
 std::string TextOf(const nlohmann::json& object, const char* name);
 
 /// The JSON object in an answer. Errors: kIo where there is none.

@@ -53,8 +53,6 @@ TEST_F(ClientE2e, AsksWaitsFetchesAndCancels) {
   ASSERT_EQ(Client("status " + IdOf(slow)), 0) << Said();
   EXPECT_EQ("/jobs/" + json::parse(out_).value("jobID", ""), slow);
   const std::string out = (folder_ / "fetched").string();
-  EXPECT_EQ(Client("fetch " + IdOf(slow) + " -o " + out), 1);
-  EXPECT_THAT(Said(), HasSubstr("result-not-ready"));
   ASSERT_EQ(Client("wait http://127.0.0.1:" + std::to_string(port_) + slow), 0) << Said();
   EXPECT_EQ(json::parse(out_)["status"], "successful");
   ASSERT_EQ(Client("fetch " + IdOf(slow) + " -o " + out), 0) << Said();
@@ -64,6 +62,8 @@ TEST_F(ClientE2e, AsksWaitsFetchesAndCancels) {
 
   const std::string hang = Submit("hang.asc");
   EXPECT_EQ(Client("wait " + IdOf(hang) + " --timeout 1"), 75) << Said();
+  EXPECT_EQ(Client("fetch " + IdOf(hang) + " -o " + out + "-none"), 1);
+  EXPECT_THAT(Said(), HasSubstr("result-not-ready"));
   ASSERT_EQ(Client("cancel " + IdOf(hang)), 0) << Said();
   EXPECT_EQ(json::parse(out_)["status"], "dismissed");
   EXPECT_EQ(Client("wait " + IdOf(hang)), 1);
