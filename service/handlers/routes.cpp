@@ -24,4 +24,6 @@ Router BuildRouter(const HandlerContext& context) {
   return Router(std::move(routes));
 }
 
+Router BuildHealthRouter(const HandlerContext& context) { return Router(HealthRoutes(context)); }
+
 }  // namespace farhorizon
