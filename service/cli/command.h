@@ -18,6 +18,7 @@ void AddCompare(Command& program, SelectedCommand& selected);
 void AddVerify(Command& program, SelectedCommand& selected);
 void AddViewer(Command& program, SelectedCommand& selected);
 void AddServe(Command& program, SelectedCommand& selected);
+void AddWork(Command& program, SelectedCommand& selected);
 void AddBackup(Command& program, SelectedCommand& selected);
 void AddFsck(Command& program, SelectedCommand& selected);
 void AddKeys(Command& program, SelectedCommand& selected);

@@ -35,6 +35,7 @@ int RunProgram(int argc, char** argv) {
   AddVerify(program, selected);
   AddViewer(program, selected);
   AddServe(program, selected);
+  AddWork(program, selected);
   AddBackup(program, selected);
   AddFsck(program, selected);
   AddKeys(program, selected);

@@ -14,6 +14,7 @@ namespace farhorizon {
 namespace {
 
 struct ServeArguments {
+  ServeRole role = ServeRole::kServe;
   std::string config_file;
   bool print_config = false;
   bool check_config = false;
@@ -35,6 +36,14 @@ int Run(const ServeArguments& arguments) {
   const auto load = [&] { return LoadConfig(file, ConfigEnvironment(), arguments.flags); };
   const Result<LoadedConfig> loaded = load();
   if (!loaded) return ReportError(loaded.error());
+  const StoreOptions& store = loaded->config.jobs.store;
+  if (Status fit = CheckStoreOptions(store); !fit) return ReportError(fit.error());
+  if (arguments.role == ServeRole::kWork && store.jobs.empty()) {
+    return ReportError({ErrorCode::kInvalidArgument,
+                        "there are no jobs to work on but those that a service shares: give "
+                        "--database and --objects, as it has them",
+                        "invalid-config"});
+  }
   if (arguments.check_config) {
     const Result<HostPort> address = ReadHostPort(loaded->config.listen);
     if (!address) return ReportError(address.error());
@@ -43,7 +52,9 @@ int Run(const ServeArguments& arguments) {
     const auto gate = OpenKeyGate(loaded->config, *address);
     if (!gate) return ReportError(gate.error());
   }
-  if (!arguments.print_config && !arguments.check_config) return ServeProcess(*loaded, load);
+  if (!arguments.print_config && !arguments.check_config) {
+    return ServeProcess(arguments.role, *loaded, load);
+  }
   if (arguments.print_config) std::fputs(WriteConfig(loaded->config).c_str(), stdout);
   PrintNotes(*loaded);
   return kExitDone;
@@ -67,19 +78,21 @@ std::string KeyTable() {
   return table;
 }
 
-}  // namespace
-
-void AddServe(Command& program, SelectedCommand& selected) {
+void AddRole(ServeRole role, const char* name, const char* help, Command& program,
+             SelectedCommand& selected) {
   const auto arguments = std::make_shared<ServeArguments>();
-  Command command = program.AddCommand("serve", "Run the job service");
+  arguments->role = role;
+  Command command = program.AddCommand(name, help);
   command.Add({.names = "--config", .type = "FILE", .help = "configuration, a JSON file"},
               arguments->config_file);
-  const auto add = [&](const char* flag, const char* key, const char* type, const char* help) {
-    command.Add({.names = flag, .type = type, .help = help},
+  const auto add = [&](const char* flag, const char* key, const char* type, const char* meaning) {
+    command.Add({.names = flag, .type = type, .help = meaning},
                 [arguments, key](const std::string& value) { arguments->flags[key] = value; });
   };
   add("--listen", "listen", "HOST:PORT", "address to listen on (127.0.0.1:8080)");
   add("--data", "data", "DIR", "folder for jobs, uploads and artifacts (farhorizon-data)");
+  add("--database", "store.jobs", "URL", "PostgreSQL database for jobs that services share");
+  add("--objects", "store.objects", "DIR", "folder for uploads and artifacts that they share");
   add("--workers", "workers", "N", "jobs at once (as many as there are cores)");
   command.AddSwitch("--print-config", "print the configuration that would be used, and stop",
                     arguments->print_config);
@@ -88,6 +101,17 @@ void AddServe(Command& program, SelectedCommand& selected) {
                     arguments->check_config);
   command.SetFooter(KeyTable());
   command.Select(selected, [arguments] { return Run(*arguments); });
+}
+
+}  // namespace
+
+void AddServe(Command& program, SelectedCommand& selected) {
+  AddRole(ServeRole::kServe, "serve", "Run the job service", program, selected);
+}
+
+void AddWork(Command& program, SelectedCommand& selected) {
+  AddRole(ServeRole::kWork, "work", "Run jobs of services that share a database; answer none",
+          program, selected);
 }
 
 }  // namespace farhorizon

@@ -101,16 +101,19 @@ Result<std::shared_ptr<const AssetFolder>> ReadCesium(const Config& config) {
   return std::make_shared<const AssetFolder>(*std::move(read));
 }
 
-void LogStart(const LoadedConfig& loaded, const std::string& base, std::uint16_t port) {
+void LogStart(ServeRole role, const LoadedConfig& loaded, const std::string& base,
+              std::uint16_t port) {
   const Config& config = loaded.config;
   for (const std::string& variable : loaded.ignored) {
     Log(LogLevel::kWarning, "a variable names no key", {{"variable", variable}});
   }
   Log(LogLevel::kInfo, "serving",
-      {{"url", base},
+      {{"role", std::string(role == ServeRole::kWork ? "work" : "serve")},
+       {"url", base},
        {"port", std::int64_t{port}},
        {"version", std::string(Version())},
        {"data", config.jobs.data.string()},
+       {"objects", config.jobs.store.objects.string()},
        {"workers", std::int64_t{JobOptions(config).workers}},
        {"max_waiting", config.jobs.max_waiting},
        {"max_body_bytes", config.max_body_bytes},
@@ -181,7 +184,8 @@ Result<std::shared_ptr<KeyGate>> OpenKeyGate(const Config& config, const HostPor
   return KeyGate::Open(config.auth, config.jobs.data, IsLoopback(address.host));
 }
 
-int ServeProcess(const LoadedConfig& loaded, const std::function<Result<LoadedConfig>()>& reload) {
+int ServeProcess(ServeRole role, const LoadedConfig& loaded,
+                 const std::function<Result<LoadedConfig>()>& reload) {
   if (Status there = CheckReferenceData(); !there) return ReportError(there.error());
   Config config = loaded.config;
   const Result<HostPort> address = ReadHostPort(config.listen);
@@ -190,7 +194,8 @@ int ServeProcess(const LoadedConfig& loaded, const std::function<Result<LoadedCo
   BlockServiceSignals();  // before any thread is started, so that all of them block
   ConfigureLog(config.log);
   const BackgroundLog log;
-  Result<std::shared_ptr<const AssetFolder>> cesium = ReadCesium(config);
+  Result<std::shared_ptr<const AssetFolder>> cesium =
+      role == ServeRole::kWork ? std::shared_ptr<const AssetFolder>() : ReadCesium(config);
   if (!cesium) return ReportError(cesium.error());
   const Result<std::shared_ptr<KeyGate>> gate = OpenKeyGate(config, *address);
   if (!gate) return ReportError(gate.error());
@@ -203,10 +208,13 @@ int ServeProcess(const LoadedConfig& loaded, const std::function<Result<LoadedCo
   if (!jobs) return ReportError(jobs.error());
   (*jobs)->MarkEnd();
   const std::string base = BaseUrl(config, *address, (*server)->port());
-  const Router router = BuildRouter({**jobs, base, config.max_body_bytes, TermsOf(options),
-                                     *std::move(cesium), config.echo, *gate});
+  const HandlerContext context{
+      **jobs,      base, config.max_body_bytes, TermsOf(options), *std::move(cesium),
+      config.echo, *gate};
+  const Router router =
+      role == ServeRole::kWork ? BuildHealthRouter(context) : BuildRouter(context);
   (*server)->Serve(router, **gate);
-  LogStart(loaded, base, (*server)->port());
+  LogStart(role, loaded, base, (*server)->port());
   LogMemory((*jobs)->Memory());
   LogKeys(**gate, IsLoopback(address->host));
   NotifyManager("READY=1");

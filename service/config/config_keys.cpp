@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <regex>
 #include <type_traits>
 #include <utility>
 
@@ -169,6 +170,24 @@ std::vector<ConfigKey> JobKeys() {
   };
 }
 
+std::vector<ConfigKey> StoreKeys() {
+  const auto store = [](auto field) {
+    return Path(&Config::jobs, &JobServiceOptions::store, field);
+  };
+  return {
+      Text("store.jobs", store(&StoreOptions::jobs),
+           "the URL of a PostgreSQL database that services share; empty: jobs.sqlite in the data "
+           "folder"),
+      Text("store.objects", store(&StoreOptions::objects),
+           "the folder of uploads and results that the services share; empty: in the data folder"),
+      Number("store.leaseSeconds", store(&StoreOptions::lease_seconds), 2, 3600,
+             "time after which a job of a service that does not answer runs elsewhere"),
+      Number("store.connections", store(&StoreOptions::connections), 1, 1000,
+             "connections to the database, for calls; as many again for uploads and results that "
+             "are being stored"),
+  };
+}
+
 std::vector<ConfigKey> WorkerKeys() {
   const auto runner = [](auto... fields) {
     return Path(&Config::jobs, &JobServiceOptions::runner, fields...);
@@ -205,6 +224,13 @@ std::vector<ConfigKey> WorkerKeys() {
   };
 }
 
+// A connection URI or string without the password.
+std::string WithoutPassword(const std::string& url) {
+  static const std::regex in_uri("^([a-z]+://[^:/@?]*):[^@/?]*@");
+  static const std::regex in_string("password=('[^']*'|[^ &]*)");
+  return std::regex_replace(std::regex_replace(url, in_uri, "$1:***@"), in_string, "password=***");
+}
+
 // The limits of connections and the log; threads and what handlers were built with stay.
 bool Reloads(const std::string& name) {
   constexpr std::array kStay = {"http.ioThreads", "http.handlerThreads", "http.uploadThreads",
@@ -224,7 +250,8 @@ std::vector<ConfigKey> AllKeys() {
       Number("workers", Path(&Config::workers), 0, 1024,
              "jobs at once; 0: as many as there are cores"),
   };
-  for (std::vector<ConfigKey> section : {HttpKeys(), AuthKeys(), JobKeys(), WorkerKeys()}) {
+  for (std::vector<ConfigKey> section :
+       {HttpKeys(), AuthKeys(), StoreKeys(), JobKeys(), WorkerKeys()}) {
     std::move(section.begin(), section.end(), std::back_inserter(keys));
   }
   keys.push_back(Choice("log.level", Path(&Config::log, &LogOptions::level), kLogLevelNames,
@@ -266,6 +293,10 @@ std::string WriteConfig(const Config& config) {
     const std::size_t dot = key.name.find('.');
     ordered_json& section = dot == std::string::npos ? document : document[key.name.substr(0, dot)];
     const std::string leaf = dot == std::string::npos ? key.name : key.name.substr(dot + 1);
+    if (key.name == "store.jobs") {
+      section[leaf] = WithoutPassword(config.jobs.store.jobs);
+      continue;
+    }
     std::visit([&](const auto& value) { section[leaf] = value; }, key.get(config));
   }
   return document.dump(2) + "\n";

@@ -26,4 +26,6 @@ Router BuildRouter(const HandlerContext& context) {
   return Router(std::move(routes));
 }
 
+Router BuildHealthRouter(const HandlerContext& context) { return Router(HealthRoutes(context)); }
+
 }  // namespace farhorizon

@@ -17,6 +17,8 @@ constexpr std::chrono::milliseconds kInterval{1000};
 constexpr std::chrono::seconds kExpiryInterval{2};
 // The sum of all bytes is taken over all rows.
 constexpr std::chrono::seconds kSumInterval{30};
+// While objects are removed, others wait that store some: where many services do it, seldom.
+constexpr std::chrono::seconds kSharedCollectionInterval{20};
 
 }  // namespace
 
@@ -58,10 +60,25 @@ void Housekeeper::Tidy() {
   FailOverdue();
   MarkRunning(household_.directory.lock.get());
   household_.reserve.Ensure();
+  RecoverLost();
   RemoveExpired();
+  CollectObjects();
+}
+
+void Housekeeper::CollectObjects() {
+  const Clock::time_point now = Clock::now();
+  if (now < next_collection_) return;
+  if (household_.jobs.LeaseTime()) next_collection_ = now + kSharedCollectionInterval;
   Status cleared = household_.objects.RemoveUnacknowledged();
   if (cleared) cleared = household_.objects.RemoveGarbage();
   if (!cleared) Warn("objects are left", cleared.error());
+}
+
+void Housekeeper::RecoverLost() {
+  const Result<std::int64_t> recovered = household_.jobs.RecoverLost(NowMs());
+  if (!recovered) return Warn("jobs of lost leases are left", recovered.error());
+  if (*recovered > 0)
+    Log(LogLevel::kWarning, "jobs of lost leases taken up", {{"jobs", *recovered}});
 }
 
 void Housekeeper::FailOverdue() {

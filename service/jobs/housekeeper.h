@@ -24,8 +24,9 @@ struct Household {
   std::function<void()> on_lost_lock;  ///< called once
 };
 
-/// A thread for the work that nobody waits for: ends jobs at their deadline, removes expired jobs
-/// and what removed jobs have left, keeps the reserve and watches the lock.
+/// A thread for the work that nobody waits for: ends jobs at their deadline, takes up those whose
+/// lease is over, removes expired jobs and what removed jobs have left, keeps the reserve and
+/// watches the lock. Of services that share a store, each does it.
 class Housekeeper {
  public:
   /// Requires: what `household` refers to outlives this object.
@@ -41,6 +42,8 @@ class Housekeeper {
   void Run();
   void Tidy();
   void FailOverdue();
+  void RecoverLost();
+  void CollectObjects();
   void RemoveExpired();
   /// Logs a failure, unless it is the one that was logged last.
   void Warn(const char* what, const Error& error);
@@ -50,6 +53,7 @@ class Housekeeper {
   std::string last_warning_;
   std::chrono::steady_clock::time_point next_expiry_;
   std::chrono::steady_clock::time_point next_sum_;
+  std::chrono::steady_clock::time_point next_collection_;
   std::mutex mutex_;
   std::condition_variable changed_;
   bool stopping_ = false;

@@ -25,6 +25,9 @@ struct EngineLimits {
 
 /// Takes accepted jobs from the store and runs as many at once as it has slots, and memory for
 /// their costs.
+/// Where the store gives runs for the time of a lease, a thread holds those of the jobs that run,
+/// and stops the workers of runs that are over. A worker outlives no lease that the store, if it
+/// does not answer, may have given to another process.
 /// Threads: safe. Each slot is a thread that lives until Stop; a worker process dies with the
 /// thread that started it.
 class JobEngine {
@@ -47,7 +50,17 @@ class JobEngine {
   void Stop();
 
  private:
+  using Clock = std::chrono::steady_clock;
+  struct Running {
+    std::stop_source stop;
+    std::int64_t run = 0;
+    Clock::time_point held;  // when the call began that gave or renewed its lease
+  };
+
   void RunSlot();
+  void RunHolder(std::chrono::milliseconds lease);
+  void HoldAll(std::chrono::milliseconds lease);
+  void OnNews(StoreNews news);
   /// Takes a job that there is memory for, and counts it as taken.
   Result<std::optional<Job>> Claim();
 
@@ -63,8 +76,10 @@ class JobEngine {
   bool stopping_ = false;
   std::uint64_t wakes_ = 0;
   int busy_ = 0;
-  std::map<std::string, std::stop_source> running_;
+  std::map<std::string, Running> running_;
+  bool hold_now_ = false;
   std::vector<std::thread> slots_;
+  std::thread holder_;
 };
 
 }  // namespace farhorizon

@@ -171,6 +171,7 @@ Status JobRunner::Publish(const Job& job, const WorkerOutcome& outcome, const fs
   std::vector<std::string> objects;
   {
     const auto pin = collector_.Pin();
+    if (!pin) return pin.error();
     Result<std::vector<Artifact>> artifacts = CollectArtifacts(directory / "out", objects_);
     if (!artifacts) return std::move(artifacts.error());
     Status copied = AddGzipCopies(*artifacts, objects_, work_directory_);

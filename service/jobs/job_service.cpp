@@ -39,7 +39,7 @@ Result<std::unique_ptr<JobService>> JobService::Open(JobServiceOptions options) 
   if (!memory) return memory.error();
   Result<DataDirectory> directory = OpenDataDirectory(options.data);
   if (!directory) return std::move(directory.error());
-  Result<Stores> stores = OpenStores(*directory);
+  Result<Stores> stores = OpenStores(*directory, options.store);
   if (!stores) return std::move(stores.error());
   std::unique_ptr<JobService> service(
       new JobService(std::move(options), *memory, *std::move(directory), *std::move(stores)));
@@ -75,6 +75,8 @@ Status JobService::SortOut() {
   }
   if (!recovered) return std::move(recovered.error());
   if (*recovered > 0) Log(LogLevel::kWarning, "jobs taken up again", {{"jobs", *recovered}});
+  // Where others put objects now, which of them are strays nobody can tell.
+  if (jobs_->LeaseTime()) return Ok{};
   Result<SortedObjects> sorted = collector_.SortOut();
   if (!sorted) {
     // Nothing is lost by it, and results can be read from a disk that is full.
@@ -155,6 +157,7 @@ Result<JobPage> JobService::List(const JobQuery& query) {
 
 Result<Job> JobService::Submit(const SpoolFile& upload, const Submission& submission) {
   auto pin = collector_.Pin();
+  if (!pin) return std::move(pin.error());
   Result<StoredObject> stored = objects_->PutFile(upload.path());
   if (!stored) return std::move(stored.error());
   Result<Job> inserted = jobs_->Insert(
@@ -163,7 +166,7 @@ Result<Job> JobService::Submit(const SpoolFile& upload, const Submission& submis
        submission.cost, submission.process, submission.answer, submission.owner},
       Bounds(), NowMs());
   if (inserted) objects_->Keep({stored->sha256});
-  pin.unlock();
+  pin->reset();
   if (inserted) {
     engine_->Wake();
     return inserted;

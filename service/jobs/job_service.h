@@ -30,6 +30,7 @@ namespace farhorizon {
 
 struct JobServiceOptions {
   std::filesystem::path data = "farhorizon-data";
+  StoreOptions store;
   int workers = 1;  ///< jobs at once
   RunnerOptions runner;
   std::int64_t max_waiting = 1000;

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <limits>
 #include <map>
+#include <memory>
 #include <optional>
+#include <shared_mutex>
 #include <string>
 #include <utility>
 #include <vector>
@@ -94,18 +97,44 @@ struct StoreIdentity {
   std::int64_t generation = 0;  ///< number of starts of a service on it
 };
 
+/// The run of a job that ClaimNext has given to this process.
+struct HeldRun {
+  std::string id;
+  std::int64_t run = 0;
+};
+
+/// What another process has done to a store that several share.
+enum class StoreNews {
+  kJobWaits,  ///< a job may be claimed
+  kRunEnded,  ///< a running job was dismissed: Hold tells whose run that ends
+};
+
+/// A lock that ends with this object.
+class ObjectLock {
+ public:
+  ObjectLock() = default;
+  virtual ~ObjectLock() = default;
+  ObjectLock(const ObjectLock&) = delete;
+  ObjectLock& operator=(const ObjectLock&) = delete;
+};
+
 /// The table of all jobs. A change is durable when its call returns.
+///
+/// A store is of one process, or several share it. Where several do, a run is this process's for
+/// the time of a lease, by the store's own clock, and Hold makes it anew: the run of a process that
+/// died, froze or was cut off is over when its lease is, and the job's next run has another number.
 ///
 /// Properties, which the conformance suite holds every implementation to:
 /// (1) A job's state changes only as MayFollow allows.
 /// (2) A call with a `run` has an effect only while the job is running and `run` is its current
 ///     run; otherwise the call returns false.
 /// (3) One idempotency key of an owner makes at most one job.
-/// (4) After each change of a job that it has, it calls its listener, whoever made the change.
+/// (4) After each change of a job that it has, it calls its listener, whoever made the change: in a
+///     store that several share, soon, and while somebody listens to its news.
 /// (5) No time of a job is before one that the store had already, even where the clock goes back;
 ///     of two jobs that it has, the one that was inserted later has the greater id.
-/// Errors, of every call: kIo where the store cannot be read or written, kResourceExhausted where
-/// the disk is full.
+/// Errors, of every call: kIo where the store cannot be read or written; kResourceExhausted where
+/// the disk is full, "no-space", or where it does not answer now, without a kind.
 /// Threads: safe.
 class JobStore {
  public:
@@ -173,8 +202,9 @@ class JobStore {
   virtual Result<std::int64_t> RemoveExpired(const Retention& retention, std::int64_t now_ms) = 0;
 
   /// Makes every running job accepted again and returns their number. The third crash of a process
-  /// while a job ran fails the job, "poison-job". Requires: no job runs, as at the start of the
-  /// only process on this store.
+  /// while a job ran fails the job, "poison-job". Of a store that several processes share, the jobs
+  /// that ran in this one, by the folder that is its own. Requires: none of these runs, as at the
+  /// start.
   virtual Result<std::int64_t> RecoverRunning(PreviousEnd end, std::int64_t now_ms) = 0;
 
   /// The job's artifacts in the order of their names. Empty unless the job is successful.
@@ -193,6 +223,30 @@ class JobStore {
   /// Writes to the store; succeeds if what it wrote is durable.
   virtual Status Ping() = 0;
 
+  // What several processes need of a store that they share. As these calls stand here, they are
+  // those of a store with one process.
+
+  /// How long a run is this process's without a call of Hold; nullopt: as long as it lives.
+  [[nodiscard]] virtual std::optional<std::chrono::milliseconds> LeaseTime() const { return {}; }
+  /// Makes the leases of these runs anew. Returns the ids of those jobs whose run is over: the job
+  /// was dismissed, or another process has it.
+  virtual Result<std::vector<std::string>> Hold(const std::vector<HeldRun>& runs);
+  /// Makes the running jobs whose lease is over accepted again, and returns their number. A job
+  /// that has lost ten fails, "poison-job": it may be what ends the processes.
+  virtual Result<std::int64_t> RecoverLost(std::int64_t /*now_ms*/) { return std::int64_t{0}; }
+  /// Calls `handler` from now on with what other processes do, now and then for nothing; nullptr:
+  /// no more, once the call has returned. News may be lost: whoever waits for them asks the store
+  /// now and then. Requires: one handler at a time.
+  virtual void Listen(std::function<void(StoreNews)> /*handler*/) {}
+
+  /// No object is removed by anybody while the lock lives: objects are put, and the rows that name
+  /// them are stored, under one lock. While a thread has it, its calls depend on it: where the lock
+  /// is lost, with the connection that holds it, none of them stores anything.
+  virtual Result<std::unique_ptr<ObjectLock>> PinObjects();
+  /// Nobody has a lock of PinObjects while this one lives. nullptr where somebody has one: at once,
+  /// or, if `wait`, where none was given back for as long as others may be kept waiting.
+  virtual Result<std::unique_ptr<ObjectLock>> HaltPins(bool wait);
+
  protected:
   void Changed(const std::string& id) const {
     if (listener_) listener_(id);
@@ -200,6 +254,7 @@ class JobStore {
 
  private:
   std::function<void(const std::string& id)> listener_;
+  std::shared_mutex pins_;
 };
 
 }  // namespace farhorizon

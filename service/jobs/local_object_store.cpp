@@ -5,15 +5,18 @@
 
 #include <atomic>
 #include <cerrno>
+#include <chrono>
 #include <fcntl.h>
 #include <string>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <utility>
 
+#include "core/base/hex.h"
 #include "core/io/posix_file.h"
 #include "core/io/sha256.h"
 #include "service/jobs/storage_file.h"
+#include "service/random.h"
 
 namespace farhorizon {
 
@@ -50,6 +53,18 @@ Status AddNames(const fs::path& folder, std::vector<std::string>& names) {
   return Ok{};
 }
 
+// Removes files that nobody has written to for a day.
+void RemoveOld(const fs::path& folder) {
+  std::error_code failure;
+  const auto old = fs::file_time_type::clock::now() - std::chrono::hours(24);
+  for (fs::directory_iterator it(folder, failure), end; !failure && it != end;
+       it.increment(failure)) {
+    std::error_code ignored;  // another one has removed it
+    const auto written = fs::last_write_time(it->path(), ignored);
+    if (!ignored && written < old) fs::remove(it->path(), ignored);
+  }
+}
+
 class LocalObjectStore : public ObjectStore {
  public:
   explicit LocalObjectStore(fs::path root) : root_(std::move(root)) {}
@@ -74,6 +89,8 @@ class LocalObjectStore : public ObjectStore {
   Status Move(const fs::path& from, const fs::path& to);
 
   fs::path root_;
+  // What other processes name theirs otherwise by.
+  const std::string temp_prefix_ = ToHex(RandomBytes()) + "-";
   std::atomic<std::int64_t> next_temp_{0};
 };
 
@@ -82,7 +99,7 @@ Result<StoredObject> LocalObjectStore::PutFile(const fs::path& file) {
   if (!source) return std::move(source.error());
   // The copy is private: whoever made `file` cannot change the stored bytes. The worker has ended
   // by now, but a process that it started may still hold a descriptor of `file`.
-  const fs::path temp = root_ / "temp" / std::to_string(next_temp_++);
+  const fs::path temp = root_ / "temp" / (temp_prefix_ + std::to_string(next_temp_++));
   UniqueFd copy(::open(temp.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0400));
   if (!copy) return StorageError("make an object");
   Result<StoredObject> object = CopyAndHash(source->get(), copy.get());
@@ -178,9 +195,13 @@ Status LocalObjectStore::Move(const fs::path& from, const fs::path& to) {
 
 }  // namespace
 
-Result<std::unique_ptr<ObjectStore>> OpenLocalObjectStore(const fs::path& root) {
+Result<std::unique_ptr<ObjectStore>> OpenLocalObjectStore(const fs::path& root, Sharing sharing) {
   std::error_code failure;
-  fs::remove_all(root / "temp", failure);  // files of a process that was killed
+  if (sharing == Sharing::kManyProcesses) {
+    RemoveOld(root / "temp");
+  } else {
+    fs::remove_all(root / "temp", failure);  // files of a process that was killed
+  }
   for (const char* folder : {"temp", "incoming", "stray"}) {
     if (!failure) fs::create_directories(root / folder, failure);
   }

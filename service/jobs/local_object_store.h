@@ -8,11 +8,19 @@
 
 namespace farhorizon {
 
+/// How many processes use a store at a time.
+enum class Sharing { kOneProcess, kManyProcesses };
+
 /// Objects as read-only files `root`/ab/<sha256>, where ab are the first two digits; an incoming
 /// one has a second name, incoming/<sha256>, and strays are stray/<sha256>. PutFile and CopyTo
 /// copy bytes, so that no other process holds a descriptor of an object's own file; temporary files
 /// are in `root`/temp. Files of other names are left alone.
+///
+/// Many processes may share a folder, on one file system that all of them see alike: a rename there
+/// is atomic, and what is synced is there for all. What a killed process has left in temp goes at
+/// the next start, or, where others may be writing theirs, after a day.
 /// Errors: kIo where the folders cannot be made.
-Result<std::unique_ptr<ObjectStore>> OpenLocalObjectStore(const std::filesystem::path& root);
+Result<std::unique_ptr<ObjectStore>> OpenLocalObjectStore(const std::filesystem::path& root,
+                                                          Sharing sharing = Sharing::kOneProcess);
 
 }  // namespace farhorizon

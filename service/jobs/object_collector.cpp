@@ -3,13 +3,17 @@
 namespace farhorizon {
 
 Status ObjectCollector::RemoveUnreferenced(const std::vector<std::string>& names) {
-  const std::unique_lock lock(mutex_);
-  return RemoveEach(names);
+  return RemoveUnder(jobs_.HaltPins(true), names);
 }
 
 Status ObjectCollector::RemoveUnlessPinned(const std::vector<std::string>& names) {
-  const std::unique_lock lock(mutex_, std::try_to_lock);
-  return lock ? RemoveEach(names) : Ok{};
+  return RemoveUnder(jobs_.HaltPins(false), names);
+}
+
+Status ObjectCollector::RemoveUnder(const Result<std::unique_ptr<ObjectLock>>& halt,
+                                    const std::vector<std::string>& names) {
+  if (!halt) return halt.error();
+  return *halt ? RemoveEach(names) : Ok{};
 }
 
 Status ObjectCollector::RemoveEach(const std::vector<std::string>& names) {
@@ -27,9 +31,15 @@ Status ObjectCollector::RemoveUnacknowledged() {
   Result<std::vector<std::string>> any = objects_.List(ObjectList::kIncoming);
   if (!any) return std::move(any.error());
   if (any->empty()) return Ok{};
-  const std::unique_lock lock(mutex_);  // nobody is between an object and its row
+  const Result<std::unique_ptr<ObjectLock>> halt = jobs_.HaltPins(true);
+  if (!halt) return halt.error();
+  if (!*halt) return Ok{};
+  // Nobody is between an object and its row.
+  Result<std::vector<std::string>> named = Select(ObjectList::kIncoming, true);
+  if (!named) return std::move(named.error());
   Result<std::vector<std::string>> unnamed = Select(ObjectList::kIncoming, false);
   if (!unnamed) return std::move(unnamed.error());
+  objects_.Keep(*named);
   for (const std::string& name : *unnamed) {
     Status removed = objects_.Remove(name);
     if (!removed) return removed;
@@ -45,7 +55,10 @@ Status ObjectCollector::RemoveGarbage() {
     if (IsSha256(name)) names.push_back(std::move(name));
   }
   if (names.empty()) return Ok{};
-  Status removed = RemoveUnreferenced(names);
+  const Result<std::unique_ptr<ObjectLock>> halt = jobs_.HaltPins(true);
+  if (!halt) return halt.error();
+  if (!*halt) return Ok{};
+  Status removed = RemoveEach(names);
   if (!removed) return removed;
   return jobs_.ForgetGarbage(names);
 }
@@ -65,9 +78,6 @@ Result<std::vector<std::string>> ObjectCollector::Select(ObjectList which, bool 
 Result<SortedObjects> ObjectCollector::SortOut() {
   Status done = RemoveGarbage();
   if (!done) return std::move(done.error());
-  Result<std::vector<std::string>> acknowledged = Select(ObjectList::kIncoming, true);
-  if (!acknowledged) return std::move(acknowledged.error());
-  objects_.Keep(*acknowledged);
   done = RemoveUnacknowledged();
   if (!done) return std::move(done.error());
   Result<std::vector<std::string>> strays = Select(ObjectList::kAll, false);

@@ -1,8 +1,7 @@
 #pragma once
 
 #include <cstdint>
-#include <mutex>
-#include <shared_mutex>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -26,34 +25,37 @@ class ObjectCollector {
  public:
   ObjectCollector(JobStore& jobs, ObjectStore& objects) : jobs_(jobs), objects_(objects) {}
 
-  /// No object is removed while the lock is held: put objects and commit the rows that reference
-  /// them under one lock.
-  [[nodiscard]] std::shared_lock<std::shared_mutex> Pin() { return std::shared_lock(mutex_); }
+  /// As JobStore::PinObjects has it.
+  [[nodiscard]] Result<std::unique_ptr<ObjectLock>> Pin() { return jobs_.PinObjects(); }
 
-  /// Removes those of the objects `names` that no row references. Requires: they are this store's;
-  /// the caller holds no lock of Pin.
+  /// Removes those of the objects `names` that no row references. Requires: they are incoming ones,
+  /// or of removed jobs; the caller holds no lock of Pin. Those that others pin for too long are
+  /// left to RemoveUnacknowledged and RemoveGarbage.
   Status RemoveUnreferenced(const std::vector<std::string>& names);
   /// The same without a wait for locks of Pin, of which one is held while large results are copied:
   /// then the objects are left to the next RemoveUnacknowledged and RemoveGarbage.
   /// Requires: they are incoming ones, or of removed jobs.
   Status RemoveUnlessPinned(const std::vector<std::string>& names);
-  /// Removes incoming objects that no row has come to name: of submissions and runs that failed.
+  /// Removes incoming objects that no row has come to name, of submissions and runs that failed,
+  /// and keeps the others: those of a process that was killed between a row and Keep.
   Status RemoveUnacknowledged();
   /// Removes what is left of the objects of removed jobs.
   Status RemoveGarbage();
   /// Brings the objects into order with the rows, for the start of a service: removes garbage and
   /// incoming objects without a row, sets strays aside and takes strays back that a row knows.
+  /// Requires: no other process uses the stores.
   Result<SortedObjects> SortOut();
 
  private:
-  /// Requires: mutex_ is held.
+  /// Requires: a lock of JobStore::HaltPins is held.
   Status RemoveEach(const std::vector<std::string>& names);
+  Status RemoveUnder(const Result<std::unique_ptr<ObjectLock>>& halt,
+                     const std::vector<std::string>& names);
   /// Those of the objects in a list that a row references, or that none does.
   Result<std::vector<std::string>> Select(ObjectList which, bool referenced);
 
   JobStore& jobs_;
   ObjectStore& objects_;
-  std::shared_mutex mutex_;
 };
 
 }  // namespace farhorizon

@@ -21,9 +21,56 @@ namespace {
   if (unsynced && !no_room) EndAfterFailedSync(message);
   const bool full = code == SQLITE_FULL || code == SQLITE_NOMEM ||
                     (code == SQLITE_IOERR && no_room) || (code == SQLITE_CANTOPEN && no_room);
-  if (full) throw SqliteFailure{{ErrorCode::kResourceExhausted, message, "no-space"}};
-  throw SqliteFailure{{ErrorCode::kIo, message, "job-store"}};
+  if (full) throw SqlFailure{{ErrorCode::kResourceExhausted, message, "no-space"}};
+  throw SqlFailure{{ErrorCode::kIo, message, "job-store"}};
 }
+
+class SqliteCursor : public SqlCursor {
+ public:
+  SqliteCursor(sqlite3* database, const std::string& sql) : database_(database) {
+    if (sqlite3_prepare_v2(database_, sql.c_str(), -1, &handle_, nullptr) != SQLITE_OK) {
+      Throw(database_, "prepare");
+    }
+  }
+  ~SqliteCursor() override { sqlite3_finalize(handle_); }
+  SqliteCursor(const SqliteCursor&) = delete;
+  SqliteCursor& operator=(const SqliteCursor&) = delete;
+
+  void Bind(const std::string& value) override {
+    CheckBound(sqlite3_bind_text64(handle_, ++bound_, value.data(), value.size(), SQLITE_TRANSIENT,
+                                   SQLITE_UTF8));
+  }
+  void Bind(std::int64_t value) override {
+    CheckBound(sqlite3_bind_int64(handle_, ++bound_, value));
+  }
+  bool Step() override {
+    const int code = sqlite3_step(handle_);
+    if (code == SQLITE_ROW) return true;
+    if (code == SQLITE_DONE) return false;
+    Throw(database_, "step");
+  }
+  int Changes() override { return sqlite3_changes(database_); }
+  [[nodiscard]] bool IsNull(int column) const override {
+    return sqlite3_column_type(handle_, column) == SQLITE_NULL;
+  }
+  [[nodiscard]] std::int64_t Integer(int column) const override {
+    return sqlite3_column_int64(handle_, column);
+  }
+  [[nodiscard]] std::string Text(int column) const override {
+    const unsigned char* text = sqlite3_column_text(handle_, column);
+    const int size = sqlite3_column_bytes(handle_, column);
+    return text == nullptr ? std::string() : std::string(text, text + size);
+  }
+
+ private:
+  void CheckBound(int code) {
+    if (code != SQLITE_OK) Throw(database_, "bind");
+  }
+
+  sqlite3* database_;
+  sqlite3_stmt* handle_ = nullptr;
+  int bound_ = 0;
+};
 
 }  // namespace
 
@@ -45,65 +92,14 @@ std::int64_t Database::Pragma(const std::string& name) {
   return statement.Step() ? statement.Integer(0) : 0;
 }
 
-Statement::Statement(const Database& database, const std::string& sql)
-    : database_(database.handle()) {
-  if (sqlite3_prepare_v2(database_, sql.c_str(), -1, &handle_, nullptr) != SQLITE_OK) {
-    Throw(database_, "prepare");
-  }
+std::unique_ptr<SqlCursor> Database::Prepare(const std::string& sql) const {
+  return std::make_unique<SqliteCursor>(handle_, sql);
 }
 
-Statement::~Statement() { sqlite3_finalize(handle_); }
+void Database::Begin() { Execute("BEGIN IMMEDIATE"); }
 
-Statement& Statement::Bind(const std::string& value) {
-  return CheckBound(sqlite3_bind_text64(handle_, ++bound_, value.data(), value.size(),
-                                        SQLITE_TRANSIENT, SQLITE_UTF8));
-}
+void Database::Commit() { Execute("COMMIT"); }
 
-Statement& Statement::Bind(std::int64_t value) {
-  return CheckBound(sqlite3_bind_int64(handle_, ++bound_, value));
-}
-
-Statement& Statement::CheckBound(int code) {
-  if (code != SQLITE_OK) Throw(database_, "bind");
-  return *this;
-}
-
-bool Statement::Step() {
-  const int code = sqlite3_step(handle_);
-  if (code == SQLITE_ROW) return true;
-  if (code == SQLITE_DONE) return false;
-  Throw(database_, "step");
-}
-
-int Statement::Run() {
-  while (Step()) {
-  }
-  return sqlite3_changes(database_);
-}
-
-bool Statement::IsNull(int column) const {
-  return sqlite3_column_type(handle_, column) == SQLITE_NULL;
-}
-
-std::int64_t Statement::Integer(int column) const { return sqlite3_column_int64(handle_, column); }
-
-std::string Statement::Text(int column) const {
-  const unsigned char* text = sqlite3_column_text(handle_, column);
-  const int size = sqlite3_column_bytes(handle_, column);
-  return text == nullptr ? std::string() : std::string(text, text + size);
-}
-
-Transaction::Transaction(Database& database) : database_(database) {
-  database_.Execute("BEGIN IMMEDIATE");
-}
-
-Transaction::~Transaction() {
-  if (!committed_) sqlite3_exec(database_.handle(), "ROLLBACK", nullptr, nullptr, nullptr);
-}
-
-void Transaction::Commit() {
-  database_.Execute("COMMIT");
-  committed_ = true;
-}
+void Database::Rollback() { sqlite3_exec(handle_, "ROLLBACK", nullptr, nullptr, nullptr); }
 
 }  // namespace farhorizon

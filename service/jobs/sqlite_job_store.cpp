@@ -1,6 +1,6 @@
 // The embedded job store: calls that write under one mutex, those that answer clients beside it.
-// The statements of the queue are in sqlite_queue.h and sqlite_claim.h, of running jobs in
-// sqlite_runs.h, those that remove jobs in sqlite_removal.h, the rows in sqlite_rows.h, the tables
+// The statements of the queue are in sql_queue.h and sql_claim.h, of running jobs in
+// sql_runs.h, those that remove jobs in sql_removal.h, the rows in sql_rows.h, the tables
 // in sqlite_schema.h; sqlite.h has the wrapper of SQLite.
 #include "service/jobs/sqlite_job_store.h"
 
@@ -9,13 +9,13 @@
 #include <string>
 #include <utility>
 
+#include "service/jobs/sql_claim.h"
+#include "service/jobs/sql_queue.h"
+#include "service/jobs/sql_removal.h"
+#include "service/jobs/sql_rows.h"
+#include "service/jobs/sql_runs.h"
 #include "service/jobs/sqlite.h"
-#include "service/jobs/sqlite_claim.h"
-#include "service/jobs/sqlite_queue.h"
 #include "service/jobs/sqlite_readers.h"
-#include "service/jobs/sqlite_removal.h"
-#include "service/jobs/sqlite_rows.h"
-#include "service/jobs/sqlite_runs.h"
 #include "service/jobs/sqlite_schema.h"
 
 namespace farhorizon {
@@ -60,13 +60,13 @@ class SqliteJobStore : public JobStore {
   Status Ping() override;
 
  private:
-  // Runs `work` under the mutex; returns a SqliteFailure as its Error.
+  // Runs `work` under the mutex; returns a SqlFailure as its Error.
   template <typename Work>
   auto Guarded(Work work) -> decltype(work()) {
     const std::lock_guard lock(mutex_);
     try {
       return work();
-    } catch (SqliteFailure& failure) {
+    } catch (SqlFailure& failure) {
       return std::move(failure.error);
     }
   }
@@ -94,7 +94,7 @@ class SqliteJobStore : public JobStore {
   auto Read(Work work) -> decltype(work(std::declval<const Database&>())) {
     try {
       return readers_.Read(work);
-    } catch (SqliteFailure& failure) {
+    } catch (SqlFailure& failure) {
       return std::move(failure.error);
     }
   }
@@ -121,7 +121,7 @@ Status SqliteJobStore::Open(const std::filesystem::path& path) {
       Statement latest(database_, "SELECT max(updated_ms) FROM jobs");
       if (latest.Step()) latest_ms_ = latest.Integer(0);
       readers_.Open(path);
-    } catch (SqliteFailure& failure) {
+    } catch (SqlFailure& failure) {
       // Of these, the message says the remedy.
       const ErrorKind kind = failure.error.kind;
       if (kind == "no-space" || kind == "job-store-unusable") return std::move(failure.error);
@@ -164,8 +164,9 @@ Result<JobPage> SqliteJobStore::List(const JobQuery& query) {
 }
 
 Result<UnfinishedJobs> SqliteJobStore::CountUnfinished() {
-  return Read(
-      [](const Database& database) -> Result<UnfinishedJobs> { return CountQueue(database); });
+  return Read([&](const Database& database) -> Result<UnfinishedJobs> {
+    return CountUnfinishedJobs(database);
+  });
 }
 
 Result<std::optional<Job>> SqliteJobStore::ClaimNext(std::int64_t now_ms, const MemoryRoom& room) {

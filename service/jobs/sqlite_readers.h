@@ -16,7 +16,7 @@ namespace farhorizon {
 class SqliteReaders {
  public:
   /// Opens all connections. Requires: called once, first; the file has its tables and WAL mode.
-  /// Throws: SqliteFailure.
+  /// Throws: SqlFailure.
   void Open(const std::filesystem::path& path);
 
   /// Runs work(connection) on one that no other thread uses, and waits for one where all are used.

@@ -143,30 +143,30 @@ void PrepareSchema(Database& database) {
   // A first start that was cut off leaves a page without a table.
   const bool is_new = version == 0 && CountOfTables(database) == 0;
   if (!is_new && application != kApplicationId) {
-    throw SqliteFailure{{ErrorCode::kIo,
-                         "job store: the file is no job store of farhorizon; put the right one "
-                         "back, or give another data directory",
-                         "job-store-unusable"}};
+    throw SqlFailure{{ErrorCode::kIo,
+                      "job store: the file is no job store of farhorizon; put the right one "
+                      "back, or give another data directory",
+                      "job-store-unusable"}};
   }
   if (version > kSchemaVersion) {
-    throw SqliteFailure{{ErrorCode::kIo,
-                         "job store: the file comes from a newer farhorizon (schema " +
-                             std::to_string(version) + ", this one knows " +
-                             std::to_string(kSchemaVersion) +
-                             "); start that one, or put the backup from before it back",
-                         "job-store-unusable"}};
+    throw SqlFailure{{ErrorCode::kIo,
+                      "job store: the file comes from a newer farhorizon (schema " +
+                          std::to_string(version) + ", this one knows " +
+                          std::to_string(kSchemaVersion) +
+                          "); start that one, or put the backup from before it back",
+                      "job-store-unusable"}};
   }
   database.Execute(
       "PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA foreign_keys = ON;"
       "PRAGMA trusted_schema = OFF; PRAGMA mmap_size = 0; PRAGMA busy_timeout = 2000;");
   // Some builds of SQLite ignore the pragma, and durability depends on it.
   if (database.Pragma("synchronous") != 2) {
-    throw SqliteFailure{{ErrorCode::kIo, "cannot set synchronous=FULL"}};
+    throw SqlFailure{{ErrorCode::kIo, "cannot set synchronous=FULL"}};
   }
   // Before the migration, which would only spread the damage.
   Statement check(database, "PRAGMA quick_check(1)");
   if (!check.Step() || check.Text(0) != "ok") {
-    throw SqliteFailure{{ErrorCode::kIo, "quick_check says: " + check.Text(0)}};
+    throw SqlFailure{{ErrorCode::kIo, "quick_check says: " + check.Text(0)}};
   }
   while (check.Step()) {
   }

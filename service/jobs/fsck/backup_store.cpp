@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 Error Unusable(const std::string& why) { return {ErrorCode::kIo, why, "data-directory"}; }
 
-// A copy of the database as of one moment, without a log beside it. Throws SqliteFailure.
+// A copy of the database as of one moment, without a log beside it. Throws SqlFailure.
 void CopyDatabase(const fs::path& source, const fs::path& target) {
   Database database;
   database.Open(source);
@@ -97,7 +97,7 @@ Result<FsckSum> BackUpStore(const FsckOptions& source, const fs::path& target) {
   try {
     Status copied = CopyAll(source.data, target);
     if (!copied) return std::move(copied.error());
-  } catch (SqliteFailure& failed) {
+  } catch (SqlFailure& failed) {
     return std::move(failed.error);
   }
   return CheckStore({target, true, source.say});

@@ -7,8 +7,8 @@
 
 #include "service/clock.h"
 #include "service/jobs/fsck/check_objects.h"
-#include "service/jobs/sqlite_removal.h"
-#include "service/jobs/sqlite_rows.h"
+#include "service/jobs/sql_removal.h"
+#include "service/jobs/sql_rows.h"
 #include "service/jobs/store_identity.h"
 
 namespace farhorizon {

@@ -42,7 +42,7 @@ void TakeObjects(FsckRun& run, CheckedObjects found) {
   }
 }
 
-// Throws SqliteFailure where the database fails on the way.
+// Throws SqlFailure where the database fails on the way.
 Result<FsckSum> Look(FsckRun& run) {
   SayLeftovers(run);
   const bool rows = CheckDatabase(run);
@@ -72,7 +72,7 @@ Result<FsckSum> CheckStore(const FsckOptions& options) {
   try {
     FsckRun run{options, *directory};
     return Look(run);
-  } catch (SqliteFailure& failed) {
+  } catch (SqlFailure& failed) {
     return std::move(failed.error);
   }
 }

@@ -18,7 +18,7 @@ void AddIds(const Database& database, const std::string& scan, std::set<std::str
   try {
     Statement rows(database, "SELECT id FROM main.jobs " + scan);
     while (rows.Step()) ids.insert(rows.Text(0));
-  } catch (const SqliteFailure&) {  // the next scan comes from elsewhere
+  } catch (const SqlFailure&) {  // the next scan comes from elsewhere
   }
 }
 
@@ -27,7 +27,7 @@ bool Copy(const Database& database, const std::string& sql, const std::string& i
   try {
     Statement(database, sql).Bind(id).Run();
     return true;
-  } catch (const SqliteFailure&) {
+  } catch (const SqlFailure&) {
     return false;
   }
 }
@@ -44,7 +44,7 @@ void CopyIdentity(Database& database) {
   try {
     database.Execute(
         "UPDATE fresh.store SET (id, generation) = (SELECT id, generation FROM main.store)");
-  } catch (const SqliteFailure&) {  // an earlier version, or unreadable: the new one is as good
+  } catch (const SqlFailure&) {  // an earlier version, or unreadable: the new one is as good
   }
 }
 
@@ -59,7 +59,7 @@ std::vector<std::string> ComplaintsOf(const std::filesystem::path& path) {
     while (check.Step()) {
       if (check.Text(0) != "ok") complaints.push_back(check.Text(0));
     }
-  } catch (const SqliteFailure& failure) {
+  } catch (const SqlFailure& failure) {
     complaints.push_back(failure.error.message);
   }
   return complaints;
@@ -70,7 +70,7 @@ std::int64_t SchemaVersionOf(const std::filesystem::path& path) {
     Database database;
     database.Open(path);
     return database.Pragma("user_version");
-  } catch (const SqliteFailure&) {
+  } catch (const SqlFailure&) {
     return 0;
   }
 }
@@ -113,7 +113,7 @@ Result<std::int64_t> SalvageJobs(const std::filesystem::path& damaged,
     }
     CopyIdentity(database);
     return copied;
-  } catch (SqliteFailure& failure) {
+  } catch (SqlFailure& failure) {
     return std::move(failure.error);
   }
 }

@@ -48,6 +48,19 @@ TEST(Config, EveryKeyHasItsOwnField) {
   }
 }
 
+TEST(Config, APasswordIsNotPrinted) {
+  for (const char* url :
+       {"postgresql://ada:s3cret@db:5432/jobs?sslmode=require", "host=db user=ada password=s3cret",
+        "postgresql://db/jobs?user=ada&password=s3cret&connect_timeout=3",
+        "host=db password='s3cret' user=ada"}) {
+    Config config;
+    config.jobs.store.jobs = url;
+    const std::string text = WriteConfig(config);
+    EXPECT_EQ(text.find("s3cret"), std::string::npos) << text;
+    EXPECT_NE(text.find("ada"), std::string::npos) << text;
+  }
+}
+
 TEST(Config, FlagsComeBeforeEnvironmentBeforeFileBeforeDefaults) {
   const TempDir folder;
   std::ofstream(folder.path() / "c.json")

@@ -9,8 +9,8 @@ namespace farhorizon {
 namespace {
 
 constexpr QueueBounds kBounds{6, 4};
-constexpr std::int64_t kLongestPatienceMs = 600'000;  // service/jobs/sqlite_claim.cpp
-constexpr std::int64_t kMostProcessCrashes = 3;       // service/jobs/sqlite_queue.cpp
+constexpr std::int64_t kLongestPatienceMs = 600'000;  // service/jobs/sql_claim.cpp
+constexpr std::int64_t kMostProcessCrashes = 3;       // service/jobs/sql_queue.cpp
 constexpr std::size_t kNotesKept = 25;
 
 }  // namespace

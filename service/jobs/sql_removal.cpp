@@ -1,11 +1,11 @@
 // The end of jobs. A removal notes the objects of the job in the table `garbage` in the same
 // transaction: so a process that ends before it has removed the files knows at its next start that
 // they were its own.
-#include "service/jobs/sqlite_removal.h"
+#include "service/jobs/sql_removal.h"
 
 #include <algorithm>
 
-#include "service/jobs/sqlite_rows.h"
+#include "service/jobs/sql_rows.h"
 
 namespace farhorizon {
 
@@ -15,8 +15,9 @@ constexpr std::int64_t kMostRemoved = 100;
 
 constexpr const char* kFinished = "finished_ms IS NOT NULL";
 
-void RemoveJob(const Database& database, const std::string& id) {
-  Statement(database, "INSERT OR IGNORE INTO garbage SELECT input_sha256 FROM jobs WHERE id = ?")
+void RemoveJob(const SqlDatabase& database, const std::string& id) {
+  Statement(database,
+            "INSERT INTO garbage SELECT input_sha256 FROM jobs WHERE id = ? ON CONFLICT DO NOTHING")
       .Bind(id)
       .Run();
   RemoveArtifacts(database, id);
@@ -32,13 +33,13 @@ std::vector<std::string> Ids(Statement& statement) {
   return ids;
 }
 
-std::vector<std::string> TooOld(const Database& database, std::int64_t seconds,
+std::vector<std::string> TooOld(const SqlDatabase& database, std::int64_t seconds,
                                 std::int64_t now_ms) {
   Statement old(database, "SELECT id FROM jobs WHERE finished_ms <= ? ORDER BY finished_ms, id");
   return Ids(old.Bind(now_ms - seconds * 1000));
 }
 
-std::vector<std::string> TooMany(const Database& database, std::int64_t jobs) {
+std::vector<std::string> TooMany(const SqlDatabase& database, std::int64_t jobs) {
   Statement count(database, std::string("SELECT count(*) FROM jobs WHERE ") + kFinished);
   count.Step();
   const std::int64_t over = count.Integer(0) - jobs;
@@ -49,7 +50,7 @@ std::vector<std::string> TooMany(const Database& database, std::int64_t jobs) {
 
 // The oldest of those that take more than `bytes` together. Bytes that several jobs share count
 // for each: the bound is kept, if not used up.
-std::vector<std::string> TooLarge(const Database& database, std::int64_t bytes) {
+std::vector<std::string> TooLarge(const SqlDatabase& database, std::int64_t bytes) {
   const std::string size =
       "input_bytes + (SELECT coalesce(sum(bytes + coalesce(gzip_bytes, 0)), 0) FROM artifacts "
       "WHERE job_id = jobs.id)";
@@ -70,16 +71,16 @@ std::vector<std::string> TooLarge(const Database& database, std::int64_t bytes) 
 
 }  // namespace
 
-void RemoveArtifacts(const Database& database, const std::string& id) {
+void RemoveArtifacts(const SqlDatabase& database, const std::string& id) {
   for (const std::string& object : ObjectsOf(SelectArtifacts(database, id))) {
-    Statement(database, "INSERT OR IGNORE INTO garbage VALUES (?)").Bind(object).Run();
+    Statement(database, "INSERT INTO garbage VALUES (?) ON CONFLICT DO NOTHING").Bind(object).Run();
   }
   Statement(database, "DELETE FROM artifacts WHERE job_id = ?").Bind(id).Run();
 }
 
-Result<Job> DismissJob(Database& database, const std::string& id, std::int64_t now_ms) {
+Result<Job> DismissJob(SqlDatabase& database, const std::string& id, std::int64_t now_ms) {
   Transaction transaction(database);
-  std::optional<Job> job = SelectJob(database, id);
+  std::optional<Job> job = SelectJobToChange(database, id);
   if (!job) return NoSuchJob();
   if (IsTerminal(job->state)) {
     RemoveJob(database, id);
@@ -97,7 +98,7 @@ Result<Job> DismissJob(Database& database, const std::string& id, std::int64_t n
   return *std::move(job);
 }
 
-std::int64_t RemoveExpiredJobs(Database& database, const Retention& retention,
+std::int64_t RemoveExpiredJobs(SqlDatabase& database, const Retention& retention,
                                std::int64_t now_ms) {
   std::vector<std::string> ids;
   if (retention.seconds > 0) ids = TooOld(database, retention.seconds, now_ms);
@@ -110,7 +111,7 @@ std::int64_t RemoveExpiredJobs(Database& database, const Retention& retention,
   return static_cast<std::int64_t>(ids.size());
 }
 
-bool IsReferenced(const Database& database, const std::string& sha256) {
+bool IsReferenced(const SqlDatabase& database, const std::string& sha256) {
   Statement row(database,
                 "SELECT 1 FROM jobs WHERE input_sha256 = ? UNION ALL "
                 "SELECT 1 FROM artifacts WHERE sha256 = ? UNION ALL "
@@ -118,14 +119,14 @@ bool IsReferenced(const Database& database, const std::string& sha256) {
   return row.Bind(sha256).Bind(sha256).Bind(sha256).Step();
 }
 
-std::vector<std::string> SelectGarbage(const Database& database) {
+std::vector<std::string> SelectGarbage(const SqlDatabase& database) {
   Statement rows(database, "SELECT sha256 FROM garbage");
   std::vector<std::string> names;
   while (rows.Step()) names.push_back(rows.Text(0));
   return names;
 }
 
-void ForgetGarbage(Database& database, const std::vector<std::string>& names) {
+void ForgetGarbage(SqlDatabase& database, const std::vector<std::string>& names) {
   if (names.empty()) return;
   Transaction transaction(database);
   for (const std::string& name : names) {

@@ -1,13 +1,13 @@
 // Which of the waiting jobs starts: priority, then the fair share of clients, then age, as far as
 // there is memory. Nothing waits for ever: every fourth start counts no priority, and what does not
 // fit lets others pass for a while only.
-#include "service/jobs/sqlite_claim.h"
+#include "service/jobs/sql_claim.h"
 
 #include <algorithm>
 #include <tuple>
 #include <vector>
 
-#include "service/jobs/sqlite_rows.h"
+#include "service/jobs/sql_rows.h"
 
 namespace farhorizon {
 
@@ -33,26 +33,26 @@ struct WaitingClient {
   std::string name;
 };
 
-std::int64_t RunningOf(const Database& database, const std::string& client) {
-  Statement count(database, "SELECT count(*) FROM jobs WHERE state = 'running' AND client = ?");
-  count.Bind(client).Step();
-  return count.Integer(0);
+// The condition of jobs that run in this process.
+std::string OwnRuns(const SqlDatabase& database) {
+  const std::string& own = database.dialect().own_runs;
+  return own.empty() ? "state = 'running'" : "state = 'running' AND " + own;
 }
 
-bool Any(const Database& database, const std::string& condition) {
+bool Any(const SqlDatabase& database, const std::string& condition) {
   return Statement(database, "SELECT 1 FROM jobs WHERE " + condition + " LIMIT 1").Step();
 }
 
 // One choice of a job.
 class Claim {
  public:
-  Claim(const Database& database, const StartTurns& turns, const MemoryRoom& room,
+  Claim(const SqlDatabase& database, const StartTurns& turns, const MemoryRoom& room,
         std::int64_t now_ms)
       : database_(database),
         turns_(turns),
         room_(room),
         now_ms_(now_ms),
-        busy_(Any(database, "state = 'running'")) {}
+        busy_(Any(database, OwnRuns(database))) {}
 
   // The id and the client of the job to start; nullopt where none may.
   struct Choice {
@@ -60,7 +60,7 @@ class Claim {
     std::string client;
   };
   std::optional<Choice> Choose() {
-    if (busy_ && Any(database_, "state = 'running' AND crashes > 0")) return std::nullopt;
+    if (busy_ && Any(database_, OwnRuns(database_) + " AND crashes > 0")) return std::nullopt;
     if (turns_.AllAlike()) return ChooseOf("state = 'accepted'");
     for (int priority = static_cast<int>(Priority::kHigh); priority >= 0 && !blocked_; --priority) {
       std::optional<Choice> choice =
@@ -84,17 +84,21 @@ class Claim {
   // client to client in an index, whatever the number of jobs.
   [[nodiscard]] std::vector<WaitingClient> WaitingClients(const std::string& jobs) const {
     const std::string least = "(SELECT min(client) FROM jobs WHERE " + jobs;
-    Statement clients(database_, "WITH RECURSIVE waiting(client) AS (SELECT " + least +
-                                     ") UNION ALL SELECT " + least +
-                                     " AND client > waiting.client) FROM waiting WHERE client IS "
-                                     "NOT NULL) SELECT client, (SELECT min(id) FROM jobs WHERE " +
-                                     jobs +
-                                     " AND jobs.client = waiting.client) FROM waiting WHERE "
-                                     "client IS NOT NULL");
+    const std::string& turn = database_.dialect().turn_of;
+    Statement clients(database_,
+                      "WITH RECURSIVE waiting(client) AS (SELECT " + least + ") UNION ALL SELECT " +
+                          least +
+                          " AND client > waiting.client) FROM waiting WHERE client IS NOT NULL) "
+                          "SELECT client, (SELECT min(id) FROM jobs WHERE " +
+                          jobs +
+                          " AND jobs.client = waiting.client), (SELECT count(*) FROM jobs WHERE "
+                          "state = 'running' AND jobs.client = waiting.client), " +
+                          (turn.empty() ? "0" : turn) + " FROM waiting WHERE client IS NOT NULL");
     std::vector<WaitingClient> found;
     while (clients.Step()) {
       const std::string name = clients.Text(0);
-      found.push_back({RunningOf(database_, name), turns_.LastOf(name), clients.Text(1), name});
+      const std::int64_t served = turn.empty() ? turns_.LastOf(name) : clients.Integer(3);
+      found.push_back({clients.Integer(2), served, clients.Text(1), name});
     }
     std::sort(found.begin(), found.end(), [](const WaitingClient& a, const WaitingClient& b) {
       return std::tie(a.running, a.last_served, a.oldest) <
@@ -106,25 +110,31 @@ class Claim {
   // The client's oldest job that may start now, or that has waited for so long that others wait for
   // it now: then the claim is blocked.
   std::optional<Choice> OldestOf(const std::string& jobs, const std::string& client) {
-    constexpr const char* kFits =
-        "((crashes = 0 OR NOT ?) AND "
-        "min(iif(cost_memory_bytes > 0, cost_memory_bytes, ?), ?) <= ?)";
-    Statement oldest(database_, std::string("SELECT id, ") + kFits + " AS fits FROM jobs WHERE " +
-                                    jobs +
+    const SqlDialect& dialect = database_.dialect();
+    const std::string fits = "(crashes = 0 OR ? = 0) AND " + dialect.least +
+                             "(CASE WHEN cost_memory_bytes > 0 THEN cost_memory_bytes ELSE ? END, "
+                             "?) <= ?";
+    Statement oldest(database_, "SELECT id, CASE WHEN " + fits +
+                                    " THEN 1 ELSE 0 END FROM jobs WHERE " + jobs +
                                     " AND client = ? AND (not_before_ms <= ? OR not_before_ms > ?) "
                                     "AND (deadline_ms IS NULL OR deadline_ms > ?) "
-                                    "AND (fits OR updated_ms <= ?) ORDER BY id LIMIT 1");
-    oldest.Bind(std::int64_t{busy_ ? 1 : 0});
-    oldest.Bind(room_.most_bytes).Bind(room_.most_bytes).Bind(room_.free_bytes);
+                                    "AND (updated_ms <= ? OR (" +
+                                    fits + ")) ORDER BY id LIMIT 1" + dialect.lock_free);
+    const auto bind_fits = [&] {
+      oldest.Bind(std::int64_t{busy_ ? 1 : 0});
+      oldest.Bind(room_.most_bytes).Bind(room_.most_bytes).Bind(room_.free_bytes);
+    };
+    bind_fits();
     oldest.Bind(client).Bind(now_ms_).Bind(now_ms_ + kLongestDelayMs);
     oldest.Bind(now_ms_).Bind(now_ms_ - kLongestPatienceMs);
+    bind_fits();
     if (!oldest.Step()) return std::nullopt;
     blocked_ = oldest.Integer(1) == 0;
     if (blocked_) return std::nullopt;
     return Choice{oldest.Text(0), client};
   }
 
-  const Database& database_;
+  const SqlDatabase& database_;
   const StartTurns& turns_;
   const MemoryRoom& room_;
   std::int64_t now_ms_;
@@ -132,12 +142,12 @@ class Claim {
   bool blocked_ = false;
 };
 
-std::optional<Job> Start(const Database& database, const std::string& id, std::int64_t now_ms) {
+std::optional<Job> Start(const SqlDatabase& database, const std::string& id, std::int64_t now_ms) {
   Statement start(database,
                   std::string("UPDATE jobs SET state = 'running', run = run + 1, attempt = "
                               "attempt + 1, started_ms = coalesce(started_ms, ?), updated_ms = ?, "
-                              "message = 'starting' WHERE id = ? RETURNING ") +
-                      kJobColumns);
+                              "message = 'starting'") +
+                      database.dialect().claim + " WHERE id = ? RETURNING " + kJobColumns);
   start.Bind(now_ms).Bind(now_ms).Bind(id);
   std::optional<Job> job;
   while (start.Step()) job = ReadJob(start);
@@ -158,13 +168,15 @@ std::int64_t StartTurns::LastOf(const std::string& client) const {
 
 bool StartTurns::AllAlike() const { return turns_ % kStartsOfRank == kStartsOfRank - 1; }
 
-std::optional<Job> ClaimJob(Database& database, StartTurns& turns, const MemoryRoom& room,
+std::optional<Job> ClaimJob(SqlDatabase& database, StartTurns& turns, const MemoryRoom& room,
                             std::int64_t now_ms) {
   if (!Any(database, "state = 'accepted'")) return std::nullopt;
   Transaction transaction(database);
   const auto choice = Claim(database, turns, room, now_ms).Choose();
   if (!choice) return std::nullopt;
   std::optional<Job> job = Start(database, choice->id, now_ms);
+  const std::string& serve = database.dialect().serve_client;
+  if (!serve.empty()) Statement(database, serve).Bind(choice->client).Run();
   transaction.Commit();
   turns.Serve(choice->client);
   return job;

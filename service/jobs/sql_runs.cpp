@@ -1,8 +1,8 @@
-#include "service/jobs/sqlite_runs.h"
+#include "service/jobs/sql_runs.h"
 
 #include <nlohmann/json.hpp>
 
-#include "service/jobs/sqlite_rows.h"
+#include "service/jobs/sql_rows.h"
 
 namespace farhorizon {
 
@@ -11,8 +11,8 @@ namespace {
 constexpr const char* kOfThisRun =
     ", updated_ms = ? WHERE id = ? AND run = ? AND state = 'running'";
 
-std::string Setting(const char* changes) {
-  return std::string("UPDATE jobs SET ") + changes + kOfThisRun;
+std::string Setting(const std::string& changes) {
+  return "UPDATE jobs SET " + changes + kOfThisRun;
 }
 
 // Binds what kOfThisRun asks for and runs the statement.
@@ -22,20 +22,23 @@ bool Change(Statement& update, const RunAt& at) {
 
 }  // namespace
 
-bool StoreProgress(const Database& database, const RunAt& at, int progress,
+bool StoreProgress(const SqlDatabase& database, const RunAt& at, int progress,
                    const std::string& message) {
-  Statement update(database, Setting("progress = max(progress, ?), message = ?"));
+  const std::string changes =
+      "progress = " + database.dialect().greatest + "(progress, ?), message = ?";
+  Statement update(database, Setting(changes));
   update.Bind(std::int64_t{progress}).Bind(message);
   return Change(update, at);
 }
 
-bool StoreAssumptions(const Database& database, const RunAt& at, const Assumptions& assumptions) {
+bool StoreAssumptions(const SqlDatabase& database, const RunAt& at,
+                      const Assumptions& assumptions) {
   Statement update(database, Setting("assumptions = ?"));
   update.Bind(AssumptionsColumn(assumptions));
   return Change(update, at);
 }
 
-bool PublishRun(Database& database, const RunAt& at, const std::vector<Artifact>& artifacts,
+bool PublishRun(SqlDatabase& database, const RunAt& at, const std::vector<Artifact>& artifacts,
                 const std::map<std::string, double>& timings) {
   Transaction transaction(database);
   Statement update(database, Setting("state = 'successful', progress = 100, message = 'done', "
@@ -47,7 +50,7 @@ bool PublishRun(Database& database, const RunAt& at, const std::vector<Artifact>
   return true;
 }
 
-bool FailRun(const Database& database, const RunAt& at, const Error& failure) {
+bool FailRun(const SqlDatabase& database, const RunAt& at, const Error& failure) {
   Statement update(database, Setting("state = 'failed', message = ?, failure_code = ?, "
                                      "failure_kind = ?, failure_message = ?, finished_ms = ?"));
   update.Bind(failure.message).Bind(std::string(ErrorCodeName(failure.code)));
@@ -55,7 +58,7 @@ bool FailRun(const Database& database, const RunAt& at, const Error& failure) {
   return Change(update, at);
 }
 
-bool RequeueRun(const Database& database, const RunAt& at, RequeueReason reason) {
+bool RequeueRun(const SqlDatabase& database, const RunAt& at, RequeueReason reason) {
   const std::int64_t crashed = reason == RequeueReason::kWorkerCrashed ? 1 : 0;
   Statement update(database, Setting("state = 'accepted', message = 'waiting to run again', "
                                      "crash_count = crash_count + ?, attempt = attempt - ?"));
@@ -63,14 +66,14 @@ bool RequeueRun(const Database& database, const RunAt& at, RequeueReason reason)
   return Change(update, at);
 }
 
-bool RequeueWithMemory(const Database& database, const RunAt& at, std::int64_t memory_bytes) {
+bool RequeueWithMemory(const SqlDatabase& database, const RunAt& at, std::int64_t memory_bytes) {
   Statement update(database, Setting("state = 'accepted', cost_memory_bytes = ?, "
                                      "message = 'waiting to run again'"));
   update.Bind(memory_bytes);
   return Change(update, at);
 }
 
-bool PostponeRun(const Database& database, const RunAt& at, std::int64_t delay_ms) {
+bool PostponeRun(const SqlDatabase& database, const RunAt& at, std::int64_t delay_ms) {
   Statement update(database,
                    Setting("state = 'accepted', message = 'waiting to run again', "
                            "retries = retries + 1, attempt = attempt - 1, not_before_ms = ?"));

@@ -7,7 +7,7 @@
 
 #include "service/jobs/job.h"
 #include "service/jobs/job_store.h"
-#include "service/jobs/sqlite.h"
+#include "service/jobs/sql.h"
 
 namespace farhorizon {
 
@@ -27,17 +27,21 @@ std::string AssumptionsColumn(const Assumptions& assumptions);
 Job ReadJob(const Statement& row);
 
 /// The job with this id; nullopt without one.
-std::optional<Job> SelectJob(const Database& database, const std::string& id);
+std::optional<Job> SelectJob(const SqlDatabase& database, const std::string& id);
+/// The same for a transaction that is about to change it: nobody else does until its end.
+std::optional<Job> SelectJobToChange(const SqlDatabase& database, const std::string& id);
 /// As JobStore::List has it.
-JobPage SelectPage(const Database& database, const JobQuery& query);
+JobPage SelectPage(const SqlDatabase& database, const JobQuery& query);
+/// As JobStore::CountUnfinished has it.
+UnfinishedJobs CountUnfinishedJobs(const SqlDatabase& database);
 /// Inserts an accepted job; its id is greater than all others.
-std::string InsertJob(const Database& database, const NewJob& job, std::int64_t now_ms);
+std::string InsertJob(const SqlDatabase& database, const NewJob& job, std::int64_t now_ms);
 
 /// As JobStore::Identity has it.
-StoreIdentity SelectIdentity(const Database& database);
+StoreIdentity SelectIdentity(const SqlDatabase& database);
 
 /// The artifacts of a job, by name.
-std::vector<Artifact> SelectArtifacts(const Database& database, const std::string& id);
-void InsertArtifact(const Database& database, const std::string& id, const Artifact& artifact);
+std::vector<Artifact> SelectArtifacts(const SqlDatabase& database, const std::string& id);
+void InsertArtifact(const SqlDatabase& database, const std::string& id, const Artifact& artifact);
 
 }  // namespace farhorizon

@@ -1,4 +1,4 @@
-#include "service/jobs/sqlite_rows.h"
+#include "service/jobs/sql_rows.h"
 
 #include <algorithm>
 #include <utility>
@@ -72,12 +72,12 @@ Conditions ConditionsOf(const JobQuery& query) {
   const bool timed = query.least_duration_ms || query.most_duration_ms;
   if (timed) all.text += " AND state <> 'accepted' AND started_ms IS NOT NULL";
   if (query.least_duration_ms) {
-    all.Add("coalesce(finished_ms - started_ms >= ?, 1)", *query.least_duration_ms);
+    all.Add("(finished_ms IS NULL OR finished_ms - started_ms >= ?)", *query.least_duration_ms);
     all.Add("(finished_ms IS NOT NULL OR started_ms <= ?)",
             query.now_ms - *query.least_duration_ms);
   }
   if (query.most_duration_ms) {
-    all.Add("coalesce(finished_ms - started_ms <= ?, 1)", *query.most_duration_ms);
+    all.Add("(finished_ms IS NULL OR finished_ms - started_ms <= ?)", *query.most_duration_ms);
     all.Add("(finished_ms IS NOT NULL OR started_ms >= ?)", query.now_ms - *query.most_duration_ms);
   }
   return all;
@@ -131,16 +131,24 @@ Job ReadJob(const Statement& row) {
   return job;
 }
 
-std::optional<Job> SelectJob(const Database& database, const std::string& id) {
+std::optional<Job> SelectJob(const SqlDatabase& database, const std::string& id) {
   Statement row(database, std::string("SELECT ") + kJobColumns + " FROM jobs WHERE id = ?");
   row.Bind(id);
   if (!row.Step()) return std::nullopt;
   return ReadJob(row);
 }
 
-JobPage SelectPage(const Database& database, const JobQuery& query) {
+std::optional<Job> SelectJobToChange(const SqlDatabase& database, const std::string& id) {
+  Statement row(database, std::string("SELECT ") + kJobColumns + " FROM jobs WHERE id = ?" +
+                              database.dialect().lock_rows);
+  row.Bind(id);
+  if (!row.Step()) return std::nullopt;
+  return ReadJob(row);
+}
+
+JobPage SelectPage(const SqlDatabase& database, const JobQuery& query) {
   const Conditions conditions = ConditionsOf(query);
-  Statement rows(database, std::string("SELECT ") + kJobColumns + " FROM jobs WHERE 1" +
+  Statement rows(database, std::string("SELECT ") + kJobColumns + " FROM jobs WHERE 1 = 1" +
                                conditions.text + " ORDER BY id DESC LIMIT ?");
   for (const auto& value : conditions.values) {
     std::visit([&rows](const auto& one) { rows.Bind(one); }, value);
@@ -155,7 +163,16 @@ JobPage SelectPage(const Database& database, const JobQuery& query) {
   return page;
 }
 
-std::string InsertJob(const Database& database, const NewJob& job, std::int64_t now_ms) {
+UnfinishedJobs CountUnfinishedJobs(const SqlDatabase& database) {
+  Statement count(database,
+                  "SELECT count(*) FILTER (WHERE state = 'accepted'), "
+                  "count(*) FILTER (WHERE state = 'running') "
+                  "FROM jobs WHERE state IN ('accepted', 'running')");
+  count.Step();
+  return {count.Integer(0), count.Integer(1)};
+}
+
+std::string InsertJob(const SqlDatabase& database, const NewJob& job, std::int64_t now_ms) {
   Statement newest(database, "SELECT max(id) FROM jobs");
   const std::string last = newest.Step() ? newest.Text(0) : "";
   const std::string id = IsJobId(last) ? NextJobId(now_ms, last) : NewJobId(now_ms);
@@ -165,7 +182,7 @@ std::string InsertJob(const Database& database, const NewJob& job, std::int64_t 
                    "timeout_seconds, cost_memory_bytes, cost_seconds, process, answer, owner, "
                    "deadline_ms) "
                    "VALUES (?, 'accepted', ?, ?, ?, ?, ?, ?, ?, ?, 'waiting', ?, ?, ?, ?, ?, ?, ?, "
-                   "nullif(?, 0))");
+                   "nullif(CAST(? AS BIGINT), 0))");
   insert.Bind(id).Bind(job.filename).Bind(EncodeQuery(job.parameters));
   insert.Bind(job.input_sha256).Bind(job.input_bytes).Bind(now_ms).Bind(now_ms);
   insert.Bind(AssumptionsColumn(job.assumptions)).Bind(job.client);
@@ -177,13 +194,13 @@ std::string InsertJob(const Database& database, const NewJob& job, std::int64_t 
   return id;
 }
 
-StoreIdentity SelectIdentity(const Database& database) {
+StoreIdentity SelectIdentity(const SqlDatabase& database) {
   Statement row(database, "SELECT id, generation FROM store");
   if (!row.Step()) return {};
   return {row.Text(0), row.Integer(1)};
 }
 
-std::vector<Artifact> SelectArtifacts(const Database& database, const std::string& id) {
+std::vector<Artifact> SelectArtifacts(const SqlDatabase& database, const std::string& id) {
   Statement rows(database,
                  "SELECT name, media_type, bytes, sha256, gzip_sha256, gzip_bytes FROM artifacts "
                  "WHERE job_id = ? ORDER BY name");
@@ -196,10 +213,13 @@ std::vector<Artifact> SelectArtifacts(const Database& database, const std::strin
   return artifacts;
 }
 
-void InsertArtifact(const Database& database, const std::string& id, const Artifact& artifact) {
-  Statement insert(database,
-                   "INSERT INTO artifacts (job_id, name, media_type, bytes, sha256, gzip_sha256, "
-                   "gzip_bytes) VALUES (?, ?, ?, ?, ?, ?, ?)");
+void InsertArtifact(const SqlDatabase& database, const std::string& id, const Artifact& artifact) {
+  const std::string columns = "job_id, name, media_type, bytes, sha256";
+  Statement insert(
+      database, artifact.gzip ? "INSERT INTO artifacts (" + columns +
+                                    ", gzip_sha256, gzip_bytes) "
+                                    "VALUES (?, ?, ?, ?, ?, ?, ?)"
+                              : "INSERT INTO artifacts (" + columns + ") VALUES (?, ?, ?, ?, ?)");
   insert.Bind(id).Bind(artifact.name).Bind(artifact.media_type);
   insert.Bind(artifact.bytes).Bind(artifact.sha256);
   if (artifact.gzip) insert.Bind(artifact.gzip->sha256).Bind(artifact.gzip->bytes);

@@ -1,58 +1,20 @@
-// The properties of every JobStore. A new implementation adds a line to INSTANTIATE_TEST_SUITE_P.
+// The properties of every JobStore.
+#include "tests/service/jobs/job_store_conformance.h"
+
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <condition_variable>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <set>
 #include <thread>
-#include <vector>
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include "service/jobs/sqlite.h"
-#include "service/jobs/sqlite_job_store.h"
-#include "tests/support/temp_dir.h"
 
 namespace farhorizon {
 namespace {
-
-using OpenJobs = std::function<Result<std::unique_ptr<JobStore>>(const std::filesystem::path&)>;
-
-class JobStoreConformance : public testing::TestWithParam<OpenJobs> {
- protected:
-  void SetUp() override { Reopen(); }
-  void Reopen() {
-    store_.reset();
-    auto opened = GetParam()(folder_.path());
-    ASSERT_TRUE(opened) << opened.error().message;
-    store_ = *std::move(opened);
-  }
-  Job Insert(const std::string& content = "a", std::optional<std::string> key = {}) {
-    NewJob job{"dem.tif", {{"levels", "2"}}, std::string(64, content[0]), 5, std::move(key)};
-    auto inserted = store_->Insert(job, {}, ++time_);
-    EXPECT_TRUE(inserted);
-    return *inserted;
-  }
-  Job InsertOf(const std::string& client) {
-    auto inserted =
-        store_->Insert({"dem.tif", {}, std::string(64, 'a'), 5, {}, {}, client}, {}, ++time_);
-    EXPECT_TRUE(inserted);
-    return *inserted;
-  }
-  void Succeed(const Job& job) { EXPECT_TRUE(*store_->Publish(job.id, job.run, {}, {}, ++time_)); }
-  Job Claim() {
-    auto claimed = store_->ClaimNext(++time_, {});
-    EXPECT_TRUE(claimed && *claimed);
-    return **claimed;
-  }
-  JobState StateOf(const Job& job) { return store_->Find(job.id)->state; }
-
-  TempDir folder_;
-  std::unique_ptr<JobStore> store_;
-  std::int64_t time_ = 1'700'000'000'000;
-};
 
 TEST_P(JobStoreConformance, KeepsAJobOverAReopen) {
   const Job job = Insert();
@@ -66,20 +28,29 @@ TEST_P(JobStoreConformance, KeepsAJobOverAReopen) {
 }
 
 TEST_P(JobStoreConformance, TellsOfEveryChange) {
+  std::mutex mutex;
+  std::condition_variable news;
   std::vector<std::string> told;
-  store_->OnChange([&](const std::string& id) { told.push_back(id); });
-  // A store that many use may tell later, or more than once.
+  store_->OnChange([&](const std::string& id) {
+    const std::lock_guard lock(mutex);
+    told.push_back(id);
+    news.notify_all();
+  });
+  // A store that several share tells later, from a thread of its own, and once at its beginning.
+  store_->Listen([](StoreNews) {});
   const auto tells_of = [&](const std::string& id) {
-    for (int tries = 0; told.empty() && tries < 500; ++tries) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
-    const bool was_told =
-        std::any_of(told.begin(), told.end(), [&](auto& one) { return one.empty() || one == id; });
+    std::unique_lock lock(mutex);
+    const bool was_told = news.wait_for(lock, std::chrono::seconds(10), [&] {
+      return std::any_of(told.begin(), told.end(),
+                         [&](auto& one) { return one.empty() || one == id; });
+    });
     told.clear();
     return was_told;
   };
+  if (store_->LeaseTime()) {
+    ASSERT_TRUE(tells_of(""));
+  }
   const Job job = Insert();
-  told.clear();
   Job claimed = Claim();
   EXPECT_TRUE(tells_of(job.id));
   const auto check = [&](const char* what, const Result<bool>& changed) {
@@ -100,11 +71,13 @@ TEST_P(JobStoreConformance, TellsOfEveryChange) {
   check("failure",
         store_->Fail(job.id, claimed.run, {ErrorCode::kIo, "x", "internal-error"}, ++time_));
   EXPECT_FALSE(*store_->ReportProgress(job.id, claimed.run, 6, "sweep", ++time_));
-  EXPECT_TRUE(told.empty()) << "nothing was changed";
+  {
+    const std::lock_guard lock(mutex);
+    EXPECT_TRUE(told.empty()) << "nothing was changed";
+  }
   ASSERT_TRUE(store_->Dismiss(job.id, ++time_));
   EXPECT_TRUE(tells_of(job.id)) << "removal";
   const Job other = Insert("b");
-  told.clear();
   claimed = Claim();
   EXPECT_TRUE(tells_of(other.id));
   ASSERT_TRUE(*store_->RecoverRunning(PreviousEnd::kOrderly, ++time_));
@@ -559,13 +532,7 @@ TEST_P(JobStoreConformance, AJobThatMustRunAloneLetsOthersPassForAWhile) {
   Reopen();
   ASSERT_TRUE(store_->RecoverRunning(PreviousEnd::kCrashed, ++time_));
   const Job running = InsertOf("another");
-  {
-    // Started before it: as of a slot that took a job while the service came up.
-    Database database;
-    database.Open(folder_ / "jobs.sqlite");
-    database.Execute(
-        "UPDATE jobs SET state = 'running', run = 1, attempt = 1 WHERE client = 'another'");
-  }
+  storage_->Start("another");  // as a slot that took a job while the service came up
   const Job passing = InsertOf("third");
   EXPECT_EQ(Claim().id, passing.id);
   InsertOf("third");
@@ -577,29 +544,6 @@ TEST_P(JobStoreConformance, AJobThatMustRunAloneLetsOthersPassForAWhile) {
   ASSERT_TRUE(*store_->Publish(passing.id, 1, {}, {}, ++time_));
   EXPECT_EQ(Claim().id, suspect.id);
 }
-
-class Choice : public JobStoreConformance {
- protected:
-  std::string With(const JobTerms& terms, const std::string& client = "") {
-    auto job =
-        store_->Insert({"a", {}, std::string(64, 'a'), 5, {}, {}, client, terms, {}}, {}, ++time_);
-    EXPECT_TRUE(job);
-    return job->id;
-  }
-  std::string Costing(std::int64_t memory_bytes, const std::string& client = "") {
-    auto job = store_->Insert(
-        {"a", {}, std::string(64, 'a'), 5, {}, {}, client, {}, {memory_bytes, 1}}, {}, ++time_);
-    EXPECT_TRUE(job);
-    return job->id;
-  }
-  // The id of the job that starts where so much memory is free; "" for none.
-  std::string Next(std::int64_t free_bytes = 100) {
-    auto job = store_->ClaimNext(++time_, {free_bytes, 100});
-    EXPECT_TRUE(job);
-    return *job ? (*job)->id : "";
-  }
-  void End(const std::string& id) { EXPECT_TRUE(*store_->Publish(id, 1, {}, {}, ++time_)); }
-};
 
 TEST_P(Choice, TakesTheHighestPriorityAndThereTheFairShare) {
   const std::string low = With({Priority::kLow}, "a");
@@ -694,28 +638,6 @@ TEST_P(Choice, AKeyWithOtherTermsIsAnotherSubmission) {
   }
 }
 
-class Expiry : public JobStoreConformance {
- protected:
-  std::string Done(std::int64_t bytes) {
-    Insert();
-    const Job job = Claim();
-    EXPECT_TRUE(*store_->Publish(job.id, job.run, {{"a", "x/y", bytes, std::string(64, 'b')}}, {},
-                                 ++time_));
-    return job.id;
-  }
-  std::vector<std::string> Left() {
-    std::vector<std::string> ids;
-    const auto page = store_->List({{}, {}, 100});
-    for (const Job& job : page->jobs) ids.insert(ids.begin(), job.id);
-    return ids;
-  }
-  std::int64_t Remove(const Retention& retention) {
-    const auto removed = store_->RemoveExpired(retention, time_);
-    EXPECT_TRUE(removed);
-    return *removed;
-  }
-};
-
 TEST_P(Expiry, IsByAge) {
   const std::string old = Done(1);
   time_ += 10'000;
@@ -744,105 +666,6 @@ TEST_P(Expiry, IsByBytesOldestFirst) {
   EXPECT_EQ(Remove({0, 0, 250}), 2);
   EXPECT_EQ(Left(), (std::vector<std::string>{jobs[2], jobs[3]}));
   EXPECT_EQ(Remove({0, 0, 250}), 0);
-}
-
-INSTANTIATE_TEST_SUITE_P(Sqlite, JobStoreConformance,
-                         testing::Values([](const std::filesystem::path& folder) {
-                           return OpenSqliteJobStore(folder / "jobs.sqlite");
-                         }));
-INSTANTIATE_TEST_SUITE_P(Sqlite, Choice, testing::Values([](const std::filesystem::path& folder) {
-                           return OpenSqliteJobStore(folder / "jobs.sqlite");
-                         }));
-INSTANTIATE_TEST_SUITE_P(Sqlite, Expiry, testing::Values([](const std::filesystem::path& folder) {
-                           return OpenSqliteJobStore(folder / "jobs.sqlite");
-                         }));
-
-TEST(SqliteJobStore, RefusesAFileOfANewerVersion) {
-  const TempDir folder;
-  const auto path = folder / "jobs.sqlite";
-  ASSERT_TRUE(OpenSqliteJobStore(path));
-  {
-    Database database;
-    database.Open(path);
-    database.Execute("PRAGMA user_version = 1000;");
-  }
-  auto opened = OpenSqliteJobStore(path);
-  ASSERT_FALSE(opened);
-  EXPECT_NE(opened.error().message.find("newer farhorizon"), std::string::npos);
-}
-
-TEST(SqliteJobStore, GoesOnWithAFirstStartThatWasCutOffBeforeItsTables) {
-  const TempDir folder;
-  const auto path = folder / "jobs.sqlite";
-  {
-    Database database;
-    database.Open(path);
-    database.Execute("PRAGMA journal_mode = WAL;");  // writes the first page
-    ASSERT_GT(database.Pragma("page_count"), 0);
-  }
-  EXPECT_TRUE(OpenSqliteJobStore(path));
-}
-
-TEST(SqliteJobStore, RefusesADatabaseOfAnotherProgram) {
-  const TempDir folder;
-  const auto path = folder / "jobs.sqlite";
-  {
-    Database database;
-    database.Open(path);
-    database.Execute("CREATE TABLE theirs (x);");
-  }
-  auto opened = OpenSqliteJobStore(path);
-  ASSERT_FALSE(opened);
-  EXPECT_NE(opened.error().message.find("no job store of farhorizon"), std::string::npos);
-}
-
-TEST(SqliteJobStore, NeverStartsAfreshOverAFileThatItCannotRead) {
-  const TempDir folder;
-  const auto path = folder / "jobs.sqlite";
-  SpillFile(path, std::string(8192, 'x'));
-  auto opened = OpenSqliteJobStore(path);
-  ASSERT_FALSE(opened);
-  EXPECT_NE(opened.error().message.find("backup"), std::string::npos);
-  EXPECT_EQ(SlurpFile(path), std::string(8192, 'x'));
-}
-
-TEST(SqliteJobStore, ADamagedRowHidesNoOtherAndDoesNotRun) {
-  const TempDir folder;
-  const auto path = folder / "jobs.sqlite";
-  auto store = OpenSqliteJobStore(path);
-  ASSERT_TRUE(store);
-  for (const char* name : {"a", "b"}) {
-    ASSERT_TRUE((*store)->Insert({name, {}, std::string(64, 'a'), 1, {}}, {}, 1));
-  }
-  store = OpenSqliteJobStore(folder / "other.sqlite");  // closes the file
-  {
-    Database database;
-    database.Open(path);
-    database.Execute(
-        "UPDATE jobs SET parameters = '%', timings = '[', assumptions = '{\"a\":[[' || char(0) "
-        "WHERE filename = 'a'");
-  }
-  store = OpenSqliteJobStore(path);
-  ASSERT_TRUE(store);
-  EXPECT_EQ((*store)->List({{}, {}, 10})->jobs.size(), 2U);
-  const auto claimed = (*store)->ClaimNext(2, {});
-  ASSERT_TRUE(claimed && *claimed);
-  ASSERT_TRUE((*claimed)->failure) << "its parameters are lost: it must not run with others";
-  EXPECT_EQ((*claimed)->failure->kind, "job-store");
-}
-
-TEST(SqliteJobStore, SeesAByteTurnedInItsPages) {
-  const TempDir folder;
-  const auto path = folder / "jobs.sqlite";
-  {
-    auto store = OpenSqliteJobStore(path);
-    ASSERT_TRUE(store);
-    ASSERT_TRUE((*store)->Insert({"a", {}, std::string(64, 'a'), 1, {}}, {}, 1));
-  }
-  std::string bytes = SlurpFile(path);
-  for (std::size_t i = 4096; i < 4096 + 64 && i < bytes.size(); ++i) bytes[i] = '\x5A';
-  SpillFile(path, bytes);
-  EXPECT_FALSE(OpenSqliteJobStore(path));
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 // Jobs on their way in, and out without a run: the bound of the queue, deadlines, and what happens
 // to those that ran when a process ended.
-#include "service/jobs/sqlite_queue.h"
+#include "service/jobs/sql_queue.h"
 
-#include "service/jobs/sqlite_rows.h"
+#include "service/jobs/sql_rows.h"
 
 namespace farhorizon {
 
@@ -24,7 +24,7 @@ bool HasTerms(const Job& job, const JobTerms& terms) {
 }
 
 // The job `id`, which an earlier submission with the idempotency key of `job` has made.
-Result<Job> EarlierJob(const Database& database, const std::string& id, const NewJob& job) {
+Result<Job> EarlierJob(const SqlDatabase& database, const std::string& id, const NewJob& job) {
   const std::optional<Job> earlier = SelectJob(database, id);
   if (earlier && earlier->input_sha256 == job.input_sha256 && earlier->filename == job.filename &&
       earlier->parameters == job.parameters && HasTerms(*earlier, job.terms) &&
@@ -37,6 +37,11 @@ Result<Job> EarlierJob(const Database& database, const std::string& id, const Ne
                "idempotency-key-reused"};
 }
 
+std::string OwnRuns(const SqlDatabase& database) {
+  const std::string& own = database.dialect().own_runs;
+  return own.empty() ? "" : " AND " + own;
+}
+
 Error Full(std::int64_t waiting, const std::string& whose, ErrorKind kind) {
   return {
       ErrorCode::kResourceExhausted,
@@ -46,16 +51,8 @@ Error Full(std::int64_t waiting, const std::string& whose, ErrorKind kind) {
 
 }  // namespace
 
-UnfinishedJobs CountQueue(const Database& database) {
-  Statement count(database,
-                  "SELECT count(*) FILTER (WHERE state = 'accepted'), "
-                  "count(*) FILTER (WHERE state = 'running') "
-                  "FROM jobs WHERE state IN ('accepted', 'running')");
-  count.Step();
-  return {count.Integer(0), count.Integer(1)};
-}
-
-Status CheckQueue(const Database& database, const std::string& client, const QueueBounds& bounds) {
+Status CheckQueue(const SqlDatabase& database, const std::string& client,
+                  const QueueBounds& bounds) {
   Statement own(database, "SELECT count(*) FROM jobs WHERE state = 'accepted' AND client = ?");
   own.Bind(client).Step();
   if (own.Integer(0) >= bounds.of_client && bounds.of_client < bounds.all) {
@@ -67,7 +64,7 @@ Status CheckQueue(const Database& database, const std::string& client, const Que
   return Ok{};
 }
 
-Result<Job> InsertInQueue(const Database& database, const NewJob& job, const QueueBounds& bounds,
+Result<Job> InsertInQueue(const SqlDatabase& database, const NewJob& job, const QueueBounds& bounds,
                           std::int64_t now_ms) {
   if (job.idempotency_key) {
     Statement(database, "DELETE FROM idempotency_keys WHERE created_ms < ?")
@@ -91,7 +88,7 @@ Result<Job> InsertInQueue(const Database& database, const NewJob& job, const Que
   return *std::move(stored);
 }
 
-std::vector<std::string> FailOverdueJobs(Database& database, std::int64_t now_ms) {
+std::vector<std::string> FailOverdueJobs(SqlDatabase& database, std::int64_t now_ms) {
   // Without a transaction where there is nothing to do, as nearly always.
   if (!Statement(database, "SELECT 1 FROM jobs WHERE state = 'accepted' AND deadline_ms <= ?")
            .Bind(now_ms)
@@ -115,14 +112,16 @@ std::vector<std::string> FailOverdueJobs(Database& database, std::int64_t now_ms
   return ids;
 }
 
-std::int64_t RecoverJobs(Database& database, PreviousEnd end, std::int64_t now_ms) {
+std::int64_t RecoverJobs(SqlDatabase& database, PreviousEnd end, std::int64_t now_ms) {
   Transaction transaction(database);
   // That these jobs ran was stored before their work began. So a crash counts even where the
   // process could not do anything more.
-  Statement poison(database,
-                   "UPDATE jobs SET state = 'failed', message = ?, failure_code = ?, "
-                   "failure_kind = ?, failure_message = ?, finished_ms = ?, updated_ms = ? "
-                   "WHERE state = 'running' AND (crashes + ? >= ? OR attempt >= ?)");
+  Statement poison(
+      database,
+      std::string("UPDATE jobs SET state = 'failed', message = ?, failure_code = ?, "
+                  "failure_kind = ?, failure_message = ?, finished_ms = ?, updated_ms = ? "
+                  "WHERE state = 'running' AND (crashes + ? >= ? OR attempt >= ?)") +
+          OwnRuns(database));
   const Error failure = {ErrorCode::kIo,
                          "the service died again and again while this job ran; the fault is ours, "
                          "the DEM that shows it is worth a report",
@@ -134,7 +133,8 @@ std::int64_t RecoverJobs(Database& database, PreviousEnd end, std::int64_t now_m
   Statement again(database,
                   "UPDATE jobs SET state = 'accepted', message = 'waiting to run again', "
                   "crashes = crashes + ?, attempt = attempt - ?, updated_ms = ? "
-                  "WHERE state = 'running'");
+                  "WHERE state = 'running'" +
+                      OwnRuns(database));
   again.Bind(std::int64_t{end == PreviousEnd::kCrashed ? 1 : 0});
   again.Bind(std::int64_t{end == PreviousEnd::kOrderly ? 1 : 0}).Bind(now_ms);
   const std::int64_t count = again.Run();

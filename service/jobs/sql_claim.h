@@ -6,7 +6,7 @@
 #include <string>
 
 #include "service/jobs/job_store.h"
-#include "service/jobs/sqlite.h"
+#include "service/jobs/sql.h"
 
 namespace farhorizon {
 
@@ -25,7 +25,7 @@ class StartTurns {
 };
 
 /// As JobStore::ClaimNext has it.
-std::optional<Job> ClaimJob(Database& database, StartTurns& turns, const MemoryRoom& room,
+std::optional<Job> ClaimJob(SqlDatabase& database, StartTurns& turns, const MemoryRoom& room,
                             std::int64_t now_ms);
 
 }  // namespace farhorizon

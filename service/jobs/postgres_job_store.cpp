@@ -1,0 +1,503 @@
+// The shared job store: the statements are those of the embedded one (sql_queue.h, sql_claim.h,
+// sql_runs.h, sql_removal.h, sql_rows.h) in PostgreSQL's dialect; here is what several processes
+// need beside.
+#include "service/jobs/postgres_job_store.h"
+
+#include <algorithm>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include "service/jobs/postgres.h"
+#include "service/jobs/postgres_listener.h"
+#include "service/jobs/postgres_pool.h"
+#include "service/jobs/postgres_schema.h"
+#include "service/jobs/sql_claim.h"
+#include "service/jobs/sql_queue.h"
+#include "service/jobs/sql_removal.h"
+#include "service/jobs/sql_rows.h"
+#include "service/jobs/sql_runs.h"
+
+namespace farhorizon {
+
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr PostgresTimes kTimesOfCalls{milliseconds(5000), milliseconds(3000)};
+// A pin waits until objects are removed.
+constexpr PostgresTimes kTimesOfPins{milliseconds(25'000), milliseconds(20'000)};
+constexpr milliseconds kGrace{2000};  // for a network that is slow
+// So long those who store objects wait for one who would like to remove some.
+constexpr const char* kHaltTimeout = "SET LOCAL lock_timeout = 2000";
+constexpr std::int64_t kPinLock = 1'179'142'740;
+constexpr std::int64_t kMostLost = 10;
+// As StartTurns forgets clients in memory.
+constexpr std::int64_t kTurnsKept = 10'000;
+
+SqlDialect DialectOf(const PostgresStoreOptions& options) {
+  SqlDialect dialect;
+  dialect.greatest = "greatest";
+  dialect.least = "least";
+  dialect.lock_rows = " FOR UPDATE";
+  dialect.lock_free = " FOR UPDATE SKIP LOCKED";
+  dialect.lock_queue = "SELECT pg_advisory_xact_lock(1179142741)";
+  dialect.own_runs = "holder = '" + options.holder + "'";
+  dialect.claim = ", holder = '" + options.holder + "', lease_until = clock_timestamp() + " +
+                  std::to_string(options.lease.count()) + " * interval '1 millisecond'";
+  dialect.turn_of = "coalesce((SELECT turn FROM turns WHERE turns.client = waiting.client), 0)";
+  dialect.serve_client =
+      "INSERT INTO turns (client, turn) VALUES (?, nextval('turn')) "
+      "ON CONFLICT (client) DO UPDATE SET turn = excluded.turn";
+  return dialect;
+}
+
+void Tell(const SqlDatabase& database, const char* news) {
+  Statement(database, std::string("SELECT pg_notify('") + kNewsChannel + "', '" + news + "')")
+      .Run();
+}
+
+class PostgresJobStore : public JobStore {
+ public:
+  explicit PostgresJobStore(PostgresStoreOptions options);
+  Status Open();
+
+  Result<Job> Insert(const NewJob& job, const QueueBounds& bounds, std::int64_t now_ms) override;
+  Status CheckQueue(const std::string& client, const QueueBounds& bounds) override;
+  Result<Job> Find(const std::string& id) override;
+  Result<JobPage> List(const JobQuery& query) override;
+  Result<UnfinishedJobs> CountUnfinished() override;
+  Result<std::optional<Job>> ClaimNext(std::int64_t now_ms, const MemoryRoom& room) override;
+  Result<std::vector<std::string>> FailOverdue(std::int64_t now_ms) override;
+  Result<bool> ReportProgress(const std::string& id, std::int64_t run, int progress,
+                              const std::string& message, std::int64_t now_ms) override;
+  Result<bool> ReportAssumptions(const std::string& id, std::int64_t run,
+                                 const Assumptions& assumptions, std::int64_t now_ms) override;
+  Result<bool> Publish(const std::string& id, std::int64_t run,
+                       const std::vector<Artifact>& artifacts,
+                       const std::map<std::string, double>& timings, std::int64_t now_ms) override;
+  Result<bool> Fail(const std::string& id, std::int64_t run, const Error& failure,
+                    std::int64_t now_ms) override;
+  Result<bool> Requeue(const std::string& id, std::int64_t run, RequeueReason reason,
+                       std::int64_t now_ms) override;
+  Result<bool> RequeueWithMemory(const std::string& id, std::int64_t run, std::int64_t memory_bytes,
+                                 std::int64_t now_ms) override;
+  Result<bool> Postpone(const std::string& id, std::int64_t run, std::int64_t delay_ms,
+                        std::int64_t now_ms) override;
+  Result<Job> Dismiss(const std::string& id, std::int64_t now_ms) override;
+  Result<std::int64_t> RemoveExpired(const Retention& retention, std::int64_t now_ms) override;
+  Result<std::int64_t> RecoverRunning(PreviousEnd end, std::int64_t now_ms) override;
+  Result<std::vector<Artifact>> Artifacts(const std::string& id) override;
+  Result<bool> IsReferenced(const std::string& sha256) override;
+  Result<std::vector<std::string>> Garbage() override;
+  Status ForgetGarbage(const std::vector<std::string>& names) override;
+  Result<StoreIdentity> Identity() override;
+  Result<StoreIdentity> BeginGeneration() override;
+  Status Ping() override;
+
+  [[nodiscard]] std::optional<milliseconds> LeaseTime() const override { return options_.lease; }
+  Result<std::vector<std::string>> Hold(const std::vector<HeldRun>& runs) override;
+  Result<std::int64_t> RecoverLost(std::int64_t now_ms) override;
+  void Listen(std::function<void(StoreNews)> handler) override;
+  Result<std::unique_ptr<ObjectLock>> PinObjects() override;
+  Result<std::unique_ptr<ObjectLock>> HaltPins(bool wait) override;
+
+ private:
+  class Pin;
+
+  // Runs work(connection): over that of this thread's pin, or one of the pool. Returns a SqlFailure
+  // as its Error.
+  template <typename Work>
+  auto Guarded(Work work) -> decltype(work(std::declval<PostgresDatabase&>())) {
+    try {
+      if (PostgresPool::Loan* pin = PinOfThread()) return pin->Run(work);
+      return calls_.Run(work);
+    } catch (SqlFailure& failure) {
+      return std::move(failure.error);
+    }
+  }
+  // The same for work that has no Error of its own to return.
+  template <typename Work>
+  auto Call(Work work) -> Result<decltype(work(std::declval<PostgresDatabase&>()))> {
+    return Guarded([&](PostgresDatabase& database)
+                       -> Result<decltype(work(std::declval<PostgresDatabase&>()))> {
+      return work(database);
+    });
+  }
+  // The same for one statement that writes, in a transaction: what is lost before its commit was
+  // not done.
+  template <typename Work>
+  auto Write(Work work) -> Result<decltype(work(std::declval<PostgresDatabase&>()))> {
+    return Call([&](PostgresDatabase& database) {
+      Transaction transaction(database);
+      auto result = work(database);
+      transaction.Commit();
+      return result;
+    });
+  }
+  // The time for a row that is written now: never before one that the store had when this was
+  // called.
+  static std::int64_t Later(const SqlDatabase& database, std::int64_t now_ms) {
+    Statement latest(database, "SELECT max(updated_ms) FROM jobs");
+    return latest.Step() ? std::max(now_ms, latest.Integer(0)) : now_ms;
+  }
+  PostgresPool::Loan* PinOfThread() {
+    const std::lock_guard lock(mutex_);
+    const auto found = pinned_.find(std::this_thread::get_id());
+    return found == pinned_.end() ? nullptr : found->second;
+  }
+
+  const PostgresStoreOptions options_;
+  const SqlDialect dialect_;
+  PostgresPool calls_;
+  PostgresPool pins_;
+  std::mutex mutex_;
+  std::map<std::thread::id, PostgresPool::Loan*> pinned_;
+  std::mutex claims_;  // of this process follow one another: turns_ is theirs
+  StartTurns turns_;
+  std::unique_ptr<PostgresListener> news_;
+};
+
+PostgresPool::Connect ConnectTo(const PostgresStoreOptions& options, const PostgresTimes& times) {
+  return [url = options.url, times, dialect = DialectOf(options)] {
+    return std::make_unique<PostgresDatabase>(url, times, dialect);
+  };
+}
+
+PostgresJobStore::PostgresJobStore(PostgresStoreOptions options)
+    : options_(std::move(options)),
+      dialect_(DialectOf(options_)),
+      calls_(ConnectTo(options_, kTimesOfCalls), options_.connections,
+             kTimesOfCalls.statement + kGrace),
+      pins_(ConnectTo(options_, kTimesOfPins), options_.connections,
+            kTimesOfPins.statement + kGrace) {}
+
+Status PostgresJobStore::Open() {
+  try {
+    // Without a bound: a migration of many rows takes its time.
+    PostgresDatabase database(options_.url, kTimesOfCalls, dialect_);
+    PreparePostgresSchema(database);
+    return Ok{};
+  } catch (SqlFailure& failure) {
+    if (failure.error.kind == "job-store-unusable") return std::move(failure.error);
+    return Error{ErrorCode::kIo,
+                 failure.error.message +
+                     " (store.jobs); see that the server runs, and that the user may connect and "
+                     "make the schema farhorizon",
+                 "job-store-unusable"};
+  }
+}
+
+Result<Job> PostgresJobStore::Insert(const NewJob& job, const QueueBounds& bounds,
+                                     std::int64_t now_ms) {
+  return Guarded([&](PostgresDatabase& database) -> Result<Job> {
+    Transaction transaction(database);
+    Statement(database, dialect_.lock_queue).Run();
+    Result<Job> stored = InsertInQueue(database, job, bounds, Later(database, now_ms));
+    if (!stored) return stored;
+    Tell(database, kNewsJobWaits);
+    transaction.Commit();
+    return stored;
+  });
+}
+
+Status PostgresJobStore::CheckQueue(const std::string& client, const QueueBounds& bounds) {
+  return Guarded([&](PostgresDatabase& database) -> Status {
+    return farhorizon::CheckQueue(database, client, bounds);
+  });
+}
+
+Result<Job> PostgresJobStore::Find(const std::string& id) {
+  return Guarded([&](PostgresDatabase& database) -> Result<Job> {
+    std::optional<Job> job = SelectJob(database, id);
+    if (!job) return NoSuchJob();
+    return *std::move(job);
+  });
+}
+
+Result<JobPage> PostgresJobStore::List(const JobQuery& query) {
+  return Call([&](PostgresDatabase& database) { return SelectPage(database, query); });
+}
+
+Result<UnfinishedJobs> PostgresJobStore::CountUnfinished() {
+  return Call([](PostgresDatabase& database) { return CountUnfinishedJobs(database); });
+}
+
+Result<std::optional<Job>> PostgresJobStore::ClaimNext(std::int64_t now_ms,
+                                                       const MemoryRoom& room) {
+  const std::lock_guard lock(claims_);
+  return Call([&](PostgresDatabase& database) {
+    return ClaimJob(database, turns_, room, Later(database, now_ms));
+  });
+}
+
+Result<std::vector<std::string>> PostgresJobStore::FailOverdue(std::int64_t now_ms) {
+  return Call([&](PostgresDatabase& database) {
+    return FailOverdueJobs(database, Later(database, now_ms));
+  });
+}
+
+Result<bool> PostgresJobStore::ReportProgress(const std::string& id, std::int64_t run, int progress,
+                                              const std::string& message, std::int64_t now_ms) {
+  return Write([&](PostgresDatabase& database) {
+    return StoreProgress(database, {id, run, Later(database, now_ms)}, progress, message);
+  });
+}
+
+Result<bool> PostgresJobStore::ReportAssumptions(const std::string& id, std::int64_t run,
+                                                 const Assumptions& assumptions,
+                                                 std::int64_t now_ms) {
+  return Write([&](PostgresDatabase& database) {
+    return StoreAssumptions(database, {id, run, Later(database, now_ms)}, assumptions);
+  });
+}
+
+Result<bool> PostgresJobStore::Publish(const std::string& id, std::int64_t run,
+                                       const std::vector<Artifact>& artifacts,
+                                       const std::map<std::string, double>& timings,
+                                       std::int64_t now_ms) {
+  return Call([&](PostgresDatabase& database) {
+    return PublishRun(database, {id, run, Later(database, now_ms)}, artifacts, timings);
+  });
+}
+
+Result<bool> PostgresJobStore::Fail(const std::string& id, std::int64_t run, const Error& failure,
+                                    std::int64_t now_ms) {
+  return Write([&](PostgresDatabase& database) {
+    return FailRun(database, {id, run, Later(database, now_ms)}, failure);
+  });
+}
+
+Result<bool> PostgresJobStore::Requeue(const std::string& id, std::int64_t run,
+                                       RequeueReason reason, std::int64_t now_ms) {
+  return Write([&](PostgresDatabase& database) {
+    Tell(database, kNewsJobWaits);
+    return RequeueRun(database, {id, run, Later(database, now_ms)}, reason);
+  });
+}
+
+Result<bool> PostgresJobStore::RequeueWithMemory(const std::string& id, std::int64_t run,
+                                                 std::int64_t memory_bytes, std::int64_t now_ms) {
+  return Write([&](PostgresDatabase& database) {
+    return farhorizon::RequeueWithMemory(database, {id, run, Later(database, now_ms)},
+                                         memory_bytes);
+  });
+}
+
+Result<bool> PostgresJobStore::Postpone(const std::string& id, std::int64_t run,
+                                        std::int64_t delay_ms, std::int64_t now_ms) {
+  return Write([&](PostgresDatabase& database) {
+    return PostponeRun(database, {id, run, Later(database, now_ms)}, delay_ms);
+  });
+}
+
+Result<Job> PostgresJobStore::Dismiss(const std::string& id, std::int64_t now_ms) {
+  Result<Job> dismissed = Guarded([&](PostgresDatabase& database) -> Result<Job> {
+    return DismissJob(database, id, Later(database, now_ms));
+  });
+  if (!dismissed) return dismissed;
+  // What is not heard of here is heard of when the lease is next renewed.
+  [[maybe_unused]] const Result<bool> told = Call([](PostgresDatabase& database) {
+    Tell(database, kNewsRunEnded);
+    return true;
+  });
+  return dismissed;
+}
+
+Result<std::int64_t> PostgresJobStore::RemoveExpired(const Retention& retention,
+                                                     std::int64_t now_ms) {
+  return Call([&](PostgresDatabase& database) {
+    Statement(database, "DELETE FROM turns WHERE turn < (SELECT last_value FROM turn) - ?")
+        .Bind(kTurnsKept)
+        .Run();
+    return RemoveExpiredJobs(database, retention, now_ms);
+  });
+}
+
+Result<std::int64_t> PostgresJobStore::RecoverRunning(PreviousEnd end, std::int64_t now_ms) {
+  return Call([&](PostgresDatabase& database) {
+    return RecoverJobs(database, end, Later(database, now_ms));
+  });
+}
+
+Result<std::vector<Artifact>> PostgresJobStore::Artifacts(const std::string& id) {
+  return Call([&](PostgresDatabase& database) { return SelectArtifacts(database, id); });
+}
+
+Result<bool> PostgresJobStore::IsReferenced(const std::string& sha256) {
+  return Call(
+      [&](PostgresDatabase& database) { return farhorizon::IsReferenced(database, sha256); });
+}
+
+Result<std::vector<std::string>> PostgresJobStore::Garbage() {
+  return Call([](PostgresDatabase& database) { return SelectGarbage(database); });
+}
+
+Status PostgresJobStore::ForgetGarbage(const std::vector<std::string>& names) {
+  return Guarded([&](PostgresDatabase& database) -> Status {
+    farhorizon::ForgetGarbage(database, names);
+    return Ok{};
+  });
+}
+
+Result<StoreIdentity> PostgresJobStore::Identity() {
+  return Call([](PostgresDatabase& database) { return SelectIdentity(database); });
+}
+
+Result<StoreIdentity> PostgresJobStore::BeginGeneration() {
+  return Write([](PostgresDatabase& database) {
+    Statement(database, "UPDATE store SET generation = generation + 1").Run();
+    return SelectIdentity(database);
+  });
+}
+
+Status PostgresJobStore::Ping() {
+  return Guarded([](PostgresDatabase& database) -> Status {
+    Statement(database, "UPDATE store SET pings = pings + 1").Run();
+    return Ok{};
+  });
+}
+
+Result<std::vector<std::string>> PostgresJobStore::Hold(const std::vector<HeldRun>& runs) {
+  return Write([&](PostgresDatabase& database) {
+    std::vector<std::string> over;
+    for (const auto& [id, run] : runs) {
+      Statement hold(database, "UPDATE jobs SET run = run" + dialect_.claim +
+                                   " WHERE id = ? AND run = ? AND state = 'running'");
+      if (hold.Bind(id).Bind(run).Run() == 0) over.push_back(id);
+    }
+    return over;
+  });
+}
+
+Result<std::int64_t> PostgresJobStore::RecoverLost(std::int64_t now_ms) {
+  constexpr const char* kLost = " WHERE state = 'running' AND lease_until < clock_timestamp()";
+  return Call([&](PostgresDatabase& database) -> std::int64_t {
+    // Without a transaction where there is nothing to do, as nearly always.
+    if (!Statement(database, std::string("SELECT 1 FROM jobs") + kLost + " LIMIT 1").Step()) {
+      return 0;
+    }
+    Transaction transaction(database);
+    const std::int64_t later = Later(database, now_ms);
+    const Error failure = {ErrorCode::kIo,
+                           "service after service was lost while this job ran; the fault may be "
+                           "ours, then the DEM that shows it is worth a report",
+                           "poison-job"};
+    Statement poison(database,
+                     std::string("UPDATE jobs SET state = 'failed', lost = lost + 1, message = ?, "
+                                 "failure_code = ?, failure_kind = ?, failure_message = ?, "
+                                 "finished_ms = ?, updated_ms = ?") +
+                         kLost + " AND lost + 1 >= ?");
+    poison.Bind(failure.message).Bind(std::string(ErrorCodeName(failure.code)));
+    poison.Bind(std::string(failure.kind)).Bind(failure.message).Bind(later).Bind(later);
+    poison.Bind(kMostLost).Run();
+    Statement again(database, std::string("UPDATE jobs SET state = 'accepted', lost = lost + 1, "
+                                          "message = 'waiting to run again', updated_ms = ?") +
+                                  kLost);
+    const int count = again.Bind(later).Run();
+    Tell(database, kNewsJobWaits);
+    transaction.Commit();
+    return count;
+  });
+}
+
+void PostgresJobStore::Listen(std::function<void(StoreNews)> handler) {
+  news_.reset();
+  if (!handler) return;
+  news_ = std::make_unique<PostgresListener>(ConnectTo(options_, kTimesOfCalls), std::move(handler),
+                                             [this](const std::string& id) { Changed(id); });
+}
+
+// A lock of the server that its connection has, not a transaction: it ends with the connection.
+class PostgresJobStore::Pin : public ObjectLock {
+ public:
+  Pin(PostgresJobStore& store, const char* unlock)
+      : store_(store), unlock_(unlock), loan_(store.pins_) {
+    const std::lock_guard lock(store_.mutex_);
+    const bool first = store_.pinned_.emplace(std::this_thread::get_id(), &loan_).second;
+    Check(first, "a thread has one pin at a time");
+  }
+  ~Pin() override {
+    {
+      const std::lock_guard lock(store_.mutex_);
+      store_.pinned_.erase(std::this_thread::get_id());
+    }
+    if (!held_) return;
+    try {
+      Run(unlock_);
+    } catch (const SqlFailure&) {
+      loan_.Cut();  // ends the lock, too
+    }
+  }
+  Pin(const Pin&) = delete;
+  Pin& operator=(const Pin&) = delete;
+
+  // Calls a function that locks or unlocks; false where it says that it has not.
+  bool Run(const char* function) {
+    return loan_.Run([&](PostgresDatabase& database) {
+      Statement statement(database, std::string("SELECT ") + function + "(?)");
+      return statement.Bind(kPinLock).Step() && statement.Text(0) != "f";
+    });
+  }
+  // Locks by a function; false where others have the lock.
+  bool Lock(const char* function) { return held_ = Run(function); }
+  // Waits for the lock for as long as others may be kept waiting; false where they keep it.
+  bool LockAgainstAll() {
+    try {
+      held_ = loan_.Run([](PostgresDatabase& database) {
+        Transaction transaction(database);
+        database.Execute(kHaltTimeout);
+        Statement(database, "SELECT pg_advisory_lock(?)").Bind(kPinLock).Run();
+        transaction.Commit();
+        return true;
+      });
+    } catch (const SqlFailure& failure) {
+      if (!failure.no_lock) throw;
+    }
+    return held_;
+  }
+
+ private:
+  PostgresJobStore& store_;
+  const char* unlock_;
+  PostgresPool::Loan loan_;
+  bool held_ = false;
+};
+
+Result<std::unique_ptr<ObjectLock>> PostgresJobStore::PinObjects() {
+  // A connection of the pool may have been lost since it was used: another one then.
+  for (int tries = 1;; ++tries) {
+    try {
+      auto pin = std::make_unique<Pin>(*this, "pg_advisory_unlock_shared");
+      pin->Lock("pg_advisory_lock_shared");
+      return std::unique_ptr<ObjectLock>(std::move(pin));
+    } catch (SqlFailure& failure) {
+      if (!failure.not_done || tries == 3) return std::move(failure.error);
+    }
+  }
+}
+
+Result<std::unique_ptr<ObjectLock>> PostgresJobStore::HaltPins(bool wait) {
+  try {
+    auto pin = std::make_unique<Pin>(*this, "pg_advisory_unlock");
+    const bool held = wait ? pin->LockAgainstAll() : pin->Lock("pg_try_advisory_lock");
+    if (!held) return std::unique_ptr<ObjectLock>();
+    return std::unique_ptr<ObjectLock>(std::move(pin));
+  } catch (SqlFailure& failure) {
+    return std::move(failure.error);
+  }
+}
+
+}  // namespace
+
+Result<std::unique_ptr<JobStore>> OpenPostgresJobStore(const PostgresStoreOptions& options) {
+  auto store = std::make_unique<PostgresJobStore>(options);
+  Status opened = store->Open();
+  if (!opened) return std::move(opened.error());
+  return std::unique_ptr<JobStore>(std::move(store));
+}
+
+}  // namespace farhorizon

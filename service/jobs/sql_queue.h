@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+#include "service/jobs/job_store.h"
+#include "service/jobs/sql.h"
+
+namespace farhorizon {
+
+/// As JobStore::CheckQueue has it.
+Status CheckQueue(const SqlDatabase& database, const std::string& client,
+                  const QueueBounds& bounds);
+/// As JobStore::Insert has it. Requires: within a transaction.
+Result<Job> InsertInQueue(const SqlDatabase& database, const NewJob& job, const QueueBounds& bounds,
+                          std::int64_t now_ms);
+/// As JobStore::FailOverdue has it.
+std::vector<std::string> FailOverdueJobs(SqlDatabase& database, std::int64_t now_ms);
+/// As JobStore::RecoverRunning has it.
+std::int64_t RecoverJobs(SqlDatabase& database, PreviousEnd end, std::int64_t now_ms);
+
+}  // namespace farhorizon
