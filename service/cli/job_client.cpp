@@ -107,6 +107,12 @@ Error ErrorOfProblem(const ClientResponse& response) {
     const std::string why = TextOf(problem, "detail");
     if (!why.empty()) detail += " " + code + ": " + why;
   }
+  if (response.status / 100 == 3) {
+    // A key is for the service that was named, so no redirect is followed.
+    const std::string where = ShortText(response.Header("location"), 200);
+    detail +=
+        where.empty() ? "" : ", a redirect to " + where + "; give that service's URL to --url";
+  }
   const int status = response.status;
   const bool call =
       (status == 400 && code != "invalid-multipart") || status == 401 || status == 403;

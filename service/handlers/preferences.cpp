@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <limits>
 #include <string>
 #include <string_view>
 
@@ -17,6 +18,10 @@ std::optional<std::int64_t> SecondsIn(std::string_view text) {
   std::int64_t seconds = 0;
   const char* const end = text.data() + text.size();
   const auto [stop, failure] = std::from_chars(text.data(), end, seconds);
+  // As good as any: nobody waits for so long.
+  if (failure == std::errc::result_out_of_range && stop == end && text.front() != '-') {
+    return std::numeric_limits<std::int64_t>::max();
+  }
   if (failure != std::errc() || stop != end || seconds < 0) return std::nullopt;
   return seconds;
 }

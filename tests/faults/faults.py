@@ -12,12 +12,14 @@ import crash_points  # noqa: E402
 import disk  # noqa: E402
 import kills  # noqa: E402
 import limits  # noqa: E402
+import machines  # noqa: E402
 import opens  # noqa: E402
 import power  # noqa: E402
 import store  # noqa: E402
 
 CASES = {"kills": kills.run, "crash_points": crash_points.run, "disk": disk.run, "power": power.run,
-         "store": store.run, "limits": limits.run, "opens": opens.run}
+         "store": store.run, "limits": limits.run, "opens": opens.run,
+         "machines": machines.run}
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:

@@ -25,7 +25,9 @@ TEST(Preferences, AreReadInEveryFormThatTheyMayHave) {
   EXPECT_FALSE(Read({"respond-asynchronously"}).respond_async);
   EXPECT_EQ(Read({"respond-async, wait=10"}).wait_seconds, 10);
   EXPECT_EQ(Read({"wait = \"7\"", "wait=8"}).wait_seconds, 7);
-  for (const char* field : {"wait", "wait=", "wait=-1", "wait=1.5", "wait=99999999999999999999"}) {
+  EXPECT_GT(Read({"wait=99999999999999999999"}).wait_seconds, 1'000'000);
+  for (const char* field : {"wait", "wait=", "wait=-1", "wait=1.5", "wait=-99999999999999999999",
+                            "wait=99999999999999999999s"}) {
     EXPECT_FALSE(Read({field}).wait_seconds) << field;
   }
 }

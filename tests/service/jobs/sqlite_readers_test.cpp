@@ -46,7 +46,7 @@ TEST_F(SqliteReadersTest, WritesNothing) {
   EXPECT_THROW(readers_.Read([](const Database& database) {
     return Statement(database, "INSERT INTO numbers VALUES (1)").Run();
   }),
-               SqliteFailure);
+               SqlFailure);
   EXPECT_EQ(Count(), 0);
 }
 
@@ -68,7 +68,7 @@ TEST_F(SqliteReadersTest, LendsEachConnectionToOneThreadAndTakesItBack) {
             --within;
             return Statement(database, fails ? "SELECT" : "SELECT 1").Step();
           });
-        } catch (SqliteFailure&) {
+        } catch (SqlFailure&) {
           ++failures;
         }
       }

@@ -32,8 +32,8 @@ class Service:
     """A service with a data folder below `folder`; it may be killed and started again, on another port each time."""
 
     def __init__(self, folder: str, workers: int = 2, config: dict | None = None, wrap: tuple[str, ...] = (),
-                 environment: dict | None = None):
-        self.folder, self.workers, self.wrap = folder, workers, list(wrap)
+                 environment: dict | None = None, role: str = "serve"):
+        self.folder, self.workers, self.wrap, self.role = folder, workers, list(wrap), role
         self.environment = {**os.environ, **(environment or {})}
         self.data = os.path.join(folder, "data")
         self.log = os.path.join(folder, "log")
@@ -47,7 +47,7 @@ class Service:
     def start(self, seconds: float = 20) -> float:
         """Starts it and waits until it listens; the seconds that took."""
         begun = time.monotonic()
-        command = self.wrap + [PROGRAM, "serve", "--config", self.config, "--listen", "127.0.0.1:0", "--data",
+        command = self.wrap + [PROGRAM, self.role, "--config", self.config, "--listen", "127.0.0.1:0", "--data",
                                self.data, "--workers", str(self.workers)]
         with open(self.log, "ab") as log:
             said = log.tell()

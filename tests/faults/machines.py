@@ -1,0 +1,130 @@
+"""Several services and a worker on one database: processes and the database are killed and frozen under mixed load."""
+import os
+import random
+import signal
+import time
+
+import database
+from history import History, Reference
+from kills import Client
+from service import Service
+
+LEASE_SECONDS = 3
+
+
+class Fleet:
+    """Services of one store: each request goes to any of them."""
+
+    def __init__(self, services: list[Service]):
+        self.services = services
+        self.random = random.Random(1)
+
+    def request(self, *arguments, **named):
+        return self.random.choice(self.services).request(*arguments, **named)
+
+    def json(self, path: str) -> dict:
+        return self.random.choice(self.services).json(path)
+
+    def submit(self, *arguments, **named):
+        return self.random.choice(self.services).submit(*arguments, **named)
+
+    def wait(self, job: str, seconds: float = 120) -> dict:
+        return self.random.choice(self.services).wait(job, seconds)
+
+
+def start(process: Service, seconds: float = 60) -> None:
+    """A service that finds no database does not start: whoever runs it starts it again."""
+    end = time.monotonic() + seconds
+    while True:
+        try:
+            process.start()
+            return
+        except RuntimeError:
+            if time.monotonic() > end:
+                raise
+            time.sleep(.2)
+
+
+def break_something(rng: random.Random, processes: list[Service], server: database.Database) -> str:
+    """One fault, from its beginning to its end."""
+    chance = rng.random()
+    victim = rng.choice(processes)
+    if chance < .7:
+        victim.kill()
+        start(victim)
+        return "killed"
+    if chance < .8:
+        os.kill(victim.pid(), signal.SIGSTOP)
+        time.sleep(rng.uniform(1, 2.5) * LEASE_SECONDS)
+        os.kill(victim.pid(), signal.SIGCONT)
+        return "frozen"
+    if chance < .9:
+        server.stop(rng.choice(("immediate", "fast")))
+        time.sleep(rng.uniform(0, 3))
+        server.start()
+        return "database stopped"
+    if chance < .95:
+        server.freeze()
+        time.sleep(rng.uniform(1, 9))
+        server.thaw()
+        return "database frozen"
+    begun = time.monotonic()
+    victim.stop()
+    start(victim)
+    return "restarted" if time.monotonic() - begun < 25 else "restarted late"
+
+
+def check_objects(history: History, server: database.Database, objects: str) -> str:
+    """I7, once nothing is under way: rows without their object, and objects without a row."""
+    named = {row[0] for row in server.query(
+        "SELECT input_sha256 FROM farhorizon.jobs UNION SELECT sha256 FROM farhorizon.artifacts UNION "
+        "SELECT gzip_sha256 FROM farhorizon.artifacts WHERE gzip_sha256 IS NOT NULL")}
+    there = {name for _, _, files in os.walk(objects) for name in files if len(name) == 64}
+    if named - there or there - named:
+        history.violated(f"I7: {len(there - named)} orphans, {len(named - there)} dangling rows")
+    return f"{len(there)} objects"
+
+
+def run(folder: str, verdict, options) -> None:
+    if not database.is_installed():
+        verdict.say("machines: left out, for postgresql-15 is not installed")
+        return
+    count = 20 if options.quick else 500
+    rng = random.Random(options.seed)
+    history = History()
+    references = [Reference(folder, seed) for seed in range(3)]
+    server = database.Database()
+    objects = os.path.join(folder, "objects")
+    config = {"store": {"jobs": server.url, "objects": objects, "leaseSeconds": LEASE_SECONDS}}
+    processes = [Service(os.path.join(folder, name), 1, config, role=role)
+                 for name, role in (("ada", "serve"), ("bob", "serve"), ("eve", "serve"), ("worker", "work"))]
+    for process in processes:
+        start(process)
+    fleet = Fleet(processes[:3])
+    clients = [Client(fleet, history, references, options.seed * 100 + i) for i in range(4)]
+    for client in clients:
+        client.start()
+    faults: dict[str, int] = {}
+    for number in range(count):
+        time.sleep(rng.uniform(.1, 1.5))
+        fault = break_something(rng, processes, server)
+        faults[fault] = faults.get(fault, 0) + 1
+        if (number + 1) % 50 == 0:
+            verdict.say(f"{number + 1} faults", jobs=len(history.jobs), violations=len(history.violations))
+    for client in clients:
+        client.over.set()
+    for client in clients:
+        client.join()
+    ends = history.check_end(fleet, 600)
+    for process in processes:
+        process.stop()
+    start(processes[0])  # it removes what belongs to no job
+    time.sleep(2)
+    processes[0].stop()
+    verdict.say("faults", **faults)
+    verdict.say("answers", **{str(answer): n for answer, n in history.answers.items()})
+    verdict.say("store", objects=check_objects(history, server, objects))
+    server.remove()
+    verdict.ask(f"{count} faults, {len(history.jobs)} jobs on three services and a worker: I1 to I8 "
+                f"(seed {options.seed})", not history.violations, history.violations[:3] or ends)
+
