@@ -63,6 +63,39 @@ const sendDem = async ({ browser, base, dem, report }) => {
   return address;
 };
 
+// A job as the browser's own EventSource has it, to the end of its stream: it does not connect again.
+const followEvents = async ({ browser, base, dem, report }) => {
+  const { page, faults, close } = await openPage(browser, base, kKinds[0]);
+  await page.goto(`${base}/`);
+  const { seen, closed } = await page.evaluate(async ([content, filename, time]) => {
+    const body = Uint8Array.from(atob(content), (one) => one.charCodeAt(0));
+    const job = await (await fetch(`/jobs?levels=1&filename=${filename}`, {
+      method: 'POST', body, headers: { 'Content-Type': 'application/octet-stream' },
+    })).json();
+    const source = new EventSource(`/jobs/${job.jobID}/events`);
+    const told = [];
+    source.addEventListener('status', ({ data, lastEventId }) => {
+      told.push({ ...JSON.parse(data), lastEventId });
+    });
+    const end = Date.now() + time;
+    while (source.readyState !== EventSource.CLOSED && Date.now() < end) {
+      await new Promise((done) => { setTimeout(done, 50); });
+    }
+    return { seen: told, closed: source.readyState === EventSource.CLOSED };
+  }, [readFileSync(dem).toString('base64'), basename(dem), kJobTime]);
+  const last = seen.at(-1)?.status;
+  if (last !== 'successful') faults.push(`the last event has the status ${last}`);
+  if (!closed) faults.push('the browser connects again and again after the job has ended');
+  if (seen.some(({ progress }, i) => i > 0 && progress < seen[i - 1].progress)) {
+    faults.push('progress goes back');
+  }
+  if (new Set(seen.map(({ lastEventId }) => lastEventId)).size !== seen.length) {
+    faults.push('events are sent twice');
+  }
+  report('EventSource of the browser on a job', faults, `${seen.length} events, then closed`);
+  await close();
+};
+
 const lookAtIndex = async ({ browser, base, pictures, report }, kind) => {
   const { page, faults, close } = await openPage(browser, base, kind);
   await page.goto(`${base}/`);
@@ -249,6 +282,7 @@ export const checkPages = async ({ browser, farhorizon, dem, cache, pictures, re
       await lookAtIndex(common, kind);
       await lookAtViewer({ ...common, address }, kind);
     }
+    await followEvents(common);
   } finally {
     service.stop();
     rmSync(data, { recursive: true, force: true });

@@ -9,6 +9,7 @@ sys.path[:0] = [HERE, os.path.join(HERE, "../support/stress")]
 import bodies  # noqa: E402
 import command  # noqa: E402
 import events  # noqa: E402
+import machines  # noqa: E402
 import overload  # noqa: E402
 import poll  # noqa: E402
 import slow  # noqa: E402
@@ -17,7 +18,8 @@ import submit  # noqa: E402
 import tiles  # noqa: E402
 
 LOADS = {"poll": poll.run, "submit": submit.run, "overload": overload.run, "slow": slow.run, "bodies": bodies.run,
-         "tiles": tiles.run, "events": events.run, "soak": soak.run}
+         "tiles": tiles.run, "events": events.run, "machines": machines.run,
+         "soak": soak.run}
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:

@@ -48,13 +48,15 @@ class Database:
         self.stop("immediate")
         shutil.rmtree(self.folder, ignore_errors=True)
 
-    def signal_all(self, number: int) -> None:
-        """Sends the signal to the server and all its processes."""
+    def processes(self) -> list[int]:
+        """The server's first, then those that it has started."""
         with open(f"{self.folder}/cluster/postmaster.pid", encoding="ascii") as file:
             server = int(file.readline())
         with open(f"/proc/{server}/task/{server}/children", encoding="ascii") as children:
-            family = [server, *map(int, children.read().split())]
-        for process in family:
+            return [server, *map(int, children.read().split())]
+
+    def signal_all(self, number: int) -> None:
+        for process in self.processes():
             try:
                 os.kill(process, number)
             except ProcessLookupError:
