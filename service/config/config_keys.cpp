@@ -5,11 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
-#include <regex>
 #include <type_traits>
 #include <utility>
 
 #include <nlohmann/json.hpp>
+
+#include "service/jobs/database_url.h"
 
 namespace farhorizon {
 
@@ -222,13 +223,6 @@ std::vector<ConfigKey> WorkerKeys() {
       Number("probe.wallSeconds", probe(&ProbeOptions::wall_seconds), 1, 3600,
              "time for that reading"),
   };
-}
-
-// A connection URI or string without the password.
-std::string WithoutPassword(const std::string& url) {
-  static const std::regex in_uri("^([a-z]+://[^:/@?]*):[^@/?]*@");
-  static const std::regex in_string("password=('[^']*'|[^ &]*)");
-  return std::regex_replace(std::regex_replace(url, in_uri, "$1:***@"), in_string, "password=***");
 }
 
 // The limits of connections and the log; threads and what handlers were built with stay.

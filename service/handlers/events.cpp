@@ -38,6 +38,9 @@ class JobEvents : public EventSource {
   Piece Next() override {
     const bool admitted = context_.gate == nullptr || context_.gate->StillGood(caller_);
     const Result<Job> job = context_.jobs.Find(job_);
+    // A store that does not answer now may soon: a client that is sent away then does not come
+    // back.
+    if (admitted && !job && job.error().code != ErrorCode::kNotFound) return {"", false};
     if (!admitted || !job || !caller_.Sees(job->owner)) return {"", true};
     Piece piece{std::exchange(begun_, true) ? "" : kRetry, IsTerminal(job->state)};
     const std::string document = DumpJson(StatusInfo(*job, context_.base));

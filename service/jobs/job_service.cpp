@@ -1,5 +1,7 @@
 #include "service/jobs/job_service.h"
 
+#include <algorithm>
+
 #include "service/clock.h"
 #include "service/jobs/end_mark.h"
 #include "service/jobs/open_stores.h"
@@ -134,7 +136,11 @@ std::vector<ReadinessCheck> JobService::CheckReady() {
 }
 
 Result<std::int64_t> JobService::FreeBytes() const {
-  return farhorizon::FreeBytes(directory_.root);
+  Result<std::int64_t> own = farhorizon::FreeBytes(directory_.root);
+  if (!own || directory_.shared_objects.empty()) return own;
+  Result<std::int64_t> shared = farhorizon::FreeBytes(directory_.shared_objects);
+  if (!shared) return shared;
+  return std::min(*own, *shared);
 }
 
 void JobService::SetExpiry(Job& job) const {

@@ -60,7 +60,11 @@ Status CheckStoreOptions(const StoreOptions& options) {
 Result<Stores> OpenStores(DataDirectory& directory, const StoreOptions& options) {
   Status fit = CheckStoreOptions(options);
   if (!fit) return std::move(fit.error());
-  directory.shared_objects = options.objects;
+  // The process may change its folder.
+  if (!options.objects.empty()) {
+    std::error_code failure;
+    directory.shared_objects = std::filesystem::absolute(options.objects, failure);
+  }
   Result<std::unique_ptr<JobStore>> jobs = OpenJobs(directory, options);
   if (!jobs) return std::move(jobs.error());
   const Sharing sharing = options.objects.empty() ? Sharing::kOneProcess : Sharing::kManyProcesses;

@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "service/jobs/database_url.h"
 #include "service/log.h"
 
 namespace farhorizon {
@@ -47,14 +48,18 @@ bool IsPassing(const std::string& sqlstate) {
   }
   // A deadlock, or an order of transactions that the server does not keep: it has undone this one.
   if (StartsWith(cause.sqlstate, "40")) {
-    throw SqlFailure{{ErrorCode::kResourceExhausted, kUnanswered}, !cause.in_doubt};
+    throw SqlFailure{
+        {ErrorCode::kResourceExhausted, kUnanswered}, !cause.in_doubt, false, cause.message};
   }
   if (cause.sqlstate == "55P03") {
-    throw SqlFailure{{ErrorCode::kResourceExhausted, kUnanswered}, false, true};
+    throw SqlFailure{{ErrorCode::kResourceExhausted, kUnanswered}, false, true, cause.message};
   }
   if (cause.lost || cause.in_doubt || IsPassing(cause.sqlstate)) {
     Log(LogLevel::kWarning, "the database of jobs does not answer", {{"error", message}});
-    throw SqlFailure{{ErrorCode::kResourceExhausted, kUnanswered}, cause.lost && !cause.in_doubt};
+    throw SqlFailure{{ErrorCode::kResourceExhausted, kUnanswered},
+                     cause.lost && !cause.in_doubt,
+                     false,
+                     cause.message};
   }
   throw SqlFailure{{ErrorCode::kIo, message, "job-store"}};
 }
@@ -193,7 +198,7 @@ PostgresDatabase::PostgresDatabase(const std::string& url, const PostgresTimes& 
   try {
     session_ = std::make_unique<Session>(Complete(url));
   } catch (const std::exception& failure) {
-    Throw("connect", {failure.what(), "", true, false});
+    Throw("connect", {WithoutPassword(failure.what(), url), "", true, false});
   }
   Execute(
       "SET client_min_messages = error; SET search_path = farhorizon; SET statement_timeout = " +

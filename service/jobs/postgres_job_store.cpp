@@ -184,7 +184,7 @@ Status PostgresJobStore::Open() {
   } catch (SqlFailure& failure) {
     if (failure.error.kind == "job-store-unusable") return std::move(failure.error);
     return Error{ErrorCode::kIo,
-                 failure.error.message +
+                 "job store: " + (failure.cause.empty() ? failure.error.message : failure.cause) +
                      " (store.jobs); see that the server runs, and that the user may connect and "
                      "make the schema farhorizon",
                  "job-store-unusable"};
@@ -356,6 +356,8 @@ Result<StoreIdentity> PostgresJobStore::BeginGeneration() {
 
 Status PostgresJobStore::Ping() {
   return Guarded([](PostgresDatabase& database) -> Status {
+    // Somebody may have locked the one that every request needs.
+    Statement(database, "SELECT 1 FROM jobs LIMIT 1").Step();
     Statement(database, "UPDATE store SET pings = pings + 1").Run();
     return Ok{};
   });

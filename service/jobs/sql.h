@@ -11,8 +11,9 @@ namespace farhorizon {
 /// Thrown where a call of a database fails; the job store catches it and returns `error`.
 struct SqlFailure {
   Error error;
-  bool not_done = false;  ///< nothing of the call was stored, and it may succeed at once again
-  bool no_lock = false;   ///< others had a lock for as long as one may wait
+  bool not_done = false;   ///< nothing of the call was stored, and it may succeed at once again
+  bool no_lock = false;    ///< others had a lock for as long as one may wait
+  std::string cause = {};  ///< what the engine said, where the error does not
 };
 
 /// A statement of one engine, run once. Statement is its interface.

@@ -25,14 +25,20 @@ constexpr std::int64_t kReserveBytes = std::int64_t{4} << 20U;
 Status StorageHealth::CheckRoom() const {
   Status held = directory_.CheckHeld();
   if (!held) return held;
-  Result<std::int64_t> bytes = FreeBytes(directory_.root);
+  Status room = CheckRoomIn(directory_.root, "the disk");
+  if (!room || directory_.shared_objects.empty()) return room;
+  return CheckRoomIn(directory_.shared_objects, "the disk of uploads and results");
+}
+
+Status StorageHealth::CheckRoomIn(const std::filesystem::path& folder, const char* disk) const {
+  Result<std::int64_t> bytes = FreeBytes(folder);
   if (!bytes) return std::move(bytes.error());
-  Result<std::int64_t> files = FreeFiles(directory_.root);
+  Result<std::int64_t> files = FreeFiles(folder);
   if (!files) return std::move(files.error());
   if (*bytes >= min_free_bytes_ && *files >= kMinFreeFiles) return Ok{};
   const bool few_files = *bytes >= min_free_bytes_;
   return Error{ErrorCode::kResourceExhausted,
-               "the disk has less than " +
+               std::string(disk) + " has less than " +
                    (few_files ? std::to_string(kMinFreeFiles) + " files"
                               : std::to_string(min_free_bytes_) + " bytes") +
                    " left; try later, or dismiss finished jobs",
@@ -43,16 +49,19 @@ Status StorageHealth::CheckWrites() {
   const std::lock_guard lock(mutex_);
   const auto now = std::chrono::steady_clock::now();
   if (last_ && now - at_ < kFresh) return *last_;
-  Status written = WriteAndSync();
+  Status written = WriteAndSync(directory_.root);
+  // Where each process has a name of its own for it; what is left there goes after a day.
+  const std::filesystem::path& shared = directory_.shared_objects;
+  if (written && !shared.empty()) written = WriteAndSync(shared / "temp");
   if (written) written = jobs_.Ping();
   last_ = written;
   at_ = std::chrono::steady_clock::now();
   return written;
 }
 
-Status StorageHealth::WriteAndSync() const {
-  const std::filesystem::path probe = directory_.root / "probe";
-  const std::filesystem::path renamed = directory_.root / "probed";
+Status StorageHealth::WriteAndSync(const std::filesystem::path& folder) const {
+  const std::filesystem::path probe = folder / ("probe" + name_);
+  const std::filesystem::path renamed = folder / ("probed" + name_);
   const UniqueFd file(::open(probe.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600));
   if (!file) return StorageError("make a file");
   Status written = Ok{};

@@ -5,20 +5,27 @@
 #include <filesystem>
 #include <mutex>
 #include <optional>
+#include <string>
 
+#include "core/base/hex.h"
 #include "core/base/result.h"
 #include "service/jobs/data_directory.h"
 #include "service/jobs/job_store.h"
+#include "service/random.h"
 
 namespace farhorizon {
 
-/// Whether the disk under the data directory keeps what is written, and has room.
+/// Whether the disk under the data directory, and that under objects which are elsewhere, keeps
+/// what is written, and has room.
 /// Threads: safe.
 class StorageHealth {
  public:
   /// min_free_bytes: room that uploads leave. Requires: directory and store outlive this object.
   StorageHealth(const DataDirectory& directory, JobStore& jobs, std::int64_t min_free_bytes)
-      : directory_(directory), jobs_(jobs), min_free_bytes_(min_free_bytes) {}
+      : directory_(directory),
+        jobs_(jobs),
+        min_free_bytes_(min_free_bytes),
+        name_(directory.shared_objects.empty() ? "" : "-" + ToHex(RandomBytes())) {}
 
   /// Succeeds if there is room for one more job. Cost: no write.
   /// Errors: kResourceExhausted "no-space"; kIo "data-directory" where the lock went.
@@ -28,11 +35,13 @@ class StorageHealth {
   Status CheckWrites();
 
  private:
-  Status WriteAndSync() const;
+  [[nodiscard]] Status CheckRoomIn(const std::filesystem::path& folder, const char* disk) const;
+  [[nodiscard]] Status WriteAndSync(const std::filesystem::path& folder) const;
 
   const DataDirectory& directory_;
   JobStore& jobs_;
   std::int64_t min_free_bytes_;
+  const std::string name_;  // of files that this process alone writes; empty: in its own folder
   std::mutex mutex_;
   std::optional<Status> last_;
   std::chrono::steady_clock::time_point at_;

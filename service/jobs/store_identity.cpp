@@ -81,10 +81,14 @@ Status CheckSameStore(const DataDirectory& directory, JobStore& jobs, ObjectStor
   Result<JobPage> newest = jobs.List({{JobState::kSuccessful, JobState::kAccepted}, {}, 1});
   if (!newest) return std::move(newest.error());
   if (newest->jobs.empty() || objects.Open(newest->jobs[0].input_sha256)) return Ok{};
-  return Unusable(
-      "the uploads and results of its jobs are gone from " + directory.Objects().string(),
-      "mount or restore that folder; or let `farhorizon fsck " + directory.root.string() +
-          " --repair` fail the jobs that have lost theirs");
+  const std::string gone =
+      "the uploads and results of its jobs are gone from " + directory.Objects().string();
+  if (!directory.shared_objects.empty()) {
+    return Unusable(gone, "mount or restore that folder, or give the right one (store.objects)");
+  }
+  return Unusable(gone, "mount or restore that folder; or let `farhorizon fsck " +
+                            directory.root.string() +
+                            " --repair` fail the jobs that have lost theirs");
 }
 
 Status WriteIdentity(const DataDirectory& directory, const StoreIdentity& identity) {

@@ -190,6 +190,18 @@ TEST_F(ManyMachinesE2e, ADatabaseThatIsDownIs503AndNothingIsLost) {
   EXPECT_EQ(StateOf("ada", before), "successful");
 }
 
+TEST_F(ManyMachinesE2e, IsNotReadyWithoutTheFolderOfObjects) {
+  Start("ada", "serve");
+  EXPECT_EQ(Ask(machines_["ada"].port, "GET", "/readyz").status, 200);
+  std::filesystem::rename(folder_ / "objects", folder_ / "away");
+  std::this_thread::sleep_for(std::chrono::seconds(1));  // longer than an answer is good for
+  EXPECT_EQ(Ask(machines_["ada"].port, "GET", "/readyz").status, 503);
+  std::filesystem::rename(folder_ / "away", folder_ / "objects");
+  std::this_thread::sleep_for(std::chrono::seconds(1));
+  EXPECT_EQ(Ask(machines_["ada"].port, "GET", "/readyz").status, 200);
+  EXPECT_EQ(WaitForEnd("ada", Submit("ada", "good.asc")), "successful");
+}
+
 TEST_F(ManyMachinesE2e, AWorkerAnswersOfHealthAndMetricsAndNothingElse) {
   Start("worker", "work");
   const std::uint16_t port = machines_["worker"].port;

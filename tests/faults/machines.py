@@ -1,4 +1,5 @@
-"""Several services and a worker on one database: processes and the database are killed and frozen under mixed load."""
+"""Several services and a worker on one database: processes and the database are killed and frozen under mixed load,
+then restarted one after the other."""
 import os
 import random
 import signal
@@ -111,6 +112,9 @@ def run(folder: str, verdict, options) -> None:
         faults[fault] = faults.get(fault, 0) + 1
         if (number + 1) % 50 == 0:
             verdict.say(f"{number + 1} faults", jobs=len(history.jobs), violations=len(history.violations))
+    for process in processes:  # as an upgrade goes
+        process.stop()
+        start(process)
     for client in clients:
         client.over.set()
     for client in clients:
