@@ -36,15 +36,16 @@ for (const one of objects) {
   check(`${one.kind} ${one.metadata.name} by its schema`, why === '', why);
 }
 
+const defaults = JSON.parse(
+  spawnSync(farhorizon, ['serve', '--print-config'], {encoding: 'utf8'}).stdout);
+const keysOf = (object, prefix = '') =>
+  Object.entries(object).flatMap(([key, value]) =>
+    typeof value === 'object' ? keysOf(value, `${prefix}${key}.`) : [prefix + key]);
+const names = keysOf(defaults).map((key) =>
+  'FARHORIZON_' + key.replace(/([A-Z])/g, '_$1').replaceAll('.', '_').toUpperCase());
+
 // The program's own word on what a container gives it: no server is asked.
 function takes(what, words, variables) {
-  const known = spawnSync(farhorizon, ['serve', '--print-config'], {encoding: 'utf8'}).stdout;
-  const keys = (object, prefix) =>
-    Object.entries(object).flatMap(([key, value]) =>
-      typeof value === 'object' ? keys(value, `${prefix}${key}.`) : [prefix + key]);
-  const variable = (key) =>
-    'FARHORIZON_' + key.replace(/([A-Z])/g, '_$1').replaceAll('.', '_').toUpperCase();
-  const names = keys(JSON.parse(known), '').map(variable);
   const unknown = Object.keys(variables).filter((name) => !names.includes(name));
   check(`${what}: variables`, unknown.length === 0, unknown.join(', '));
   const said = spawnSync(farhorizon, [...words, '--print-config'],
@@ -75,10 +76,8 @@ for (const one of objects.filter((object) => object.kind === 'Deployment')) {
   }
   takes(name, container.args, Object.fromEntries(
     container.env.map((entry) => [entry.name, entry.value ?? urlOfSecret])));
-  const {jobs} = JSON.parse(
-    spawnSync(farhorizon, ['serve', '--print-config'], {encoding: 'utf8'}).stdout);
   const pause = Number(container.lifecycle.preStop.exec.command[1]);
-  const spare = pod.terminationGracePeriodSeconds - pause - jobs.drainSeconds;
+  const spare = pod.terminationGracePeriodSeconds - pause - defaults.jobs.drainSeconds;
   check(`${name}: ${spare} seconds to end after its drain`, spare >= 10);
 }
 const service = called('Service', 'farhorizon');

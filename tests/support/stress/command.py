@@ -21,7 +21,7 @@ def run(command: str, cases: dict[str, Callable], options: Callable[[argparse.Ar
     if unknown:
         parser.error(f"no case {unknown[0]}; cases are {', '.join(cases)}")
     if not os.path.exists(service.PROGRAM):
-        parser.error(f"there is no {service.PROGRAM}; tests/run makes it")
+        parser.error(f"there is no {service.PROGRAM}; make it: cmake --workflow --preset release")
     print(", ".join(f"{name} {value}" for name, value in vars(asked).items() if name != "cases"), flush=True)
     verdict = Verdict()
     for name in asked.cases or cases:
