@@ -4,15 +4,15 @@
 #include "service/jobs/postgres_job_store.h"
 
 #include <algorithm>
-#include <map>
 #include <mutex>
 #include <optional>
 #include <string>
-#include <thread>
 #include <utility>
 
 #include "service/jobs/postgres.h"
+#include "service/jobs/postgres_leases.h"
 #include "service/jobs/postgres_listener.h"
+#include "service/jobs/postgres_pins.h"
 #include "service/jobs/postgres_pool.h"
 #include "service/jobs/postgres_schema.h"
 #include "service/jobs/sql_claim.h"
@@ -31,10 +31,6 @@ constexpr PostgresTimes kTimesOfCalls{milliseconds(5000), milliseconds(3000)};
 // A pin waits until objects are removed.
 constexpr PostgresTimes kTimesOfPins{milliseconds(25'000), milliseconds(20'000)};
 constexpr milliseconds kGrace{2000};  // for a network that is slow
-// So long those who store objects wait for one who would like to remove some.
-constexpr const char* kHaltTimeout = "SET LOCAL lock_timeout = 2000";
-constexpr std::int64_t kPinLock = 1'179'142'740;
-constexpr std::int64_t kMostLost = 10;
 // As StartTurns forgets clients in memory.
 constexpr std::int64_t kTurnsKept = 10'000;
 
@@ -53,11 +49,6 @@ SqlDialect DialectOf(const PostgresStoreOptions& options) {
       "INSERT INTO turns (client, turn) VALUES (?, nextval('turn')) "
       "ON CONFLICT (client) DO UPDATE SET turn = excluded.turn";
   return dialect;
-}
-
-void Tell(const SqlDatabase& database, const char* news) {
-  Statement(database, std::string("SELECT pg_notify('") + kNewsChannel + "', '" + news + "')")
-      .Run();
 }
 
 class PostgresJobStore : public JobStore {
@@ -106,14 +97,12 @@ class PostgresJobStore : public JobStore {
   Result<std::unique_ptr<ObjectLock>> HaltPins(bool wait) override;
 
  private:
-  class Pin;
-
   // Runs work(connection): over that of this thread's pin, or one of the pool. Returns a SqlFailure
   // as its Error.
   template <typename Work>
   auto Guarded(Work work) -> decltype(work(std::declval<PostgresDatabase&>())) {
     try {
-      if (PostgresPool::Loan* pin = PinOfThread()) return pin->Run(work);
+      if (PostgresPool::Loan* pin = pins_.OfThread()) return pin->Run(work);
       return calls_.Run(work);
     } catch (SqlFailure& failure) {
       return std::move(failure.error);
@@ -144,18 +133,11 @@ class PostgresJobStore : public JobStore {
     Statement latest(database, "SELECT max(updated_ms) FROM jobs");
     return latest.Step() ? std::max(now_ms, latest.Integer(0)) : now_ms;
   }
-  PostgresPool::Loan* PinOfThread() {
-    const std::lock_guard lock(mutex_);
-    const auto found = pinned_.find(std::this_thread::get_id());
-    return found == pinned_.end() ? nullptr : found->second;
-  }
 
   const PostgresStoreOptions options_;
   const SqlDialect dialect_;
   PostgresPool calls_;
-  PostgresPool pins_;
-  std::mutex mutex_;
-  std::map<std::thread::id, PostgresPool::Loan*> pinned_;
+  PostgresPins pins_;
   std::mutex claims_;  // of this process follow one another: turns_ is theirs
   StartTurns turns_;
   std::unique_ptr<PostgresListener> news_;
@@ -364,45 +346,12 @@ Status PostgresJobStore::Ping() {
 }
 
 Result<std::vector<std::string>> PostgresJobStore::Hold(const std::vector<HeldRun>& runs) {
-  return Write([&](PostgresDatabase& database) {
-    std::vector<std::string> over;
-    for (const auto& [id, run] : runs) {
-      Statement hold(database, "UPDATE jobs SET run = run" + dialect_.claim +
-                                   " WHERE id = ? AND run = ? AND state = 'running'");
-      if (hold.Bind(id).Bind(run).Run() == 0) over.push_back(id);
-    }
-    return over;
-  });
+  return Write([&](PostgresDatabase& database) { return HoldRuns(database, runs); });
 }
 
 Result<std::int64_t> PostgresJobStore::RecoverLost(std::int64_t now_ms) {
-  constexpr const char* kLost = " WHERE state = 'running' AND lease_until < clock_timestamp()";
-  return Call([&](PostgresDatabase& database) -> std::int64_t {
-    // Without a transaction where there is nothing to do, as nearly always.
-    if (!Statement(database, std::string("SELECT 1 FROM jobs") + kLost + " LIMIT 1").Step()) {
-      return 0;
-    }
-    Transaction transaction(database);
-    const std::int64_t later = Later(database, now_ms);
-    const Error failure = {ErrorCode::kIo,
-                           "service after service was lost while this job ran; the fault may be "
-                           "ours, then the DEM that shows it is worth a report",
-                           "poison-job"};
-    Statement poison(database,
-                     std::string("UPDATE jobs SET state = 'failed', lost = lost + 1, message = ?, "
-                                 "failure_code = ?, failure_kind = ?, failure_message = ?, "
-                                 "finished_ms = ?, updated_ms = ?") +
-                         kLost + " AND lost + 1 >= ?");
-    poison.Bind(failure.message).Bind(std::string(ErrorCodeName(failure.code)));
-    poison.Bind(std::string(failure.kind)).Bind(failure.message).Bind(later).Bind(later);
-    poison.Bind(kMostLost).Run();
-    Statement again(database, std::string("UPDATE jobs SET state = 'accepted', lost = lost + 1, "
-                                          "message = 'waiting to run again', updated_ms = ?") +
-                                  kLost);
-    const int count = again.Bind(later).Run();
-    Tell(database, kNewsJobWaits);
-    transaction.Commit();
-    return count;
+  return Call([&](PostgresDatabase& database) {
+    return RecoverLostJobs(database, Later(database, now_ms));
   });
 }
 
@@ -413,84 +362,10 @@ void PostgresJobStore::Listen(std::function<void(StoreNews)> handler) {
                                              [this](const std::string& id) { Changed(id); });
 }
 
-// A lock of the server that its connection has, not a transaction: it ends with the connection.
-class PostgresJobStore::Pin : public ObjectLock {
- public:
-  Pin(PostgresJobStore& store, const char* unlock)
-      : store_(store), unlock_(unlock), loan_(store.pins_) {
-    const std::lock_guard lock(store_.mutex_);
-    const bool first = store_.pinned_.emplace(std::this_thread::get_id(), &loan_).second;
-    Check(first, "a thread has one pin at a time");
-  }
-  ~Pin() override {
-    {
-      const std::lock_guard lock(store_.mutex_);
-      store_.pinned_.erase(std::this_thread::get_id());
-    }
-    if (!held_) return;
-    try {
-      Run(unlock_);
-    } catch (const SqlFailure&) {
-      loan_.Cut();  // ends the lock, too
-    }
-  }
-  Pin(const Pin&) = delete;
-  Pin& operator=(const Pin&) = delete;
-
-  // Calls a function that locks or unlocks; false where it says that it has not.
-  bool Run(const char* function) {
-    return loan_.Run([&](PostgresDatabase& database) {
-      Statement statement(database, std::string("SELECT ") + function + "(?)");
-      return statement.Bind(kPinLock).Step() && statement.Text(0) != "f";
-    });
-  }
-  // Locks by a function; false where others have the lock.
-  bool Lock(const char* function) { return held_ = Run(function); }
-  // Waits for the lock for as long as others may be kept waiting; false where they keep it.
-  bool LockAgainstAll() {
-    try {
-      held_ = loan_.Run([](PostgresDatabase& database) {
-        Transaction transaction(database);
-        database.Execute(kHaltTimeout);
-        Statement(database, "SELECT pg_advisory_lock(?)").Bind(kPinLock).Run();
-        transaction.Commit();
-        return true;
-      });
-    } catch (const SqlFailure& failure) {
-      if (!failure.no_lock) throw;
-    }
-    return held_;
-  }
-
- private:
-  PostgresJobStore& store_;
-  const char* unlock_;
-  PostgresPool::Loan loan_;
-  bool held_ = false;
-};
-
-Result<std::unique_ptr<ObjectLock>> PostgresJobStore::PinObjects() {
-  // A connection of the pool may have been lost since it was used: another one then.
-  for (int tries = 1;; ++tries) {
-    try {
-      auto pin = std::make_unique<Pin>(*this, "pg_advisory_unlock_shared");
-      pin->Lock("pg_advisory_lock_shared");
-      return std::unique_ptr<ObjectLock>(std::move(pin));
-    } catch (SqlFailure& failure) {
-      if (!failure.not_done || tries == 3) return std::move(failure.error);
-    }
-  }
-}
+Result<std::unique_ptr<ObjectLock>> PostgresJobStore::PinObjects() { return pins_.Pin(); }
 
 Result<std::unique_ptr<ObjectLock>> PostgresJobStore::HaltPins(bool wait) {
-  try {
-    auto pin = std::make_unique<Pin>(*this, "pg_advisory_unlock");
-    const bool held = wait ? pin->LockAgainstAll() : pin->Lock("pg_try_advisory_lock");
-    if (!held) return std::unique_ptr<ObjectLock>();
-    return std::unique_ptr<ObjectLock>(std::move(pin));
-  } catch (SqlFailure& failure) {
-    return std::move(failure.error);
-  }
+  return pins_.Halt(wait);
 }
 
 }  // namespace

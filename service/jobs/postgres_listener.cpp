@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <string>
 #include <utility>
 
 #include "service/clock.h"
@@ -16,6 +17,11 @@ constexpr std::chrono::milliseconds kFirstPause{100};
 constexpr std::chrono::milliseconds kLongestPause{5000};
 
 }  // namespace
+
+void Tell(const SqlDatabase& database, const char* news) {
+  Statement(database, std::string("SELECT pg_notify('") + kNewsChannel + "', '" + news + "')")
+      .Run();
+}
 
 PostgresListener::PostgresListener(Connect connect, std::function<void(StoreNews)> handler,
                                    std::function<void(const std::string& id)> changed)

@@ -19,6 +19,9 @@ inline constexpr const char* kNewsRunEnded = "run ended";
 /// Before the id of a job that was changed, as the trigger of postgres_schema.cpp tells it.
 inline constexpr std::string_view kNewsChanged = "changed ";
 
+/// Tells the news to all who listen, once the transaction is committed.
+void Tell(const SqlDatabase& database, const char* news);
+
 /// A thread that hands on what is told over kNewsChannel. A connection that is lost is made anew,
 /// later and later, and then everything is told once: it may have been missed.
 /// changed: as JobStore::OnChange has it.

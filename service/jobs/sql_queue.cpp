@@ -118,16 +118,14 @@ std::int64_t RecoverJobs(SqlDatabase& database, PreviousEnd end, std::int64_t no
   // process could not do anything more.
   Statement poison(
       database,
-      std::string("UPDATE jobs SET state = 'failed', message = ?, failure_code = ?, "
-                  "failure_kind = ?, failure_message = ?, finished_ms = ?, updated_ms = ? "
-                  "WHERE state = 'running' AND (crashes + ? >= ? OR attempt >= ?)") +
+      std::string("UPDATE jobs SET ") + kSetFailed +
+          ", updated_ms = ? WHERE state = 'running' AND (crashes + ? >= ? OR attempt >= ?)" +
           OwnRuns(database));
   const Error failure = {ErrorCode::kIo,
                          "the service died again and again while this job ran; the fault is ours, "
                          "the DEM that shows it is worth a report",
                          "poison-job"};
-  poison.Bind(failure.message).Bind(std::string(ErrorCodeName(failure.code)));
-  poison.Bind(std::string(failure.kind)).Bind(failure.message).Bind(now_ms).Bind(now_ms);
+  BindFailure(poison, failure, now_ms).Bind(now_ms);
   poison.Bind(std::int64_t{end == PreviousEnd::kCrashed ? 1 : 0}).Bind(kMostCrashes);
   poison.Bind(kMostAttempts).Run();
   Statement again(database,

@@ -37,6 +37,12 @@ UnfinishedJobs CountUnfinishedJobs(const SqlDatabase& database);
 /// Inserts an accepted job; its id is greater than all others.
 std::string InsertJob(const SqlDatabase& database, const NewJob& job, std::int64_t now_ms);
 
+/// For an UPDATE of jobs: what makes one failed. BindFailure binds its parameters.
+inline constexpr const char* kSetFailed =
+    "state = 'failed', message = ?, failure_code = ?, failure_kind = ?, failure_message = ?, "
+    "finished_ms = ?";
+Statement& BindFailure(Statement& update, const Error& failure, std::int64_t now_ms);
+
 /// As JobStore::Identity has it.
 StoreIdentity SelectIdentity(const SqlDatabase& database);
 

@@ -51,10 +51,8 @@ bool PublishRun(SqlDatabase& database, const RunAt& at, const std::vector<Artifa
 }
 
 bool FailRun(const SqlDatabase& database, const RunAt& at, const Error& failure) {
-  Statement update(database, Setting("state = 'failed', message = ?, failure_code = ?, "
-                                     "failure_kind = ?, failure_message = ?, finished_ms = ?"));
-  update.Bind(failure.message).Bind(std::string(ErrorCodeName(failure.code)));
-  update.Bind(std::string(failure.kind)).Bind(failure.message).Bind(at.now_ms);
+  Statement update(database, Setting(kSetFailed));
+  BindFailure(update, failure, at.now_ms);
   return Change(update, at);
 }
 
