@@ -33,12 +33,6 @@ struct WaitingClient {
   std::string name;
 };
 
-// The condition of jobs that run in this process.
-std::string OwnRuns(const SqlDatabase& database) {
-  const std::string& own = database.dialect().own_runs;
-  return own.empty() ? "state = 'running'" : "state = 'running' AND " + own;
-}
-
 bool Any(const SqlDatabase& database, const std::string& condition) {
   return Statement(database, "SELECT 1 FROM jobs WHERE " + condition + " LIMIT 1").Step();
 }
@@ -52,7 +46,7 @@ class Claim {
         turns_(turns),
         room_(room),
         now_ms_(now_ms),
-        busy_(Any(database, OwnRuns(database))) {}
+        busy_(Any(database, RunningHere(database))) {}
 
   // The id and the client of the job to start; nullopt where none may.
   struct Choice {
@@ -60,7 +54,7 @@ class Claim {
     std::string client;
   };
   std::optional<Choice> Choose() {
-    if (busy_ && Any(database_, OwnRuns(database_) + " AND crashes > 0")) return std::nullopt;
+    if (busy_ && Any(database_, RunningHere(database_) + " AND crashes > 0")) return std::nullopt;
     if (turns_.AllAlike()) return ChooseOf("state = 'accepted'");
     for (int priority = static_cast<int>(Priority::kHigh); priority >= 0 && !blocked_; --priority) {
       std::optional<Choice> choice =

@@ -37,11 +37,6 @@ Result<Job> EarlierJob(const SqlDatabase& database, const std::string& id, const
                "idempotency-key-reused"};
 }
 
-std::string OwnRuns(const SqlDatabase& database) {
-  const std::string& own = database.dialect().own_runs;
-  return own.empty() ? "" : " AND " + own;
-}
-
 Error Full(std::int64_t waiting, const std::string& whose, ErrorKind kind) {
   return {
       ErrorCode::kResourceExhausted,
@@ -116,11 +111,9 @@ std::int64_t RecoverJobs(SqlDatabase& database, PreviousEnd end, std::int64_t no
   Transaction transaction(database);
   // That these jobs ran was stored before their work began. So a crash counts even where the
   // process could not do anything more.
-  Statement poison(
-      database,
-      std::string("UPDATE jobs SET ") + kSetFailed +
-          ", updated_ms = ? WHERE state = 'running' AND (crashes + ? >= ? OR attempt >= ?)" +
-          OwnRuns(database));
+  Statement poison(database, std::string("UPDATE jobs SET ") + kSetFailed +
+                                 ", updated_ms = ? WHERE (crashes + ? >= ? OR attempt >= ?) AND " +
+                                 RunningHere(database));
   const Error failure = {ErrorCode::kIo,
                          "the service died again and again while this job ran; the fault is ours, "
                          "the DEM that shows it is worth a report",
@@ -130,9 +123,8 @@ std::int64_t RecoverJobs(SqlDatabase& database, PreviousEnd end, std::int64_t no
   poison.Bind(kMostAttempts).Run();
   Statement again(database,
                   "UPDATE jobs SET state = 'accepted', message = 'waiting to run again', "
-                  "crashes = crashes + ?, attempt = attempt - ?, updated_ms = ? "
-                  "WHERE state = 'running'" +
-                      OwnRuns(database));
+                  "crashes = crashes + ?, attempt = attempt - ?, updated_ms = ? WHERE " +
+                      RunningHere(database));
   again.Bind(std::int64_t{end == PreviousEnd::kCrashed ? 1 : 0});
   again.Bind(std::int64_t{end == PreviousEnd::kOrderly ? 1 : 0}).Bind(now_ms);
   const std::int64_t count = again.Run();

@@ -163,6 +163,11 @@ JobPage SelectPage(const SqlDatabase& database, const JobQuery& query) {
   return page;
 }
 
+std::string RunningHere(const SqlDatabase& database) {
+  const std::string& own = database.dialect().own_runs;
+  return own.empty() ? "state = 'running'" : "state = 'running' AND " + own;
+}
+
 Statement& BindFailure(Statement& update, const Error& failure, std::int64_t now_ms) {
   update.Bind(failure.message).Bind(std::string(ErrorCodeName(failure.code)));
   return update.Bind(std::string(failure.kind)).Bind(failure.message).Bind(now_ms);

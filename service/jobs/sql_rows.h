@@ -37,6 +37,8 @@ UnfinishedJobs CountUnfinishedJobs(const SqlDatabase& database);
 /// Inserts an accepted job; its id is greater than all others.
 std::string InsertJob(const SqlDatabase& database, const NewJob& job, std::int64_t now_ms);
 
+/// The condition of jobs that run in this process.
+std::string RunningHere(const SqlDatabase& database);
 /// For an UPDATE of jobs: what makes one failed. BindFailure binds its parameters.
 inline constexpr const char* kSetFailed =
     "state = 'failed', message = ?, failure_code = ?, failure_kind = ?, failure_message = ?, "

@@ -1,3 +1,5 @@
+// Three digits are what these measures are good for, and more would hide the first. A bound is
+// rounded up and never down, so that the page claims nothing that report.json does not.
 #include "core/pipeline/report_page/figures.h"
 
 #include <algorithm>

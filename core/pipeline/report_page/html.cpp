@@ -1,3 +1,5 @@
+// Escaping is a matter of types: a file's name or metadata becomes Html by Text alone, so that no
+// page can forget it.
 #include "core/pipeline/report_page/html.h"
 
 #include <cstdint>

@@ -1,3 +1,5 @@
+// The numbers of report.json that people compare levels by, as tables that a phone and a keyboard
+// can scroll.
 #include "core/pipeline/report_page/level_table.h"
 
 #include <cmath>

@@ -1,3 +1,6 @@
+// The pictures are within the page, which asks the network for nothing. So they share a bound of
+// bytes, and their quality falls until they keep it; the edges are drawn in sectors of azimuth over
+// one of them, that each may be shown or hidden without another picture.
 #include "core/pipeline/report_page/map_section.h"
 
 #include <array>

@@ -1,3 +1,6 @@
+// The sections in their order, around one choice of level that the pictures and charts share. What
+// is asked of the whole page is here: its policy lets its own script alone run, by the script's
+// hash.
 #include "core/pipeline/report_page/report_page.h"
 
 #include <map>

@@ -1,3 +1,6 @@
+// By definition: the skyline over a line of sight is the highest of the edges that it crosses, in
+// the plan. That is drawn, nothing is measured by it, so edges go into the envelope one by one and
+// no order of sweep is needed.
 #include "core/pipeline/report_page/skyline_profile.h"
 
 #include <algorithm>

@@ -1,3 +1,7 @@
+// A level leaves its tangent frame here for longitude and latitude in whole numbers, in which tiles
+// are cut: whether a vertex lies on a tile's side is then no matter of rounding. What tiles cover
+// beside the ground is triangulated between the ground's sides and a box, and is the globe or a
+// void by what it is joined to.
 #include "core/pipeline/terrain_tiles/globe_mesh.h"
 
 #include <algorithm>

@@ -1,3 +1,6 @@
+// A triangle that the line crosses becomes two or three, a wall two. The new vertex of an edge is
+// made once, from its lesser end on, so that triangles on both sides of the edge, and tiles on both
+// sides of the line, have the same bytes.
 #include "core/pipeline/terrain_tiles/split_part.h"
 
 #include <algorithm>
