@@ -19,16 +19,26 @@ offence() {
   bad=1
 }
 
-# One line for each code: FILE CODE. Calls may go over several lines, comments are left out.
-making='((Assumption|return) ?\{|Assume[A-Za-z]* ?\(|[Aa]ssumptions_?(\.|->)(push_back|emplace_back)\((Assumption)? ?\{?) ?"[^"]*"'
+# One line for each code: FILE CODE. Calls may go over several lines, so each file becomes one line;
+# comments are left out.
+making='((Assumption|return) ?[{]|Assume[A-Za-z]* ?[(]|[Aa]ssumptions_?([.]|->)(push_back|emplace_back)[(](Assumption)? ?[{]?) ?"[^"]*"'
 declare -A made=()
 while read -r file code; do
   made[$code]=$file
 done < <(
-  while IFS= read -r file; do
-    sed -E 's|(^\|[[:space:]])//.*||' "$file" | tr -s '[:space:]' ' ' | { grep -oE "$making" || true; } |
-      sed -E "s|.*\"([^\"]*)\"\$|$file \1|"
-  done < <(find core -name '*.h' -o -name '*.cpp' | sort)
+  find core \( -name '*.h' -o -name '*.cpp' \) -print0 | sort -z | making=$making xargs -0 awk '
+    function codes() {
+      gsub(/[ \t]+/, " ", text)
+      while (match(text, ENVIRON["making"])) {
+        call = substr(text, RSTART, RLENGTH)
+        text = substr(text, RSTART + RLENGTH)
+        sub(/^[^"]*"/, "", call)
+        print name, substr(call, 1, length(call) - 1)
+      }
+    }
+    FNR == 1 { codes(); name = FILENAME; text = "" }
+    { sub(/(^|[ \t])\/\/.*/, ""); text = text " " $0 }
+    END { codes() }'
 )
 for code in "${!made[@]}"; do
   [[ $code =~ ^[a-z][a-z0-9-]*$ ]] || offence "${made[$code]}" "\"$code\" is no code: small letters, digits and -"

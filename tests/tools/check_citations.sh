@@ -35,7 +35,8 @@ for file in "${files[@]}"; do
 done
 
 # One line for each key and each path: KIND FILE:LINE WHAT. Of sources, only comments are read.
-found=$(awk '
+rooted="^($(IFS='|'; echo "${folders[*]}"))/"
+found=$(rooted=$rooted awk '
   FNR == 1 { sources = 0; prose = FILENAME ~ /\.md$/; slashes = FILENAME ~ /\.(h|cpp)$/ }
   prose && FILENAME == "README.md" && /^## / { sources = /^## Sources/ }
   {
@@ -58,6 +59,7 @@ found=$(awk '
       rest = substr(rest, RSTART + RLENGTH)
       sub(/[.-]+$/, "", word)
       sub(/^(\.\/)+/, "", word)
+      if (word !~ /[A-Za-z0-9_]\.(h|cpp|sh|md)$/ && word !~ ENVIRON["rooted"]) continue
       if (word !~ /[*<>{}$]/ && word !~ /^[\/.-]/) print "path", place, word
     }
   }' "${readers[@]}")
@@ -81,9 +83,7 @@ for key in "${!listed[@]}"; do
 done
 
 count=0
-rooted="^($(IFS='|'; echo "${folders[*]}"))/"
 while read -r place path; do
-  [[ $path =~ [A-Za-z0-9_]\.(h|cpp|sh|md)$ || $path =~ $rooted ]] || continue
   [[ ! $path =~ ^[A-Z]+\.(h|cpp|sh)$ ]] || continue # a placeholder
   count=$((count + 1))
   [[ -v tails[$path] || -e $path ]] || offence "$place" "$path does not exist"
