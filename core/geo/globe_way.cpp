@@ -16,7 +16,7 @@ namespace farhorizon {
 
 namespace {
 
-Error Unusable(const std::string& message, ErrorKind kind) {
+Error NoWayToTheGlobe(const std::string& message, ErrorKind kind) {
   return {ErrorCode::kUnsupportedData, message, kind};
 }
 
@@ -57,15 +57,16 @@ constexpr const char* kHeightRemedy =
 Error NoWay(const ProjSession& session, const GlobeWay& way, const PJ* globe) {
   for (const DatumOperation& one : ListDatumOperations(session, way.crs.get(), globe)) {
     if (one.missing_grids.empty() || one.ballpark_heights) continue;
-    return Unusable("heights in " + way.name + " need the grid " + one.missing_grids.front() +
-                        ", which is not installed; " + WhereGridsGo() + ", or " + kHeightRemedy,
-                    "no-geoid-grid");
+    return NoWayToTheGlobe("heights in " + way.name + " need the grid " +
+                               one.missing_grids.front() + ", which is not installed; " +
+                               WhereGridsGo() + ", or " + kHeightRemedy,
+                           "no-geoid-grid");
   }
   const std::string why =
       way.height_axis ? std::string(": PROJ knows no more than the name of its vertical datum; ") +
                             kHeightRemedy
                       : "; give another system with --crs";
-  return Unusable("there is no way from " + way.name + " to the globe" + why, "unknown-crs");
+  return NoWayToTheGlobe("there is no way from " + way.name + " to the globe" + why, "unknown-crs");
 }
 
 // Puts EGM96 height in the place of the heights of `way`, which are above some mean sea level.

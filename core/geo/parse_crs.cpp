@@ -15,7 +15,7 @@ namespace {
 constexpr double kLeastEarthM = 6300000;
 constexpr double kGreatestEarthM = 6450000;
 
-Error Unusable(const std::string& message, ErrorKind kind) {
+Error UnusableCrs(const std::string& message, ErrorKind kind) {
   return {ErrorCode::kUnsupportedData, message, kind};
 }
 
@@ -26,7 +26,7 @@ Result<ProjObject> ParseCrs(ProjSession& session, const std::string& text, CrsRo
   if (Status allowed = CheckCrsText(complete, role); !allowed) return std::move(allowed.error());
   ProjObject crs(proj_create(session.get(), complete.c_str()));
   if (!crs || proj_is_crs(crs.get()) == 0) {
-    return Unusable(
+    return UnusableCrs(
         ShownCrsText(text, role) + " is not known" + session.Complaint() + "; " + RemedyFor(role),
         "unknown-crs");
   }
@@ -59,25 +59,27 @@ Status CheckPlan(const ProjSession& session, const PJ* plan, const std::string& 
     case PJ_TYPE_PROJECTED_CRS:
       break;
     case PJ_TYPE_ENGINEERING_CRS:
-      return Unusable(system +
-                          "is local: nothing says where on Earth it lies; give the true one "
-                          "with --crs",
-                      "local-crs");
+      return UnusableCrs(system +
+                             "is local: nothing says where on Earth it lies; give the true one "
+                             "with --crs",
+                         "local-crs");
     case PJ_TYPE_VERTICAL_CRS:
-      return Unusable(system +
-                          "is one of heights alone; give it with --vertical-datum, and that of the "
-                          "map with --crs",
-                      "unknown-crs");
+      return UnusableCrs(
+          system +
+              "is one of heights alone; give it with --vertical-datum, and that of the "
+              "map with --crs",
+          "unknown-crs");
     case PJ_TYPE_GEOCENTRIC_CRS:
-      return Unusable(system +
-                          "is geocentric, a grid of heights lies in a map; give the system of the "
-                          "map with --crs",
-                      "unknown-crs");
+      return UnusableCrs(
+          system +
+              "is geocentric, a grid of heights lies in a map; give the system of the "
+              "map with --crs",
+          "unknown-crs");
     default:
-      return Unusable(system +
-                          "is not one of maps (neither geographic nor projected); give another "
-                          "with --crs",
-                      "unknown-crs");
+      return UnusableCrs(system +
+                             "is not one of maps (neither geographic nor projected); give another "
+                             "with --crs",
+                         "unknown-crs");
   }
   const ProjObject ellipsoid(proj_get_ellipsoid(session.get(), plan));
   double axis_m = 0;
@@ -85,10 +87,10 @@ Status CheckPlan(const ProjSession& session, const PJ* plan, const std::string& 
       proj_ellipsoid_get_parameters(session.get(), ellipsoid.get(), &axis_m, nullptr, nullptr,
                                     nullptr) != 0 &&
       (axis_m < kLeastEarthM || axis_m > kGreatestEarthM)) {
-    return Unusable(system + "is not one of the Earth: its ellipsoid has a semi-major axis of " +
-                        std::to_string(static_cast<long long>(axis_m)) +
-                        " m; give a system of the Earth with --crs",
-                    "unknown-crs");
+    return UnusableCrs(system + "is not one of the Earth: its ellipsoid has a semi-major axis of " +
+                           std::to_string(static_cast<long long>(axis_m)) +
+                           " m; give a system of the Earth with --crs",
+                       "unknown-crs");
   }
   return Ok{};
 }

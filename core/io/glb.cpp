@@ -13,22 +13,14 @@
 
 #include "core/io/edge_visibility.h"
 #include "core/io/glb_container.h"
+#include "core/io/gltf_numbers.h"
 
 namespace farhorizon {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
-// Numbers of the glTF 2.0 specification: sizes of headers, component types, modes.
-constexpr std::size_t kHeaderBytes = 12;
-constexpr std::size_t kChunkHeaderBytes = 8;
-constexpr int kByte = 5120;
-constexpr int kUnsignedByte = 5121;
-constexpr int kUnsignedShort = 5123;
-constexpr int kUnsignedInt = 5125;
-constexpr int kFloat = 5126;
-constexpr int kTriangles = 4;
 constexpr std::size_t kMaxShortVertices = 65535;  // 65535 itself restarts a strip
 
 constexpr char kDraco[] = "KHR_draco_mesh_compression";
@@ -41,7 +33,7 @@ void Pad(std::vector<std::uint8_t>& bytes, std::uint8_t with) {
 // The buffer and its views.
 struct Binary {
   std::vector<std::uint8_t> bytes;
-  Json views = Json::array();
+  OrderedJson views = OrderedJson::array();
 
   // Appends `part` as a new view and returns the view's number.
   template <typename Byte>
@@ -53,10 +45,10 @@ struct Binary {
   }
 };
 
-Json PositionAccessor(const DecodedMesh& decoded) {
+OrderedJson PositionAccessor(const DecodedMesh& decoded) {
   const std::vector<Enu>& positions = decoded.mesh.positions;
   const LatticeBox box = LatticeBoxOf(positions, decoded.lattice);
-  return {{"componentType", kFloat},
+  return {{"componentType", gltf::kFloat},
           {"count", positions.size()},
           {"type", "VEC3"},
           {"min", box.least},
@@ -64,18 +56,18 @@ Json PositionAccessor(const DecodedMesh& decoded) {
 }
 
 // The object of kEdges; adds its accessors and views. See FlagEdges.
-Json EdgeExtension(const EdgeVisibility& edges, Json& accessors, Binary& binary) {
-  Json extension;
+OrderedJson EdgeExtension(const EdgeVisibility& edges, OrderedJson& accessors, Binary& binary) {
+  OrderedJson extension;
   extension["visibility"] = accessors.size();
   accessors.push_back({{"bufferView", binary.Add(edges.bits)},
-                       {"componentType", kUnsignedByte},
+                       {"componentType", gltf::kUnsignedByte},
                        {"count", edges.bits.size()},
                        {"type", "SCALAR"}});
   extension["material"] = 1;
   if (!edges.normals.empty()) {
     extension["silhouetteNormals"] = accessors.size();
     accessors.push_back({{"bufferView", binary.Add(edges.normals)},
-                         {"componentType", kByte},
+                         {"componentType", gltf::kByte},
                          {"normalized", true},
                          {"count", edges.normals.size() / 3},
                          {"type", "VEC3"}});
@@ -83,7 +75,7 @@ Json EdgeExtension(const EdgeVisibility& edges, Json& accessors, Binary& binary)
   return extension;
 }
 
-Json Material(const char* name, std::array<double, 4> colour) {
+OrderedJson Material(const char* name, std::array<double, 4> colour) {
   return {{"name", name},
           {"pbrMetallicRoughness",
            {{"baseColorFactor", colour}, {"metallicFactor", 0}, {"roughnessFactor", 1}}},
@@ -92,35 +84,36 @@ Json Material(const char* name, std::array<double, 4> colour) {
 
 // A primitive around a Draco bitstream; adds its accessors and view. Accessors of data in the
 // bitstream have neither a view nor an offset.
-Json Primitive(const std::vector<std::uint8_t>& draco, const DecodedMesh& decoded, Json& accessors,
-               Binary& binary) {
+OrderedJson Primitive(const std::vector<std::uint8_t>& draco, const DecodedMesh& decoded,
+                      OrderedJson& accessors, Binary& binary) {
   const LocalMesh& mesh = decoded.mesh;
   const std::size_t view = binary.Add(draco);
   const std::size_t first = accessors.size();
   accessors.push_back(PositionAccessor(decoded));
-  accessors.push_back({{"componentType",
-                        mesh.positions.size() <= kMaxShortVertices ? kUnsignedShort : kUnsignedInt},
-                       {"count", 3 * mesh.triangles.size()},
-                       {"type", "SCALAR"}});
   accessors.push_back(
-      {{"componentType", kFloat}, {"count", mesh.positions.size()}, {"type", "VEC3"}});
-  Json primitive = {{"attributes", {{"POSITION", first}, {"NORMAL", first + 2}}},
-                    {"indices", first + 1},
-                    {"mode", kTriangles},
-                    {"material", 0}};
+      {{"componentType",
+        mesh.positions.size() <= kMaxShortVertices ? gltf::kUnsignedShort : gltf::kUnsignedInt},
+       {"count", 3 * mesh.triangles.size()},
+       {"type", "SCALAR"}});
+  accessors.push_back(
+      {{"componentType", gltf::kFloat}, {"count", mesh.positions.size()}, {"type", "VEC3"}});
+  OrderedJson primitive = {{"attributes", {{"POSITION", first}, {"NORMAL", first + 2}}},
+                           {"indices", first + 1},
+                           {"mode", gltf::kTriangles},
+                           {"material", 0}};
   primitive["extensions"][kDraco] = {
       {"bufferView", view},
       {"attributes", {{"POSITION", kDracoPositionId}, {"NORMAL", kDracoNormalId}}}};
   return primitive;
 }
 
-Error BadGlb(const std::string& message) {
+Error NoGlbOfOurs(const std::string& message) {
   return {ErrorCode::kUnsupportedData, "no GLB of ours: " + message, "bad-glb"};
 }
 
 // The part of the buffer that a view names; nullopt where it lies outside.
 std::optional<std::span<const std::uint8_t>> PartOf(std::span<const std::uint8_t> buffer,
-                                                    const Json& view) {
+                                                    const OrderedJson& view) {
   const auto offset = view.value("byteOffset", std::uint64_t{0});
   const auto length = view.at("byteLength").get<std::uint64_t>();
   if (offset > buffer.size() || length > buffer.size() - offset) return std::nullopt;
@@ -128,10 +121,10 @@ std::optional<std::span<const std::uint8_t>> PartOf(std::span<const std::uint8_t
 }
 
 // What the extension of a primitive says of its edges; nullopt where it lies outside the buffer.
-std::optional<EdgeVisibility> ReadEdges(const Json& gltf, const Json& extension,
+std::optional<EdgeVisibility> ReadEdges(const OrderedJson& gltf, const OrderedJson& extension,
                                         std::span<const std::uint8_t> buffer) {
   const auto part = [&](const char* name) {
-    const Json& accessor = gltf.at("accessors").at(extension.at(name).get<std::size_t>());
+    const OrderedJson& accessor = gltf.at("accessors").at(extension.at(name).get<std::size_t>());
     return PartOf(buffer, gltf.at("bufferViews").at(accessor.at("bufferView").get<std::size_t>()));
   };
   EdgeVisibility edges;
@@ -146,13 +139,16 @@ std::optional<EdgeVisibility> ReadEdges(const Json& gltf, const Json& extension,
 }
 
 // Errors: "bad-glb"; those of nlohmann::json are thrown.
-Result<GlbPrimitive> ReadPrimitive(const Json& gltf, const Json& primitive,
+Result<GlbPrimitive> ReadPrimitive(const OrderedJson& gltf, const OrderedJson& primitive,
                                    std::span<const std::uint8_t> bin) {
-  const Json& extension = primitive.at("extensions").at(kDraco);
-  const Json& accessors = gltf.at("accessors");
-  const Json& position = accessors.at(primitive.at("attributes").at("POSITION").get<std::size_t>());
-  const Json& normal = accessors.at(primitive.at("attributes").at("NORMAL").get<std::size_t>());
-  const Json& view = gltf.at("bufferViews").at(extension.at("bufferView").get<std::size_t>());
+  const OrderedJson& extension = primitive.at("extensions").at(kDraco);
+  const OrderedJson& accessors = gltf.at("accessors");
+  const OrderedJson& position =
+      accessors.at(primitive.at("attributes").at("POSITION").get<std::size_t>());
+  const OrderedJson& normal =
+      accessors.at(primitive.at("attributes").at("NORMAL").get<std::size_t>());
+  const OrderedJson& view =
+      gltf.at("bufferViews").at(extension.at("bufferView").get<std::size_t>());
   GlbPrimitive contents;
   contents.vertex_count = position.at("count").get<std::int64_t>();
   contents.normal_count = normal.at("count").get<std::int64_t>();
@@ -161,7 +157,7 @@ Result<GlbPrimitive> ReadPrimitive(const Json& gltf, const Json& primitive,
   contents.min = position.at("min").get<std::array<double, 3>>();
   contents.max = position.at("max").get<std::array<double, 3>>();
   const auto part = PartOf(bin, view);
-  if (!part) return BadGlb("the Draco bitstream lies outside the buffer");
+  if (!part) return NoGlbOfOurs("the Draco bitstream lies outside the buffer");
   contents.draco.assign(part->begin(), part->end());
   return contents;
 }
@@ -178,55 +174,55 @@ std::vector<std::uint8_t> WriteGlb(const std::vector<std::uint8_t>& draco,
                                    const DecodedMesh& decoded, const EdgeVisibility& edges,
                                    const EncodedMesh* skirt) {
   Binary binary;
-  Json accessors = Json::array();
-  Json primitive = Primitive(draco, decoded, accessors, binary);
-  Json materials = Json::array({Material("terrain", {0.62, 0.6, 0.55, 1})});
-  Json used = Json::array({kDraco});
+  OrderedJson accessors = OrderedJson::array();
+  OrderedJson primitive = Primitive(draco, decoded, accessors, binary);
+  OrderedJson materials = OrderedJson::array({Material("terrain", {0.62, 0.6, 0.55, 1})});
+  OrderedJson used = OrderedJson::array({kDraco});
   if (edges.edge_count > 0) {
     primitive["extensions"][kEdges] = EdgeExtension(edges, accessors, binary);
     materials.push_back(Material("horizon edge", {1, 0.25, 0, 1}));
     used.push_back(kEdges);
   }
-  Json primitives = Json::array({primitive});
+  OrderedJson primitives = OrderedJson::array({primitive});
   if (skirt != nullptr) {
     primitives.push_back(Primitive(skirt->draco, skirt->decoded, accessors, binary));
     primitives.back()["extras"] = {{"skirt", true}};
   }
 
-  Json gltf;
+  OrderedJson gltf;
   gltf["asset"] = {{"version", "2.0"}, {"generator", "farhorizon"}};
   gltf["extensionsUsed"] = used;
-  gltf["extensionsRequired"] = Json::array({kDraco});
+  gltf["extensionsRequired"] = OrderedJson::array({kDraco});
   gltf["scene"] = 0;
-  gltf["scenes"] = Json::array({{{"nodes", {0}}}});
-  gltf["nodes"] = Json::array({{{"mesh", 0}, {"matrix", GltfMatrix(decoded.lattice)}}});
-  gltf["meshes"] = Json::array({{{"primitives", primitives}}});
+  gltf["scenes"] = OrderedJson::array({{{"nodes", {0}}}});
+  gltf["nodes"] = OrderedJson::array({{{"mesh", 0}, {"matrix", GltfMatrix(decoded.lattice)}}});
+  gltf["meshes"] = OrderedJson::array({{{"primitives", primitives}}});
   gltf["materials"] = materials;
   gltf["accessors"] = accessors;
   gltf["bufferViews"] = binary.views;
-  gltf["buffers"] = Json::array({{{"byteLength", binary.bytes.size()}}});
+  gltf["buffers"] = OrderedJson::array({{{"byteLength", binary.bytes.size()}}});
   return JoinGlb(gltf.dump(), binary.bytes);
 }
 
 Result<GlbContents> ReadGlb(const std::vector<std::uint8_t>& bytes) {
   Result<GlbChunks> chunks = SplitGlb(bytes);
-  if (!chunks) return BadGlb(chunks.error().message);
+  if (!chunks) return NoGlbOfOurs(chunks.error().message);
   if (bytes.size() !=
-      kHeaderBytes + 2 * kChunkHeaderBytes + chunks->json.size() + chunks->bin.size()) {
-    return BadGlb("it is more than a header and two chunks");
+      gltf::kHeaderBytes + 2 * gltf::kChunkHeaderBytes + chunks->json.size() + chunks->bin.size()) {
+    return NoGlbOfOurs("it is more than a header and two chunks");
   }
   try {
-    const Json gltf = Json::parse(chunks->json.begin(), chunks->json.end());
-    const Json& primitives = gltf.at("meshes").at(0).at("primitives");
+    const OrderedJson gltf = OrderedJson::parse(chunks->json.begin(), chunks->json.end());
+    const OrderedJson& primitives = gltf.at("meshes").at(0).at("primitives");
     GlbContents contents;
     contents.matrix = gltf.at("nodes").at(0).at("matrix").get<std::array<double, 16>>();
     Result<GlbPrimitive> surface = ReadPrimitive(gltf, primitives.at(0), chunks->bin);
     if (!surface) return std::move(surface.error());
     contents.surface = *std::move(surface);
-    const Json& extensions = primitives.at(0).at("extensions");
+    const OrderedJson& extensions = primitives.at(0).at("extensions");
     if (extensions.contains(kEdges)) {
       std::optional<EdgeVisibility> edges = ReadEdges(gltf, extensions.at(kEdges), chunks->bin);
-      if (!edges) return BadGlb("its edges lie outside the buffer");
+      if (!edges) return NoGlbOfOurs("its edges lie outside the buffer");
       contents.edges = *std::move(edges);
     }
     if (primitives.size() > 1) {
@@ -236,7 +232,7 @@ Result<GlbContents> ReadGlb(const std::vector<std::uint8_t>& bytes) {
     }
     return contents;
   } catch (const nlohmann::json::exception& failure) {
-    return BadGlb(failure.what());
+    return NoGlbOfOurs(failure.what());
   }
 }
 

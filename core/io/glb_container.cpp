@@ -7,6 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "core/io/gltf_numbers.h"
+
 namespace farhorizon {
 
 namespace {
@@ -14,8 +16,6 @@ namespace {
 constexpr std::uint32_t kMagic = 0x46546C67;
 constexpr std::uint32_t kJsonChunk = 0x4E4F534A;
 constexpr std::uint32_t kBinChunk = 0x004E4942;
-constexpr std::size_t kHeaderBytes = 12;
-constexpr std::size_t kChunkHeaderBytes = 8;
 
 std::uint32_t LittleEndianAt(std::span<const std::uint8_t> bytes, std::size_t at) {
   std::uint32_t value = 0;
@@ -33,7 +33,7 @@ void AppendLittleEndian(std::vector<std::uint8_t>& bytes, std::uint32_t value) {
 template <typename Bytes>
 void AppendChunk(std::vector<std::uint8_t>& glb, std::uint32_t type, const Bytes& content,
                  std::uint8_t with, std::size_t alignment) {
-  const std::size_t end = glb.size() + kChunkHeaderBytes + content.size();
+  const std::size_t end = glb.size() + gltf::kChunkHeaderBytes + content.size();
   const std::size_t padding = (alignment - end % alignment) % alignment;
   AppendLittleEndian(glb, static_cast<std::uint32_t>(content.size() + padding));
   AppendLittleEndian(glb, type);
@@ -48,11 +48,11 @@ Error BadGlb(const std::string& message) {
 // Takes a chunk of `type` off the front of `rest`.
 Result<std::span<const std::uint8_t>> TakeChunk(std::span<const std::uint8_t>& rest,
                                                 std::uint32_t type, const char* name) {
-  if (rest.size() < kChunkHeaderBytes || LittleEndianAt(rest, 4) != type) {
+  if (rest.size() < gltf::kChunkHeaderBytes || LittleEndianAt(rest, 4) != type) {
     return BadGlb(std::string("its chunk ") + name + " is missing");
   }
   const std::size_t size = LittleEndianAt(rest, 0);
-  rest = rest.subspan(kChunkHeaderBytes);
+  rest = rest.subspan(gltf::kChunkHeaderBytes);
   if (size > rest.size()) return BadGlb(std::string("its chunk ") + name + " is cut short");
   const std::span<const std::uint8_t> chunk = rest.first(size);
   rest = rest.subspan(size);
@@ -65,7 +65,8 @@ std::vector<std::uint8_t> JoinGlb(std::string_view json, std::span<const std::ui
                                   std::size_t alignment) {
   Check(json.size() + buffer.size() < 0xFFFF0000U, "a GLB beyond 4 GiB");
   std::vector<std::uint8_t> glb;
-  glb.reserve(kHeaderBytes + 2 * (kChunkHeaderBytes + alignment) + json.size() + buffer.size());
+  glb.reserve(gltf::kHeaderBytes + 2 * (gltf::kChunkHeaderBytes + alignment) + json.size() +
+              buffer.size());
   AppendLittleEndian(glb, kMagic);
   AppendLittleEndian(glb, 2);
   AppendLittleEndian(glb, 0);  // the length, below
@@ -79,7 +80,7 @@ std::vector<std::uint8_t> JoinGlb(std::string_view json, std::span<const std::ui
 }
 
 bool IsGlb(std::span<const std::uint8_t> bytes) {
-  return bytes.size() >= kHeaderBytes && LittleEndianAt(bytes, 0) == kMagic;
+  return bytes.size() >= gltf::kHeaderBytes && LittleEndianAt(bytes, 0) == kMagic;
 }
 
 Result<GlbChunks> SplitGlb(std::span<const std::uint8_t> bytes) {
@@ -87,11 +88,12 @@ Result<GlbChunks> SplitGlb(std::span<const std::uint8_t> bytes) {
     return BadGlb("it does not begin as glTF binary 2 does");
   }
   const std::size_t length = LittleEndianAt(bytes, 8);
-  if (length < kHeaderBytes || length > bytes.size()) {
+  if (length < gltf::kHeaderBytes || length > bytes.size()) {
     return BadGlb("it has " + std::to_string(bytes.size()) + " bytes, its header says " +
                   std::to_string(length));
   }
-  std::span<const std::uint8_t> rest = bytes.subspan(kHeaderBytes, length - kHeaderBytes);
+  std::span<const std::uint8_t> rest =
+      bytes.subspan(gltf::kHeaderBytes, length - gltf::kHeaderBytes);
   GlbChunks chunks;
   Result<std::span<const std::uint8_t>> json = TakeChunk(rest, kJsonChunk, "JSON");
   if (!json) return std::move(json.error());

@@ -14,29 +14,19 @@
 #include "core/base/result.h"
 #include "core/io/glb.h"
 #include "core/io/glb_container.h"
+#include "core/io/gltf_numbers.h"
 
 namespace farhorizon {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-using Point = std::array<float, 3>;
+using OrderedJson = nlohmann::ordered_json;
 
-// Numbers of the glTF 2.0 specification.
-constexpr int kUnsignedShort = 5123;
-constexpr int kUnsignedInt = 5125;
-constexpr int kFloat = 5126;
-constexpr int kArrayBuffer = 34962;
-constexpr int kElementArrayBuffer = 34963;
-constexpr int kLines = 1;
-constexpr std::size_t kAlignment = 8;
 // Vertices begin at multiples of four bytes: three numbers of 16 bits take four.
 constexpr std::size_t kShortStride = 8;
 constexpr float kMostShort = 65535;
 // The greatest index of a type would restart a primitive.
 constexpr std::size_t kMostShortVertices = 65535;
-// Stands for a measure that is unset.
-constexpr float kNoData = -1;
 
 constexpr char kQuantization[] = "KHR_mesh_quantization";
 constexpr char kMetadata[] = "EXT_structural_metadata";
@@ -46,7 +36,7 @@ constexpr char kClass[] = "horizon_chain";
 // The buffer and its views.
 struct Binary {
   std::vector<std::uint8_t> bytes;
-  Json views = Json::array();
+  OrderedJson views = OrderedJson::array();
 
   void Add(std::uint64_t number, std::size_t width) {
     for (std::size_t k = 0; k < width; ++k) {
@@ -60,19 +50,20 @@ struct Binary {
     views.push_back({{"buffer", 0}, {"byteOffset", begin}, {"byteLength", bytes.size() - begin}});
     if (stride != 0) views.back()["byteStride"] = stride;
     if (target != 0) views.back()["target"] = target;
-    bytes.resize((bytes.size() + kAlignment - 1) / kAlignment * kAlignment, 0);
+    bytes.resize(
+        (bytes.size() + kHorizonGlbAlignment - 1) / kHorizonGlbAlignment * kHorizonGlbAlignment, 0);
     return views.size() - 1;
   }
 };
 
 // The points of all chains, each once, and the lines between them.
 struct Graph {
-  std::vector<Point> points;
+  std::vector<HorizonGlbPoint> points;
   std::vector<std::size_t> indices;
 
   explicit Graph(const std::vector<LineChain>& chains) {
-    std::map<Point, std::size_t> places;
-    const auto place = [&](const Point& point) {
+    std::map<HorizonGlbPoint, std::size_t> places;
+    const auto place = [&](const HorizonGlbPoint& point) {
       const auto [at, is_new] = places.emplace(point, points.size());
       if (is_new) points.push_back(point);
       return at->second;
@@ -86,10 +77,10 @@ struct Graph {
   }
 };
 
-Json PositionAccessor(const std::vector<Point>& points, Binary& binary) {
-  Point least = points.front();
-  Point greatest = least;
-  for (const Point& point : points) {
+OrderedJson PositionAccessor(const std::vector<HorizonGlbPoint>& points, Binary& binary) {
+  HorizonGlbPoint least = points.front();
+  HorizonGlbPoint greatest = least;
+  for (const HorizonGlbPoint& point : points) {
     for (std::size_t k = 0; k < 3; ++k) {
       least[k] = std::min(least[k], point[k]);
       greatest[k] = std::max(greatest[k], point[k]);
@@ -97,7 +88,7 @@ Json PositionAccessor(const std::vector<Point>& points, Binary& binary) {
   }
   const bool shorts = std::ranges::max(greatest) <= kMostShort;
   const std::size_t begin = binary.bytes.size();
-  for (const Point& point : points) {
+  for (const HorizonGlbPoint& point : points) {
     for (const float x : point) {
       if (shorts) {
         binary.Add(static_cast<std::uint64_t>(x), 2);
@@ -107,27 +98,27 @@ Json PositionAccessor(const std::vector<Point>& points, Binary& binary) {
     }
     if (shorts) binary.Add(0, 2);
   }
-  const std::size_t view = binary.EndView(begin, kArrayBuffer, shorts ? kShortStride : 0);
-  Json accessor = {{"bufferView", view},
-                   {"componentType", shorts ? kUnsignedShort : kFloat},
-                   {"count", points.size()},
-                   {"type", "VEC3"}};
-  const auto bounds = [shorts](const Point& p) {
-    return shorts ? Json(std::array<int, 3>{static_cast<int>(p[0]), static_cast<int>(p[1]),
-                                            static_cast<int>(p[2])})
-                  : Json(p);
+  const std::size_t view = binary.EndView(begin, gltf::kArrayBuffer, shorts ? kShortStride : 0);
+  OrderedJson accessor = {{"bufferView", view},
+                          {"componentType", shorts ? gltf::kUnsignedShort : gltf::kFloat},
+                          {"count", points.size()},
+                          {"type", "VEC3"}};
+  const auto bounds = [shorts](const HorizonGlbPoint& p) {
+    return shorts ? OrderedJson(std::array<int, 3>{static_cast<int>(p[0]), static_cast<int>(p[1]),
+                                                   static_cast<int>(p[2])})
+                  : OrderedJson(p);
   };
   accessor["min"] = bounds(least);
   accessor["max"] = bounds(greatest);
   return accessor;
 }
 
-Json IndexAccessor(const Graph& graph, Binary& binary) {
+OrderedJson IndexAccessor(const Graph& graph, Binary& binary) {
   const bool shorts = graph.points.size() <= kMostShortVertices;
   const std::size_t begin = binary.bytes.size();
   for (const std::size_t i : graph.indices) binary.Add(i, shorts ? 2 : 4);
-  return {{"bufferView", binary.EndView(begin, kElementArrayBuffer)},
-          {"componentType", shorts ? kUnsignedShort : kUnsignedInt},
+  return {{"bufferView", binary.EndView(begin, gltf::kElementArrayBuffer)},
+          {"componentType", shorts ? gltf::kUnsignedShort : gltf::kUnsignedInt},
           {"count", graph.indices.size()},
           {"type", "SCALAR"}};
 }
@@ -151,11 +142,12 @@ class Table {
     AddMeasure("skyline_drop_m", "Greatest of the DEM's edges, metres", &LineChain::skyline_drop_m);
   }
 
-  [[nodiscard]] Json Extension() const {
-    Json schema = {{"id", "farhorizon_horizon"}};
+  [[nodiscard]] OrderedJson Extension() const {
+    OrderedJson schema = {{"id", "farhorizon_horizon"}};
     schema["classes"][kClass]["properties"] = properties_;
-    const Json table = {{"class", kClass}, {"count", chains_.size()}, {"properties", columns_}};
-    return {{"schema", schema}, {"propertyTables", Json::array({table})}};
+    const OrderedJson table = {
+        {"class", kClass}, {"count", chains_.size()}, {"properties", columns_}};
+    return {{"schema", schema}, {"propertyTables", OrderedJson::array({table})}};
   }
 
  private:
@@ -174,23 +166,23 @@ class Table {
   void AddMeasure(const char* name, const char* description,
                   std::optional<float> LineChain::*measure) {
     Add(name, "SCALAR", "FLOAT32", description,
-        [&](const LineChain& chain) { binary_.Add((chain.*measure).value_or(kNoData)); });
+        [&](const LineChain& chain) { binary_.Add((chain.*measure).value_or(kUnsetMeasure)); });
     properties_[name].erase("required");
-    properties_[name]["noData"] = static_cast<int>(kNoData);
+    properties_[name]["noData"] = static_cast<int>(kUnsetMeasure);
   }
 
   const std::vector<LineChain>& chains_;
   Binary& binary_;
-  Json properties_;
-  Json columns_;
+  OrderedJson properties_;
+  OrderedJson columns_;
 };
 
-Json Material() {
-  Json material = {
+OrderedJson Material() {
+  OrderedJson material = {
       {"name", "horizon edge"},
       {"pbrMetallicRoughness",
        {{"baseColorFactor", {1, 0.25, 0, 1}}, {"metallicFactor", 0}, {"roughnessFactor", 1}}}};
-  material["extensions"][kUnlit] = Json::object();
+  material["extensions"][kUnlit] = OrderedJson::object();
   return material;
 }
 
@@ -201,30 +193,30 @@ std::vector<std::uint8_t> WriteHorizonGlb(const std::vector<LineChain>& chains,
   Check(!chains.empty(), "a level has an outline, which has some of its skyline");
   const Graph graph(chains);
   Binary binary;
-  Json accessors = Json::array({PositionAccessor(graph.points, binary)});
+  OrderedJson accessors = OrderedJson::array({PositionAccessor(graph.points, binary)});
   accessors.push_back(IndexAccessor(graph, binary));
   const Table table(chains, binary);
-  const bool quantized = accessors[0]["componentType"] == kUnsignedShort;
-  const Json primitive = {
-      {"attributes", {{"POSITION", 0}}}, {"indices", 1}, {"mode", kLines}, {"material", 0}};
+  const bool quantized = accessors[0]["componentType"] == gltf::kUnsignedShort;
+  const OrderedJson primitive = {
+      {"attributes", {{"POSITION", 0}}}, {"indices", 1}, {"mode", gltf::kLines}, {"material", 0}};
 
-  Json gltf;
+  OrderedJson gltf;
   gltf["asset"] = {{"version", "2.0"}, {"generator", "farhorizon"}};
-  gltf["extensionsUsed"] = Json::array({kUnlit, kMetadata});
+  gltf["extensionsUsed"] = OrderedJson::array({kUnlit, kMetadata});
   if (quantized) {
     gltf["extensionsUsed"].push_back(kQuantization);
-    gltf["extensionsRequired"] = Json::array({kQuantization});
+    gltf["extensionsRequired"] = OrderedJson::array({kQuantization});
   }
   gltf["extensions"][kMetadata] = table.Extension();
   gltf["scene"] = 0;
-  gltf["scenes"] = Json::array({{{"nodes", {0}}}});
-  gltf["nodes"] = Json::array({{{"mesh", 0}, {"matrix", GltfMatrix(lattice)}}});
-  gltf["meshes"] = Json::array({{{"primitives", Json::array({primitive})}}});
-  gltf["materials"] = Json::array({Material()});
+  gltf["scenes"] = OrderedJson::array({{{"nodes", {0}}}});
+  gltf["nodes"] = OrderedJson::array({{{"mesh", 0}, {"matrix", GltfMatrix(lattice)}}});
+  gltf["meshes"] = OrderedJson::array({{{"primitives", OrderedJson::array({primitive})}}});
+  gltf["materials"] = OrderedJson::array({Material()});
   gltf["accessors"] = accessors;
   gltf["bufferViews"] = binary.views;
-  gltf["buffers"] = Json::array({{{"byteLength", binary.bytes.size()}}});
-  return JoinGlb(gltf.dump(), binary.bytes, kAlignment);
+  gltf["buffers"] = OrderedJson::array({{{"byteLength", binary.bytes.size()}}});
+  return JoinGlb(gltf.dump(), binary.bytes, kHorizonGlbAlignment);
 }
 
 }  // namespace farhorizon

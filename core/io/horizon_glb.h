@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -7,6 +9,12 @@
 #include "core/io/quantization_lattice.h"
 
 namespace farhorizon {
+
+/// What the two that write and read the binary agree on: a point, where views of the buffer may
+/// begin [EXT_structural_metadata], and what stands for a measure that is unset.
+using HorizonGlbPoint = std::array<float, 3>;
+inline constexpr std::size_t kHorizonGlbAlignment = 8;
+inline constexpr float kUnsetMeasure = -1;
 
 /// A glTF 2.0 binary with a primitive of LINES, in the frame of the level's mesh: GltfMatrix of the
 /// same lattice is on the root node.

@@ -12,22 +12,15 @@
 #include <nlohmann/json.hpp>
 
 #include "core/io/glb_container.h"
+#include "core/io/gltf_numbers.h"
 
 namespace farhorizon {
 
 namespace {
 
 using Json = nlohmann::json;
-using Point = std::array<float, 3>;
 
-constexpr int kUnsignedShort = 5123;
-constexpr int kUnsignedInt = 5125;
-constexpr int kFloat = 5126;
-constexpr int kLines = 1;
-constexpr std::size_t kAlignment = 8;
-constexpr float kNoData = -1;
-
-Error BadGlb(const std::string& message) {
+Error NoHorizonGlb(const std::string& message) {
   return {ErrorCode::kUnsupportedData, "no horizon GLB of ours: " + message, "bad-glb"};
 }
 
@@ -40,7 +33,7 @@ class View {
     const Json& view = gltf.at("bufferViews").at(index.get<std::size_t>());
     const auto offset = view.at("byteOffset").get<std::uint64_t>();
     const auto length = view.at("byteLength").get<std::uint64_t>();
-    fits_ = offset % kAlignment == 0 && offset <= buffer.size() &&
+    fits_ = offset % kHorizonGlbAlignment == 0 && offset <= buffer.size() &&
             length <= buffer.size() - offset && length % stride == 0 && length / stride == rows &&
             view.value("byteStride", stride) == stride;
     if (fits_) bytes_ = buffer.subspan(offset, length);
@@ -64,15 +57,15 @@ class View {
   bool fits_ = false;
 };
 
-std::optional<std::vector<Point>> ReadPoints(const Json& gltf, const Json& accessor,
-                                             std::span<const std::uint8_t> buffer) {
-  const bool shorts = accessor.at("componentType") == kUnsignedShort;
-  if (!shorts && accessor.at("componentType") != kFloat) return std::nullopt;
+std::optional<std::vector<HorizonGlbPoint>> ReadPoints(const Json& gltf, const Json& accessor,
+                                                       std::span<const std::uint8_t> buffer) {
+  const bool shorts = accessor.at("componentType") == gltf::kUnsignedShort;
+  if (!shorts && accessor.at("componentType") != gltf::kFloat) return std::nullopt;
   const auto count = accessor.at("count").get<std::size_t>();
   const std::size_t stride = shorts ? 8 : 12;
   const View view(gltf, accessor.at("bufferView"), buffer, count, stride);
   if (!view.fits()) return std::nullopt;
-  std::vector<Point> points(count);
+  std::vector<HorizonGlbPoint> points(count);
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t k = 0; k < 3; ++k) {
       points[i][k] = shorts ? static_cast<float>(view.At(i * stride + 2 * k, 2))
@@ -85,8 +78,8 @@ std::optional<std::vector<Point>> ReadPoints(const Json& gltf, const Json& acces
 std::optional<std::vector<std::size_t>> ReadIndices(const Json& gltf, const Json& accessor,
                                                     std::span<const std::uint8_t> buffer,
                                                     std::size_t points) {
-  const std::size_t width = accessor.at("componentType") == kUnsignedShort ? 2 : 4;
-  if (width == 4 && accessor.at("componentType") != kUnsignedInt) return std::nullopt;
+  const std::size_t width = accessor.at("componentType") == gltf::kUnsignedShort ? 2 : 4;
+  if (width == 4 && accessor.at("componentType") != gltf::kUnsignedInt) return std::nullopt;
   const auto count = accessor.at("count").get<std::size_t>();
   const View view(gltf, accessor.at("bufferView"), buffer, count, width);
   if (!view.fits() || count % 2 != 0) return std::nullopt;
@@ -99,14 +92,14 @@ std::optional<std::vector<std::size_t>> ReadIndices(const Json& gltf, const Json
 }
 
 std::optional<float> Measure(float stored) {
-  return stored == kNoData ? std::nullopt : std::optional<float>(stored);
+  return stored == kUnsetMeasure ? std::nullopt : std::optional<float>(stored);
 }
 
 // The rows of the table, with the points of as many lines as each has; unset where a column does
 // not fit, or the lines of a chain do not hang together.
 std::optional<std::vector<LineChain>> ReadChains(const Json& gltf,
                                                  std::span<const std::uint8_t> buffer,
-                                                 const std::vector<Point>& points,
+                                                 const std::vector<HorizonGlbPoint>& points,
                                                  const std::vector<std::size_t>& indices) {
   const Json& metadata = gltf.at("extensions").at("EXT_structural_metadata");
   const Json& table = metadata.at("propertyTables").at(0);
@@ -140,10 +133,10 @@ std::optional<std::vector<LineChain>> ReadChains(const Json& gltf,
   return next == indices.size() ? std::optional(std::move(chains)) : std::nullopt;
 }
 
-bool IsInBox(const std::vector<Point>& points, const Json& accessor) {
-  const auto least = accessor.at("min").get<Point>();
-  const auto greatest = accessor.at("max").get<Point>();
-  for (const Point& point : points) {
+bool IsInBox(const std::vector<HorizonGlbPoint>& points, const Json& accessor) {
+  const auto least = accessor.at("min").get<HorizonGlbPoint>();
+  const auto greatest = accessor.at("max").get<HorizonGlbPoint>();
+  for (const HorizonGlbPoint& point : points) {
     for (std::size_t k = 0; k < 3; ++k) {
       if (point[k] < least[k] || point[k] > greatest[k]) return false;
     }
@@ -155,29 +148,29 @@ bool IsInBox(const std::vector<Point>& points, const Json& accessor) {
 
 Result<HorizonGlbContents> ReadHorizonGlb(const std::vector<std::uint8_t>& bytes) {
   Result<GlbChunks> chunks = SplitGlb(bytes);
-  if (!chunks) return BadGlb(chunks.error().message);
+  if (!chunks) return NoHorizonGlb(chunks.error().message);
   try {
     const Json gltf = Json::parse(chunks->json.begin(), chunks->json.end());
     const Json& primitive = gltf.at("meshes").at(0).at("primitives").at(0);
-    if (primitive.at("mode") != kLines) return BadGlb("it has no lines");
+    if (primitive.at("mode") != gltf::kLines) return NoHorizonGlb("it has no lines");
     const auto accessor = [&gltf](const Json& index) -> const Json& {
       return gltf.at("accessors").at(index.get<std::size_t>());
     };
     const Json& position = accessor(primitive.at("attributes").at("POSITION"));
     const auto points = ReadPoints(gltf, position, chunks->bin);
-    if (!points) return BadGlb("its positions are no view of the buffer");
+    if (!points) return NoHorizonGlb("its positions are no view of the buffer");
     const auto indices =
         ReadIndices(gltf, accessor(primitive.at("indices")), chunks->bin, points->size());
-    if (!indices) return BadGlb("its indices are no pairs of its points");
+    if (!indices) return NoHorizonGlb("its indices are no pairs of its points");
     auto chains = ReadChains(gltf, chunks->bin, *points, *indices);
-    if (!chains) return BadGlb("its table does not have a row for each chain of its lines");
+    if (!chains) return NoHorizonGlb("its table does not have a row for each chain of its lines");
     HorizonGlbContents contents;
     contents.chains = *std::move(chains);
     contents.matrix = gltf.at("nodes").at(0).at("matrix").get<std::array<double, 16>>();
     contents.in_box = IsInBox(*points, position);
     return contents;
   } catch (const nlohmann::json::exception& failure) {
-    return BadGlb(failure.what());
+    return NoHorizonGlb(failure.what());
   }
 }
 

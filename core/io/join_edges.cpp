@@ -11,16 +11,16 @@ namespace farhorizon {
 
 namespace {
 
-using Point = std::array<double, 2>;
+using PlanPosition = std::array<double, 2>;
 
 // An end of an edge, 0 at a and 1 at b.
 struct EdgeEnd {
-  Point point;
+  PlanPosition point;
   std::size_t edge;
   std::size_t end;
 };
 
-Point PointOf(const PlanEdge& edge, std::size_t end) { return end == 0 ? edge.a : edge.b; }
+PlanPosition PointOf(const PlanEdge& edge, std::size_t end) { return end == 0 ? edge.a : edge.b; }
 
 // Joins the ends of edges at points by twos.
 class Joints {
@@ -52,15 +52,15 @@ class Joints {
  private:
   // The cosine of the angle between two edges as they leave a point.
   [[nodiscard]] double Cosine(const EdgeEnd& p, const EdgeEnd& q) const {
-    const auto leave = [this](const EdgeEnd& e) -> Point {
-      const Point far = PointOf(edges_[e.edge], 1 - e.end);
+    const auto leave = [this](const EdgeEnd& e) -> PlanPosition {
+      const PlanPosition far = PointOf(edges_[e.edge], 1 - e.end);
       const double x = far[0] - e.point[0];
       const double y = far[1] - e.point[1];
       const double length = std::sqrt(x * x + y * y);
       return {x / length, y / length};
     };
-    const Point a = leave(p);
-    const Point b = leave(q);
+    const PlanPosition a = leave(p);
+    const PlanPosition b = leave(q);
     return a[0] * b[0] + a[1] * b[1];
   }
 

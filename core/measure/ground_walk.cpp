@@ -11,6 +11,7 @@
 #include <optional>
 #include <tuple>
 
+#include "core/base/infinity.h"
 #include "core/measure/ground_below.h"
 #include "core/measure/in_hull.h"
 
@@ -18,7 +19,6 @@ namespace farhorizon {
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr float kNoRise = -std::numeric_limits<float>::infinity();
 
 // Pieces are joined up to this length, columns or rows: longer ones are fewer, but each of them is

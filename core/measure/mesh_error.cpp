@@ -6,10 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 
+#include "core/base/infinity.h"
 #include "core/base/parallel_for.h"
 #include "core/measure/facet_look.h"
 #include "core/measure/ground_walk.h"
@@ -30,8 +30,6 @@ namespace {
 constexpr double kPosts = 0.2;
 constexpr double kSampled = 0.5;
 constexpr double kAbove = 0.8;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 

@@ -19,7 +19,7 @@ using Offsets = std::array<double, LineBox::kCorners>;
 // line as far as doubles can tell, and its middle line stands for it.
 constexpr int kMostHalvings = 80;
 // Segments looked at for one question. Most take some hundred, nearly all below a hundred thousand.
-constexpr std::int64_t kMostLooks = 2'000'000;
+constexpr std::int64_t kMostLooksOfAQuestion = 2'000'000;
 
 double Cross(const GridPoint& o, const GridPoint& p, const GridPoint& q) {
   return (p.column - o.column) * (q.row - o.row) - (p.row - o.row) * (q.column - o.column);
@@ -159,7 +159,7 @@ OccludedLines::MiddleLine OccludedLines::MiddleOf(const LineBox& box) const {
 }
 
 void OccludedLines::Begin(const BoxQuestion& question) {
-  last_look_ = looks_ + kMostLooks;
+  last_look_ = looks_ + kMostLooksOfAQuestion;
   candidates_.clear();
   ends_.clear();
   question_ = question;

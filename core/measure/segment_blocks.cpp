@@ -5,8 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <tuple>
+
+#include "core/base/infinity.h"
 
 namespace farhorizon {
 
@@ -19,7 +20,6 @@ constexpr double kBlock = 8;
 }  // namespace
 
 SegmentBlocks::SegmentBlocks(const SkylineNet& net) : found_in_(net.segments.size(), 0) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   double end_column = -kInfinity;
   double end_row = -kInfinity;
   column_ = row_ = kInfinity;

@@ -6,9 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
+#include "core/base/infinity.h"
 #include "core/measure/mesh_error.h"
 #include "core/measure/mesh_sides.h"
 #include "core/measure/segment_blocks.h"
@@ -16,8 +16,6 @@
 namespace farhorizon {
 
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // Room for a proof between what was attained and what is proven: with less, boxes get smaller.
 constexpr double kRoom = 1.0 / 40;
@@ -28,7 +26,7 @@ constexpr double kLeastRoom = 1e-7;
 constexpr double kGathered = 1.5;
 // Looks at segments for each piece and segment, and at least, before the search ends with what it
 // has: some microseconds each. Levels of real ground take a tenth of it.
-constexpr std::int64_t kMostLooks = 500;
+constexpr std::int64_t kLooksForEach = 500;
 constexpr std::int64_t kLeastLooks = 50'000'000;
 
 // Strips that lines through something are in.
@@ -48,8 +46,8 @@ class RaisedSearch {
         lines_(surface.net, surface.hull),
         blocks_(surface.net),
         proof_(pieces.size(), kNoneThere) {
-    most_looks_ = kLeastLooks + kMostLooks * static_cast<std::int64_t>(surface.net.segments.size() +
-                                                                       pieces.size());
+    most_looks_ = kLeastLooks + kLooksForEach * static_cast<std::int64_t>(
+                                                    surface.net.segments.size() + pieces.size());
   }
 
   Result<RaisedBounds> Run(const RunControl& control) {

@@ -10,21 +10,23 @@ namespace farhorizon {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
-Json ToJson(const ErrorMeasure& error) { return {{"max", error.max_m}, {"rms", error.rms_m}}; }
+OrderedJson ToJson(const ErrorMeasure& error) {
+  return {{"max", error.max_m}, {"rms", error.rms_m}};
+}
 
-Json ToJson(const ErrorMeasure& silhouette, double rim_m) {
-  Json json = ToJson(silhouette);
+OrderedJson ToJson(const ErrorMeasure& silhouette, double rim_m) {
+  OrderedJson json = ToJson(silhouette);
   json["rim"] = rim_m;
   return json;
 }
 
-ErrorMeasure ReadMeasure(const Json& json) {
+ErrorMeasure ReadMeasure(const OrderedJson& json) {
   return {json.at("max").get<double>(), json.at("rms").get<double>()};
 }
 
-Json ToJson(const DemReport& dem) {
+OrderedJson ToJson(const DemReport& dem) {
   return {{"columns", dem.columns},
           {"rows", dem.rows},
           {"crs", dem.crs},
@@ -37,7 +39,7 @@ Json ToJson(const DemReport& dem) {
           {"sha256", dem.sha256}};
 }
 
-DemReport ReadDemReport(const Json& json) {
+DemReport ReadDemReport(const OrderedJson& json) {
   DemReport dem;
   json.at("columns").get_to(dem.columns);
   json.at("rows").get_to(dem.rows);
@@ -52,22 +54,22 @@ DemReport ReadDemReport(const Json& json) {
   return dem;
 }
 
-Json ToJson(const Assumptions& assumptions) {
-  Json list = Json::array();
+OrderedJson ToJson(const Assumptions& assumptions) {
+  OrderedJson list = OrderedJson::array();
   for (const Assumption& a : assumptions) list.push_back({{"code", a.code}, {"text", a.text}});
   return list;
 }
 
 // Reports of versions that told nobody what they assumed have no such member.
-Assumptions ReadAssumptions(const Json& report) {
+Assumptions ReadAssumptions(const OrderedJson& report) {
   Assumptions assumptions;
-  for (const Json& a : report.value("assumptions", Json::array())) {
+  for (const OrderedJson& a : report.value("assumptions", OrderedJson::array())) {
     assumptions.push_back({a.at("code").get<std::string>(), a.at("text").get<std::string>()});
   }
   return assumptions;
 }
 
-Json ToJson(const HorizonStatistics& s, std::int64_t horizon_edges) {
+OrderedJson ToJson(const HorizonStatistics& s, std::int64_t horizon_edges) {
   return {{"terrain_edges", s.terrain_edges},
           {"horizon_edges", horizon_edges},
           {"approximate", s.undecided > 0},
@@ -91,7 +93,7 @@ Json ToJson(const HorizonStatistics& s, std::int64_t horizon_edges) {
             {"tied", s.predicates.tied}}}};
 }
 
-void ReadHorizon(const Json& json, Report& report) {
+void ReadHorizon(const OrderedJson& json, Report& report) {
   HorizonStatistics& s = report.statistics;
   json.at("horizon_edges").get_to(report.horizon_edges);
   if (json.contains("edges_in_context")) {
@@ -104,7 +106,7 @@ void ReadHorizon(const Json& json, Report& report) {
   json.at("candidates").get_to(s.candidates);
   json.at("peaks").get_to(s.peaks);
   json.at("clusters_max").get_to(s.clusters_max);
-  const Json& events = json.at("events");
+  const OrderedJson& events = json.at("events");
   events.at("regular").get_to(s.regular);
   events.at("saddle").get_to(s.saddles);
   events.at("minimum").get_to(s.minima);
@@ -112,18 +114,18 @@ void ReadHorizon(const Json& json, Report& report) {
   events.at("hull").get_to(s.hull_changes);
   events.at("bitangent").get_to(s.bitangents);
   json.at("queue_max").get_to(s.queue_max);
-  const Json& predicates = json.at("predicates");
+  const OrderedJson& predicates = json.at("predicates");
   predicates.at("filtered").get_to(s.predicates.filtered);
   predicates.at("exact").get_to(s.predicates.exact);
   predicates.at("tied").get_to(s.predicates.tied);
 }
 
-Json ToJson(const LevelAsked& asked) {
+OrderedJson ToJson(const LevelAsked& asked) {
   if (asked.triangles > 0) return {{"triangles", asked.triangles}};
   return {{"vertical_m", asked.vertical_m}, {"silhouette_m", asked.silhouette_m}};
 }
 
-LevelAsked ReadAsked(const Json& json) {
+LevelAsked ReadAsked(const OrderedJson& json) {
   LevelAsked asked;
   if (json.contains("triangles")) {
     json.at("triangles").get_to(asked.triangles);
@@ -134,7 +136,7 @@ LevelAsked ReadAsked(const Json& json) {
   return asked;
 }
 
-Json ToJson(const SkylineEdgesReport& edges) {
+OrderedJson ToJson(const SkylineEdgesReport& edges) {
   return {{"edges", edges.edges},
           {"carrying", edges.carrying},
           {"share", edges.share},
@@ -142,10 +144,10 @@ Json ToJson(const SkylineEdgesReport& edges) {
 }
 
 // Reports of versions that flagged none but the DEM's edges have no such member.
-SkylineEdgesReport ReadSkylineEdges(const Json& level) {
+SkylineEdgesReport ReadSkylineEdges(const OrderedJson& level) {
   SkylineEdgesReport edges;
   if (!level.contains("skyline_edges")) return edges;
-  const Json& json = level.at("skyline_edges");
+  const OrderedJson& json = level.at("skyline_edges");
   json.at("edges").get_to(edges.edges);
   json.at("carrying").get_to(edges.carrying);
   json.at("share").get_to(edges.share);
@@ -153,7 +155,7 @@ SkylineEdgesReport ReadSkylineEdges(const Json& level) {
   return edges;
 }
 
-Json ToJson(const LevelReport& level) {
+OrderedJson ToJson(const LevelReport& level) {
   return {{"level", level.level},
           {"exact", level.exact},
           {"triangles", level.triangles},
@@ -188,7 +190,7 @@ std::optional<int> HalvingsOf(int pieces) {
   return std::nullopt;
 }
 
-Result<LevelReport> ReadLevel(const Json& json) {
+Result<LevelReport> ReadLevel(const OrderedJson& json) {
   LevelReport level;
   json.at("level").get_to(level.level);
   json.at("exact").get_to(level.exact);
@@ -220,11 +222,11 @@ Result<LevelReport> ReadLevel(const Json& json) {
   return level;
 }
 
-Json ToJson(const FrameReport& frame) {
+OrderedJson ToJson(const FrameReport& frame) {
   return {{"axes", FrameText(frame.axes)}, {"transform", frame.transform}};
 }
 
-Result<FrameReport> ReadFrame(const Json& json) {
+Result<FrameReport> ReadFrame(const OrderedJson& json) {
   const auto text = json.at("axes").get<std::string>();
   const std::optional<FrameChoice> axes = FrameFromText(text);
   if (!axes) return BadReport("there is no frame \"" + text + "\"");
@@ -234,13 +236,13 @@ Result<FrameReport> ReadFrame(const Json& json) {
 }  // namespace
 
 std::string WriteReport(const Report& report) {
-  Json levels = Json::array();
+  OrderedJson levels = OrderedJson::array();
   for (const LevelReport& level : report.levels) levels.push_back(ToJson(level));
-  Json json = {{"farhorizon", report.version},
-               {"dem", ToJson(report.dem)},
-               {"assumptions", ToJson(report.assumptions)},
-               {"horizon", ToJson(report.statistics, report.horizon_edges)},
-               {"levels", levels}};
+  OrderedJson json = {{"farhorizon", report.version},
+                      {"dem", ToJson(report.dem)},
+                      {"assumptions", ToJson(report.assumptions)},
+                      {"horizon", ToJson(report.statistics, report.horizon_edges)},
+                      {"levels", levels}};
   if (report.edges_in_context) json["horizon"]["edges_in_context"] = *report.edges_in_context;
   if (report.frame) json["frame"] = ToJson(*report.frame);
   return json.dump(1) + "\n";
@@ -248,7 +250,7 @@ std::string WriteReport(const Report& report) {
 
 Result<Report> ReadReport(const std::string& text) {
   try {
-    const Json json = Json::parse(text);
+    const OrderedJson json = OrderedJson::parse(text);
     Report report;
     json.at("farhorizon").get_to(report.version);
     report.dem = ReadDemReport(json.at("dem"));
@@ -259,7 +261,7 @@ Result<Report> ReadReport(const std::string& text) {
     }
     report.assumptions = ReadAssumptions(json);
     ReadHorizon(json.at("horizon"), report);
-    for (const Json& json_of_level : json.at("levels")) {
+    for (const OrderedJson& json_of_level : json.at("levels")) {
       Result<LevelReport> level = ReadLevel(json_of_level);
       if (!level) return std::move(level.error());
       report.levels.push_back(*std::move(level));

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cstdint>
 #include <set>
 #include <string>
 #include <utility>
@@ -12,6 +15,23 @@ namespace farhorizon {
 /// Twice the area of a terrain's domain in plan.
 inline std::int64_t TwiceAreaOf(const Terrain& terrain) {
   return std::ssize(terrain.Triangles());  // each is half of a cell
+}
+
+/// The origins of a triangle, from the least on.
+using Corners = std::array<std::int32_t, 3>;
+
+inline Corners Turned(Corners t) {
+  std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+  return t;
+}
+
+inline std::set<Corners> TrianglesOf(const HalfEdgeMesh& mesh) {
+  std::set<Corners> triangles;
+  for (std::int32_t h = 0; h < mesh.half_edges(); h += 3) {
+    if (!mesh.Stands(h / 3)) continue;
+    triangles.insert(Turned({mesh.origin(h), mesh.origin(h + 1), mesh.origin(h + 2)}));
+  }
+  return triangles;
 }
 
 /// What is wrong with a mesh, found from origins and places alone; empty where nothing is. Covers

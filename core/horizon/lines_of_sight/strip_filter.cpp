@@ -15,15 +15,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "core/base/infinity.h"
 
 namespace farhorizon {
 
 namespace {
 
 using Kind = BoundaryCurve::Kind;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/io/file.h"
+#include "core/io/gltf_numbers.h"
 #include "core/io/mesh_files/beside_file.h"
 #include "core/io/mesh_files/meshopt_view.h"
 
@@ -19,17 +20,17 @@ constexpr char kMeshopt[] = "EXT_meshopt_compression";
 // The type of a componentType of glTF's accessors.
 std::optional<ScalarType> TypeOf(std::uint64_t component_type) {
   switch (component_type) {
-    case 5120:
+    case gltf::kByte:
       return ScalarType::kInt8;
-    case 5121:
+    case gltf::kUnsignedByte:
       return ScalarType::kUint8;
-    case 5122:
+    case gltf::kShort:
       return ScalarType::kInt16;
-    case 5123:
+    case gltf::kUnsignedShort:
       return ScalarType::kUint16;
-    case 5125:
+    case gltf::kUnsignedInt:
       return ScalarType::kUint32;
-    case 5126:
+    case gltf::kFloat:
       return ScalarType::kFloat;
     default:
       return std::nullopt;

@@ -2,19 +2,19 @@
 
 #include <utility>
 
+#include "core/io/gltf_numbers.h"
 #include "core/io/mesh_files/draco_file.h"
 
 namespace farhorizon {
 
 namespace {
 
-constexpr std::uint64_t kTriangles = 4;  // the `mode` of a primitive
 constexpr std::uint64_t kStrip = 5;
 constexpr std::uint64_t kFan = 6;
 
 // The triangles of indices in a mode of glTF.
 void AddTriangles(const std::vector<std::uint32_t>& indices, std::uint64_t mode, FileMesh& mesh) {
-  if (mode == kTriangles) {
+  if (mode == gltf::kTriangles) {
     for (std::size_t i = 2; i < indices.size(); i += 3) {
       mesh.triangles.push_back({indices[i - 2], indices[i - 1], indices[i]});
     }
@@ -34,13 +34,13 @@ void AddTriangles(const std::vector<std::uint32_t>& indices, std::uint64_t mode,
 }  // namespace
 
 bool HasTriangles(const MeshJson& primitive) {
-  const std::uint64_t mode = CountOr(primitive, "mode", kTriangles);
-  return mode == kTriangles || mode == kStrip || mode == kFan;
+  const std::uint64_t mode = CountOr(primitive, "mode", gltf::kTriangles);
+  return mode == gltf::kTriangles || mode == kStrip || mode == kFan;
 }
 
 Result<FileMesh> ReadPrimitive(const MeshJson& primitive, GltfBuffers& buffers,
                                const MeshLimits& limits) {
-  const std::uint64_t mode = CountOr(primitive, "mode", kTriangles);
+  const std::uint64_t mode = CountOr(primitive, "mode", gltf::kTriangles);
   const MeshJson* extensions = Member(primitive, "extensions");
   if (const MeshJson* draco = extensions == nullptr ? nullptr : Member(*extensions, kGltfDraco)) {
     Result<GltfBuffers::View> view = buffers.ViewOf(CountIn(draco->at("bufferView")));

@@ -13,19 +13,19 @@ namespace farhorizon {
 namespace {
 
 std::optional<ScalarType> TypeOf(std::string_view word) {
-  struct Row {
+  struct TypeName {
     std::string_view name;
     ScalarType type;
   };
-  constexpr Row kNames[] = {{"char", ScalarType::kInt8},     {"int8", ScalarType::kInt8},
-                            {"uchar", ScalarType::kUint8},   {"uint8", ScalarType::kUint8},
-                            {"short", ScalarType::kInt16},   {"int16", ScalarType::kInt16},
-                            {"ushort", ScalarType::kUint16}, {"uint16", ScalarType::kUint16},
-                            {"int", ScalarType::kInt32},     {"int32", ScalarType::kInt32},
-                            {"uint", ScalarType::kUint32},   {"uint32", ScalarType::kUint32},
-                            {"float", ScalarType::kFloat},   {"float32", ScalarType::kFloat},
-                            {"double", ScalarType::kDouble}, {"float64", ScalarType::kDouble}};
-  const auto* found = std::ranges::find(kNames, word, &Row::name);
+  constexpr TypeName kNames[] = {{"char", ScalarType::kInt8},     {"int8", ScalarType::kInt8},
+                                 {"uchar", ScalarType::kUint8},   {"uint8", ScalarType::kUint8},
+                                 {"short", ScalarType::kInt16},   {"int16", ScalarType::kInt16},
+                                 {"ushort", ScalarType::kUint16}, {"uint16", ScalarType::kUint16},
+                                 {"int", ScalarType::kInt32},     {"int32", ScalarType::kInt32},
+                                 {"uint", ScalarType::kUint32},   {"uint32", ScalarType::kUint32},
+                                 {"float", ScalarType::kFloat},   {"float32", ScalarType::kFloat},
+                                 {"double", ScalarType::kDouble}, {"float64", ScalarType::kDouble}};
+  const auto* found = std::ranges::find(kNames, word, &TypeName::name);
   if (found == std::end(kNames)) return std::nullopt;
   return found->type;
 }

@@ -12,10 +12,10 @@ namespace farhorizon {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 // The tiles of one zoom as rectangles: runs along x, joined over neighbouring runs that are alike.
-Json RectanglesOf(std::vector<TileAddress> tiles) {
+OrderedJson RectanglesOf(std::vector<TileAddress> tiles) {
   struct Rectangle {
     std::int64_t start_x, start_y, end_x, end_y;
   };
@@ -42,7 +42,7 @@ Json RectanglesOf(std::vector<TileAddress> tiles) {
       same->end_y = run.end_y;
     }
   }
-  Json array = Json::array();
+  OrderedJson array = OrderedJson::array();
   for (const Rectangle& one : joined) {
     array.push_back({{"startX", one.start_x},
                      {"startY", one.start_y},
@@ -53,8 +53,8 @@ Json RectanglesOf(std::vector<TileAddress> tiles) {
 }
 
 // For each zoom from `first` on the rectangles of tiles.
-Json AvailableFrom(int first, const std::vector<TileAddress>& tiles) {
-  Json zooms = Json::array();
+OrderedJson AvailableFrom(int first, const std::vector<TileAddress>& tiles) {
+  OrderedJson zooms = OrderedJson::array();
   for (int zoom = first; zoom <= tiles.back().zoom; ++zoom) {
     std::vector<TileAddress> here;
     std::copy_if(tiles.begin(), tiles.end(), std::back_inserter(here),
@@ -74,7 +74,7 @@ std::string TileName(const TileAddress& tile) {
 std::string WriteLayerJson(const std::vector<TileAddress>& tiles) {
   Check(tiles.size() >= 2 && tiles[1].zoom == 0, "both tiles of zoom 0 are there");
   const int most = tiles.back().zoom;
-  Json layer;
+  OrderedJson layer;
   layer["tilejson"] = "2.1.0";
   layer["name"] = "farhorizon";
   layer["version"] = "1.0.0";
@@ -96,7 +96,7 @@ std::string WriteLayerJson(const std::vector<TileAddress>& tiles) {
 
 std::string MetadataOfTile(const TileAddress& tile, double geometric_error_m,
                            const std::vector<TileAddress>& tiles) {
-  Json metadata;
+  OrderedJson metadata;
   metadata["geometricerror"] = geometric_error_m;
   if (tile.zoom == 0) metadata["available"] = AvailableFrom(1, tiles);
   return metadata.dump();

@@ -13,7 +13,7 @@ namespace farhorizon {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 // Six digits tell more than any error is known; full doubles would only differ between machines.
 double Short(double value) {
@@ -22,12 +22,12 @@ double Short(double value) {
   return std::round(value / unit) * unit;
 }
 
-Json Measure(const ErrorMeasure& measure) {
+OrderedJson Measure(const ErrorMeasure& measure) {
   return {{"max", Short(measure.max_m)}, {"rms", Short(measure.rms_m)}};
 }
 
-Json MeshJsonOf(const MeshComparison& mesh) {
-  Json json = {{"name", mesh.name}};
+OrderedJson MeshJsonOf(const MeshComparison& mesh) {
+  OrderedJson json = {{"name", mesh.name}};
   if (mesh.depth) json["depth"] = *mesh.depth;
   if (mesh.geometric_error_m) json["geometric_error_m"] = *mesh.geometric_error_m;
   if (mesh.fault) {
@@ -62,7 +62,7 @@ Json MeshJsonOf(const MeshComparison& mesh) {
   return json;
 }
 
-Json LevelJsonOf(const LevelSummary& level) {
+OrderedJson LevelJsonOf(const LevelSummary& level) {
   return {
       {"depth", level.depth},
       {"tiles", level.tiles},
@@ -78,7 +78,7 @@ Json LevelJsonOf(const LevelSummary& level) {
 
 std::string ComparisonJson(const Comparison& comparison) {
   const DemReport& dem = comparison.dem;
-  Json json;
+  OrderedJson json;
   json["farhorizon"] = Version();
   json["dem"] = {{"name", comparison.dem_name},
                  {"columns", dem.columns},
@@ -88,17 +88,17 @@ std::string ComparisonJson(const Comparison& comparison) {
                  {"heights_m", dem.heights_m},
                  {"nodata_posts", dem.nodata_posts},
                  {"sha256", dem.sha256}};
-  json["assumptions"] = Json::array();
+  json["assumptions"] = OrderedJson::array();
   for (const Assumption& a : comparison.assumptions) {
     json["assumptions"].push_back({{"code", a.code}, {"text", a.text}});
   }
-  json["meshes"] = Json::array();
+  json["meshes"] = OrderedJson::array();
   for (const MeshComparison& mesh : comparison.meshes) json["meshes"].push_back(MeshJsonOf(mesh));
-  json["levels"] = Json::array();
+  json["levels"] = OrderedJson::array();
   for (const LevelSummary& level : SummarizeLevels(comparison.meshes)) {
     json["levels"].push_back(LevelJsonOf(level));
   }
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json.dump(2, ' ', false, OrderedJson::error_handler_t::replace) + "\n";
 }
 
 }  // namespace farhorizon

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "core/base/infinity.h"
 #include "core/pipeline/compare/terrain_height.h"
 #include "core/pipeline/compare/weighted_correlation.h"
 
@@ -151,7 +151,6 @@ std::optional<FrameFit> FitFrame(const MeshSample& sample, MeshPlacing placing, 
   fit.placing = placing;
   fit.extent = extent;
   fit.sample = *std::move(placed);
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   fit.least = {kInfinity, kInfinity, kInfinity};
   fit.greatest = {-kInfinity, -kInfinity, -kInfinity};
   std::size_t inside = 0;

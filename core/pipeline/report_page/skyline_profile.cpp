@@ -13,7 +13,7 @@ namespace farhorizon {
 
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoHeight = std::numeric_limits<double>::quiet_NaN();
 
 // A point as parallel lines have it.
 struct Above {
@@ -25,7 +25,7 @@ struct Above {
 class Envelope {
  public:
   explicit Envelope(const ParallelLines& lines)
-      : lines_(lines), heights_(static_cast<std::size_t>(lines.count), kNone) {}
+      : lines_(lines), heights_(static_cast<std::size_t>(lines.count), kNoHeight) {}
 
   void Add(Above a, Above b) {
     if (a.offset > b.offset) std::swap(a, b);

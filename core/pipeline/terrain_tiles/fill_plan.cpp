@@ -27,7 +27,7 @@ namespace farhorizon {
 
 namespace {
 
-constexpr std::uint32_t kNone = UINT32_MAX;
+constexpr std::uint32_t kNoIndex = UINT32_MAX;
 
 Error Entangled() {
   return {ErrorCode::kUnsupportedData,
@@ -48,7 +48,7 @@ class Sweep {
     for (const auto& [a, b] : edges) {
       const bool eastwards = points[a] < points[b];
       const auto i = static_cast<std::uint32_t>(edges_.size());
-      edges_.push_back({eastwards ? a : b, eastwards ? b : a, kNone, false, {}});
+      edges_.push_back({eastwards ? a : b, eastwards ? b : a, kNoIndex, false, {}});
       starting_[edges_[i].west].push_back(i);
       ending_[edges_[i].east].push_back(i);
     }
@@ -80,7 +80,7 @@ class Sweep {
     }
   };
   using Active = std::set<std::uint32_t, Below>;
-  // An edge, and the gap above it as long as the line crosses it. chain: kNone in a gap that is not
+  // An edge, and the gap above it as long as the line crosses it. chain: kNoIndex in a gap that is not
   // enclosed.
   struct SweptEdge {
     std::uint32_t west;
@@ -116,7 +116,7 @@ class Sweep {
   }
 
   std::uint32_t NewLink(std::uint32_t point) {
-    links_.push_back({point, kNone, kNone});
+    links_.push_back({point, kNoIndex, kNoIndex});
     return static_cast<std::uint32_t>(links_.size() - 1);
   }
 
@@ -129,7 +129,7 @@ class Sweep {
   // Joins `point` to the upper end of the chain, and cuts off the triangles that it sees there.
   void AddUppermost(std::uint32_t chain, std::uint32_t point) {
     std::uint32_t at = chains_[chain].uppermost;
-    while (links_[at].lower != kNone) {
+    while (links_[at].lower != kNoIndex) {
       const std::uint32_t next = links_[at].lower;
       if (Orientation((*points_)[links_[next].point], (*points_)[point],
                       (*points_)[links_[at].point]) <= 0) {
@@ -146,7 +146,7 @@ class Sweep {
 
   void AddLowest(std::uint32_t chain, std::uint32_t point) {
     std::uint32_t at = chains_[chain].lowest;
-    while (links_[at].upper != kNone) {
+    while (links_[at].upper != kNoIndex) {
       const std::uint32_t next = links_[at].upper;
       if (Orientation((*points_)[links_[at].point], (*points_)[point],
                       (*points_)[links_[next].point]) <= 0) {
@@ -167,9 +167,9 @@ class Sweep {
     const std::uint32_t twin = NewLink(links_[newest].point);
     const std::uint32_t upper = links_[newest].upper;
     links_[twin].upper = upper;
-    if (upper != kNone) links_[upper].lower = twin;
-    chains_.push_back({twin, upper == kNone ? twin : chains_[chain].uppermost, twin});
-    links_[newest].upper = kNone;
+    if (upper != kNoIndex) links_[upper].lower = twin;
+    chains_.push_back({twin, upper == kNoIndex ? twin : chains_[chain].uppermost, twin});
+    links_[newest].upper = kNoIndex;
     chains_[chain].uppermost = newest;
     const auto above = static_cast<std::uint32_t>(chains_.size() - 1);
     AddUppermost(chain, point);
@@ -182,7 +182,7 @@ class Sweep {
     const std::uint32_t kept = chains_[lower].uppermost;
     const std::uint32_t gone = chains_[upper].lowest;
     links_[kept].upper = links_[gone].upper;
-    if (links_[gone].upper == kNone) return;
+    if (links_[gone].upper == kNoIndex) return;
     links_[links_[gone].upper].lower = kept;
     chains_[lower].uppermost = chains_[upper].uppermost;
     chains_[lower].newest = kept;
@@ -192,7 +192,7 @@ class Sweep {
   struct Gap {
     Active::iterator above;
     bool enclosed = false;
-    std::uint32_t chain = kNone;
+    std::uint32_t chain = kNoIndex;
   };
 
   // Ends the edges that end at v, and closes the gaps between them. Result: the gap above them;
@@ -222,7 +222,7 @@ class Sweep {
     std::optional<Gap> above = ends ? End(v) : Gap{active_.upper_bound((*points_)[v])};
     if (!above) return false;
     bool enclosed_below = false;
-    std::uint32_t chain_below = kNone;
+    std::uint32_t chain_below = kNoIndex;
     if (above->above != active_.begin()) {
       const std::uint32_t below = *std::prev(above->above);
       if (SideOf(below, (*points_)[v]) == 0) return false;
@@ -255,7 +255,7 @@ class Sweep {
       edge.place = place;
       enclosed = !enclosed;
       edge.enclosed = enclosed;
-      edge.chain = kNone;
+      edge.chain = kNoIndex;
       if (enclosed) edge.chain = i + 1 == starting.size() ? chain_above : NewChain(v);
     }
     return true;

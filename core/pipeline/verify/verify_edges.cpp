@@ -21,7 +21,6 @@ namespace farhorizon {
 
 namespace {
 
-constexpr int kRandomLines = 1000;
 constexpr std::size_t kMostEdgesTried = 500;
 
 using Interval = std::array<double, 2>;

@@ -19,8 +19,6 @@ namespace farhorizon {
 
 namespace {
 
-constexpr int kRandomLines = 1000;
-
 // The number of random lines over which the terrain is higher than the set of edges. Zero, where
 // the set makes the terrain's skyline.
 int LinesAboveTheSet(const Terrain& terrain, const std::vector<Segment>& set) {

@@ -23,7 +23,6 @@ namespace farhorizon {
 
 namespace {
 
-constexpr int kRandomLines = 1000;
 // Of a level's skyline a two-hundredth may be off its edges; among so many lines more than twice as
 // many are there by chance once in a thousand times.
 constexpr int kMostOff = kRandomLines / 100;

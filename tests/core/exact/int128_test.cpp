@@ -8,7 +8,7 @@
 namespace farhorizon {
 namespace {
 
-using BigInt = boost::multiprecision::cpp_int;
+using boost::multiprecision::cpp_int;
 
 Int128 RandomWide(std::mt19937_64& random) {
   const int bits = static_cast<int>(random() % 127);
@@ -25,7 +25,7 @@ TEST(CompareProducts, AgreesWithArbitraryPrecision) {
     const Int128 b = RandomWide(random);
     const Int128 c = RandomWide(random);
     const Int128 d = RandomWide(random);
-    const BigInt difference = BigInt(a) * BigInt(b) - BigInt(c) * BigInt(d);
+    const cpp_int difference = cpp_int(a) * cpp_int(b) - cpp_int(c) * cpp_int(d);
     ASSERT_EQ(CompareProducts(a, b, c, d), difference.sign());
   }
 }

@@ -22,14 +22,14 @@ std::vector<LineChain> SomeChains(float highest = 65535) {
           {{{1, 1, 1}, {2, 2, 2}, {3, 1, 1}, {1, 1, 1}}, 0, 0.0F, std::nullopt}};
 }
 
-std::uint32_t Number(const std::vector<std::uint8_t>& bytes, std::size_t at) {
+std::uint32_t NumberAt(const std::vector<std::uint8_t>& bytes, std::size_t at) {
   std::uint32_t number = 0;
   std::memcpy(&number, &bytes[at], sizeof number);
   return number;
 }
 
-Json JsonOf(const std::vector<std::uint8_t>& glb) {
-  return Json::parse(glb.begin() + 20, glb.begin() + 20 + Number(glb, 12));
+Json GltfOf(const std::vector<std::uint8_t>& glb) {
+  return Json::parse(glb.begin() + 20, glb.begin() + 20 + NumberAt(glb, 12));
 }
 
 TEST(HorizonGlb, ReadsBackWhatItWrote) {
@@ -47,20 +47,20 @@ TEST(HorizonGlb, ReadsBackWhatItWrote) {
 
 TEST(HorizonGlb, ViewsBeginAtMultiplesOfEightInTheFile) {
   const std::vector<std::uint8_t> glb = WriteHorizonGlb(SomeChains(), kLattice);
-  const std::size_t buffer = 20 + Number(glb, 12) + 8;
+  const std::size_t buffer = 20 + NumberAt(glb, 12) + 8;
   EXPECT_EQ(buffer % 8, 0U);
-  EXPECT_EQ(Number(glb, 8), glb.size());
-  const Json gltf = JsonOf(glb);
+  EXPECT_EQ(NumberAt(glb, 8), glb.size());
+  const Json gltf = GltfOf(glb);
   EXPECT_EQ(gltf["bufferViews"].size(), 6U);
   for (const Json& view : gltf["bufferViews"]) {
     EXPECT_EQ(view["byteOffset"].get<std::size_t>() % 8, 0U);
   }
   // The chunk may be no more than three bytes longer than the buffer.
-  EXPECT_EQ(Number(glb, buffer - 8), gltf["buffers"][0]["byteLength"]);
+  EXPECT_EQ(NumberAt(glb, buffer - 8), gltf["buffers"][0]["byteLength"]);
 }
 
 TEST(HorizonGlb, IsIndexedLinesWithEachPointOnce) {
-  const Json gltf = JsonOf(WriteHorizonGlb(SomeChains(), kLattice));
+  const Json gltf = GltfOf(WriteHorizonGlb(SomeChains(), kLattice));
   const Json& primitive = gltf["meshes"][0]["primitives"][0];
   EXPECT_EQ(primitive["mode"], 1);
   const Json& position = gltf["accessors"][0];
@@ -71,11 +71,11 @@ TEST(HorizonGlb, IsIndexedLinesWithEachPointOnce) {
 }
 
 TEST(HorizonGlb, NumbersAreOfSixteenBitsWhereAllFit) {
-  const Json quantized = JsonOf(WriteHorizonGlb(SomeChains(65535), kLattice));
+  const Json quantized = GltfOf(WriteHorizonGlb(SomeChains(65535), kLattice));
   EXPECT_EQ(quantized["accessors"][0]["componentType"], 5123);
   EXPECT_EQ(quantized["bufferViews"][0]["byteStride"], 8);
   EXPECT_EQ(quantized["extensionsRequired"], Json::array({"KHR_mesh_quantization"}));
-  const Json floats = JsonOf(WriteHorizonGlb(SomeChains(65536), kLattice));
+  const Json floats = GltfOf(WriteHorizonGlb(SomeChains(65536), kLattice));
   EXPECT_EQ(floats["accessors"][0]["componentType"], 5126);
   EXPECT_FALSE(floats.contains("extensionsRequired"));
 }
@@ -85,14 +85,14 @@ TEST(HorizonGlb, IndicesGrowWhereSixteenBitsDoNotNameAllPoints) {
   for (int i = 0; i < 65536; ++i) chain.points.push_back({static_cast<float>(i), 0, 0});
   const std::vector<LineChain> chains = {chain};
   const std::vector<std::uint8_t> glb = WriteHorizonGlb(chains, kLattice);
-  EXPECT_EQ(JsonOf(glb)["accessors"][1]["componentType"], 5125);
+  EXPECT_EQ(GltfOf(glb)["accessors"][1]["componentType"], 5125);
   Result<HorizonGlbContents> read = ReadHorizonGlb(glb);
   ASSERT_TRUE(read) << read.error().message;
   EXPECT_EQ(read->chains, chains);
 }
 
 TEST(HorizonGlb, TheTableHasARowForEachChain) {
-  const Json gltf = JsonOf(WriteHorizonGlb(SomeChains(), kLattice));
+  const Json gltf = GltfOf(WriteHorizonGlb(SomeChains(), kLattice));
   const Json& metadata = gltf["extensions"]["EXT_structural_metadata"];
   const Json& table = metadata["propertyTables"][0];
   EXPECT_EQ(table["count"], 3);
@@ -138,8 +138,8 @@ TEST(HorizonGlb, OtherBytesAreAnErrorWithACause) {
 // What its lines are, where the table counts them wrongly or an index names no point.
 TEST(HorizonGlb, LinesThatAreNoChainsAreAnError) {
   std::vector<std::uint8_t> glb = WriteHorizonGlb(SomeChains(), kLattice);
-  const Json gltf = JsonOf(glb);
-  const std::size_t buffer = 20 + Number(glb, 12) + 8;
+  const Json gltf = GltfOf(glb);
+  const std::size_t buffer = 20 + NumberAt(glb, 12) + 8;
   const auto with = [&](std::size_t view, std::size_t byte, std::uint8_t value) {
     std::vector<std::uint8_t> other = glb;
     other[buffer + gltf["bufferViews"][view]["byteOffset"].get<std::size_t>() + byte] = value;

@@ -11,15 +11,13 @@
 #include "core/horizon/find_horizon.h"
 #include "core/horizon/lines/highest_over_line.h"
 #include "tests/support/ascii_dem.h"
+#include "tests/support/metre_steps.h"
 #include "tests/support/terrains.h"
 
 namespace farhorizon {
 namespace {
 
 using testing::ElementsAre;
-
-// Posts a metre apart, columns to the east, rows to the south.
-constexpr GroundStep kMetres{1, 0, 0, -1};
 
 struct MeasuredEdge {
   Edge edge;
@@ -71,7 +69,7 @@ TEST(EdgeMeasures, AzimuthsAreTrueWhereDirectionsTurnFarInAShortWay) {
   const Dem dem = MakeDem(6, 2, [&](std::int32_t c, std::int32_t r) {
     return heights[static_cast<std::size_t>(r)][static_cast<std::size_t>(c)];
   });
-  const std::vector<MeasuredEdge> edges = MeasuresOn(dem, kMetres);
+  const std::vector<MeasuredEdge> edges = MeasuresOn(dem, kMetreSteps);
   const auto cliff = std::find_if(edges.begin(), edges.end(), [](const MeasuredEdge& v) {
     return v.edge.a == 1 && v.edge.b == 7;
   });
@@ -86,7 +84,7 @@ TEST(EdgeMeasures, AzimuthsAreTrueWhereDirectionsTurnFarInAShortWay) {
 // O1: each slanted edge is seen in the quarter turn in which the one beside it does not rise above
 // it.
 TEST(EdgeMeasures, EachEdgeOfAPyramidIsSeenInAQuarterTurn) {
-  const std::vector<MeasuredEdge> edges = MeasuresOn(AsciiDem(".0.\n010\n.0."), kMetres);
+  const std::vector<MeasuredEdge> edges = MeasuresOn(AsciiDem(".0.\n010\n.0."), kMetreSteps);
   ASSERT_EQ(edges.size(), 4U);
   for (const MeasuredEdge& v : edges) {
     // The edges to the north and to the south lie north: seen from the east and the west, 45
@@ -106,7 +104,7 @@ TEST(EdgeMeasures, EachEdgeOfAPyramidIsSeenInAQuarterTurn) {
 
 TEST(EdgeMeasures, ALoneRidgeIsSeenFromAllAround) {
   // 9 between two 0s in a row, and another row of 0: the ridge's ends are posts of one height.
-  const std::vector<MeasuredEdge> edges = MeasuresOn(AsciiDem("0000\n0990\n0000"), kMetres);
+  const std::vector<MeasuredEdge> edges = MeasuresOn(AsciiDem("0000\n0990\n0000"), kMetreSteps);
   const auto ridge = std::find_if(edges.begin(), edges.end(), [](const MeasuredEdge& v) {
     return v.edge == Edge{5, 6};
   });
@@ -123,7 +121,7 @@ TEST(EdgeMeasures, MeasuresAddUpToThePerimeter) {
     const auto columns = static_cast<std::int32_t>(3 + seed % 20);
     const auto rows = static_cast<std::int32_t>(3 + seed * 7 % 17);
     const double perimeter = 2.0 * (columns - 1 + rows - 1);
-    EXPECT_NEAR(SumOfMeasures(MeasuresOn(Unlevel(columns, rows, seed), kMetres)), perimeter,
+    EXPECT_NEAR(SumOfMeasures(MeasuresOn(Unlevel(columns, rows, seed), kMetreSteps)), perimeter,
                 1e-6 * perimeter)
         << seed;
   }

@@ -54,7 +54,7 @@ struct Map {
 };
 
 const Map kDegrees = {"EPSG:4326", 7.25, 46.5, 1.0 / 3600, "6.5,46"};
-const Map kMetres = {"EPSG:32632", 400000, 5100000, 30, "9,45.5"};
+const Map kUtm = {"EPSG:32632", 400000, 5100000, 30, "9,45.5"};
 
 // The vertices of a mesh whose first post is `first` of the whole DEM.
 DecodedLevel Decoded(const LocalMesh& mesh, const TangentFrame& frame, int columns,
@@ -199,8 +199,8 @@ TEST_P(TilesMeet, PostsOfACommonSideAreEqualInOneFrame) {
 INSTANTIATE_TEST_SUITE_P(Frames, TilesMeet,
                          testing::Values(FrameCase{"PlaceOfDegrees", &kDegrees, false},
                                          FrameCase{"GlobeOfDegrees", &kDegrees, true},
-                                         FrameCase{"PlaceOfMetres", &kMetres, false},
-                                         FrameCase{"GlobeOfMetres", &kMetres, true}),
+                                         FrameCase{"PlaceOfMetres", &kUtm, false},
+                                         FrameCase{"GlobeOfMetres", &kUtm, true}),
                          [](const auto& one) { return one.param.name; });
 
 TEST(TilesMeetOfTheirOwnFrames, PostsOfACommonSideAreWithinAStep) {
@@ -279,7 +279,7 @@ TEST(TilesMeetLit, TheApronIsNotMeshedAndVerifies) {
 
 // Level 1 of the west beside level 0 of the east, and the other way round.
 TEST(TilesMeetAtOtherLevels, GapsAreWithinTheErrorsAndTheSkirts) {
-  CutDem dem(kMetres);
+  CutDem dem(kUtm);
   BuildOptions options;
   options.triangles = {700, 150};
   options.frame = *FrameFromText("globe");

@@ -17,8 +17,8 @@
 namespace farhorizon {
 namespace {
 
-struct Chain {
-  Chain(const Dem& of, const LodPlan& plan)
+struct CutChain {
+  CutChain(const Dem& of, const LodPlan& plan)
       : dem(of), terrain(*Terrain::Build(dem)), horizon(*FindHorizon(terrain, {}, {})) {
     levels = *BuildLodChain(terrain, horizon, plan, {});
   }
@@ -67,7 +67,7 @@ TEST(LodChainParts, NoEdgeCrossesALineAndLevelsAreSound) {
     LodPlan plan;
     plan.part_triangles = 100 << 2 * (i % 3);
     if (i % 3 == 0) plan.triangles = {9000, 4000, 1500, 500, 100, 20};
-    const Chain chain(dem, plan);
+    const CutChain chain(dem, plan);
     for (std::size_t n = 0; n < chain.levels.size(); ++n) {
       const Lod& level = chain.levels[n];
       const std::vector<std::int32_t>* finer = n == 0 ? nullptr : &chain.levels[n - 1].kept;
@@ -88,14 +88,14 @@ TEST(LodChainParts, ALevelIsCutAsDeepAsItsTrianglesAskAndNoDeeper) {
   plan.part_triangles = 1500;
   plan.max_error_m = 30;
   double share = 0.2;  // of all triangles, by which sides are thinned
-  for (const Lod& level : Chain(dem, plan).levels) {
+  for (const Lod& level : CutChain(dem, plan).levels) {
     const auto triangles = std::ssize(level.mesh.triangles);
     const int most = SidePartDepth(dem.columns, SidePosts::ShareOf(share == 0.2 ? 1 : share));
     EXPECT_EQ(level.parts, PartDepthFor(triangles, 1500, {most, most})) << triangles;
     share *= 0.4;
   }
   plan.part_triangles = 0;
-  for (const Lod& level : Chain(dem, plan).levels) EXPECT_EQ(level.parts, PartDepth{});
+  for (const Lod& level : CutChain(dem, plan).levels) EXPECT_EQ(level.parts, PartDepth{});
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ namespace farhorizon {
 
 namespace {
 
-constexpr std::uintmax_t kMostBytes = 65536;  // as CheckCrsText
+constexpr std::uintmax_t kMostPrjBytes = 65536;  // as CheckCrsText
 
 CrsPtr CrsIn(const std::string& text) {
   if (NamedFileIn(text) != nullptr) return nullptr;
@@ -31,7 +31,7 @@ CrsPtr CrsIn(const std::string& text) {
 std::optional<PrjFile> FindPrjFile(const std::filesystem::path& path) {
   const std::optional<std::filesystem::path> beside = FindBeside(path, ".prj");
   if (!beside) return std::nullopt;
-  Result<std::string> text = ReadFile(*beside, kMostBytes);
+  Result<std::string> text = ReadFile(*beside, kMostPrjBytes);
   if (!text) return PrjFile{beside->filename().string(), "", nullptr};
   CrsPtr crs = CrsIn(*text);
   return PrjFile{beside->filename().string(), *std::move(text), std::move(crs)};

@@ -14,7 +14,7 @@ namespace farhorizon {
 
 namespace {
 
-constexpr std::size_t kMostBytes = 1024;  // ten times what six numbers of full length take
+constexpr std::size_t kMostWorldFileBytes = 1024;  // ten times what six numbers of full length take
 
 // "-30.0", "+30", and "30,5" as programs of some countries write it.
 std::optional<double> NumberOf(std::string word) {
@@ -67,7 +67,7 @@ std::optional<WorldFile> FindWorldFile(const std::filesystem::path& path) {
     const std::optional<std::filesystem::path> beside = FindBeside(path, tried);
     if (!beside) continue;
     WorldFile file = {beside->filename().string()};
-    if (Result<std::string> text = ReadFile(*beside, kMostBytes); text) {
+    if (Result<std::string> text = ReadFile(*beside, kMostWorldFileBytes); text) {
       file.geotransform = GeoTransformOf(*text);
     }
     return file;

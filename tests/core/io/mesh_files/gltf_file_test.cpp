@@ -16,7 +16,7 @@ namespace {
 using testing::HasSubstr;
 using Json = nlohmann::json;
 
-PlainMesh Hills() {
+PlainMesh SomeHills() {
   return GridMeshOf(4, 3, [](std::uint32_t c, std::uint32_t r) { return c * 5 + r * r; });
 }
 
@@ -32,7 +32,7 @@ std::string Complaint(const TestGltf& gltf) {
 }
 
 TEST(ReadGltf, PlacesByAllNodesAboveAndTurnsWhatAMatrixMirrors) {
-  TestGltf gltf = PlainGltf(Hills());
+  TestGltf gltf = PlainGltf(SomeHills());
   // Up a quarter turn about x, then twice as large, then moved; the inner node mirrors.
   gltf.json["nodes"] =
       Json::array({{{"children", {1}}, {"translation", {100, 0, 0}}, {"scale", {2, 2, 2}}},
@@ -40,7 +40,7 @@ TEST(ReadGltf, PlacesByAllNodesAboveAndTurnsWhatAMatrixMirrors) {
                    {{"mesh", 0}, {"matrix", {-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}}});
   const Result<FileMesh> mesh = Read(GlbBytes(gltf));
   ASSERT_TRUE(mesh) << mesh.error().message;
-  PlainMesh expected = Hills();
+  PlainMesh expected = SomeHills();
   for (auto& p : expected.points) p = {100 - 2 * p[0], -2 * p[2], 2 * p[1]};
   for (auto& t : expected.triangles) std::swap(t[1], t[2]);
   ASSERT_EQ(mesh->points.size(), expected.points.size());
@@ -89,7 +89,7 @@ TEST(ReadGltf, TakesNormalizedNumbers) {
 TEST(ReadGltf, ReadsBuffersBesideItAndNothingElse) {
   const TempDir folder;
   std::filesystem::create_directory(folder / "in");
-  TestGltf gltf = PlainGltf(Hills());
+  TestGltf gltf = PlainGltf(SomeHills());
   SpillFile(folder / "in" / "a buffer.bin", gltf.buffer);
   SpillFile(folder / "out.bin", gltf.buffer);
   const auto read = [&](const std::string& uri) {
@@ -112,7 +112,7 @@ TEST(ReadGltf, ReadsBuffersBesideItAndNothingElse) {
 }
 
 TEST(ReadGltf, EndsWhereNodesRunInACircleOrAreReachedTwice) {
-  TestGltf gltf = PlainGltf(Hills());
+  TestGltf gltf = PlainGltf(SomeHills());
   gltf.json["nodes"] = Json::array({{{"children", {1}}}, {{"children", {0}}, {"mesh", 0}}});
   EXPECT_THAT(Complaint(gltf), HasSubstr("node 0 is reached twice"));
   gltf.json["nodes"] = Json::array({{{"children", {1, 1}}}, {{"mesh", 0}}});
@@ -122,7 +122,7 @@ TEST(ReadGltf, EndsWhereNodesRunInACircleOrAreReachedTwice) {
 }
 
 TEST(ReadGltf, KeepsToTheLimitsWhereManyNodesShareAMesh) {
-  TestGltf gltf = PlainGltf(Hills());
+  TestGltf gltf = PlainGltf(SomeHills());
   Json nodes = Json::array();
   Json roots = Json::array();
   for (int i = 0; i < 100; ++i) {
@@ -137,7 +137,7 @@ TEST(ReadGltf, KeepsToTheLimitsWhereManyNodesShareAMesh) {
 }
 
 TEST(ReadGltf, ChecksEveryNumber) {
-  const TestGltf sound = PlainGltf(Hills());
+  const TestGltf sound = PlainGltf(SomeHills());
   const auto with = [&](const std::string& pointer, const Json& value) {
     TestGltf gltf = sound;
     gltf.json[Json::json_pointer(pointer)] = value;
@@ -166,7 +166,7 @@ TEST(ReadGltf, ChecksEveryNumber) {
 }
 
 TEST(ReadGltf, ChecksWhatMeshoptIsToldToDecode) {
-  const TestGltf sound = MeshoptGltf(Hills());
+  const TestGltf sound = MeshoptGltf(SomeHills());
   const auto with = [&](int view, const std::string& name, const Json& value) {
     TestGltf gltf = sound;
     gltf.json["bufferViews"][view]["extensions"]["EXT_meshopt_compression"][name] = value;

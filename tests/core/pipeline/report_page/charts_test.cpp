@@ -11,6 +11,7 @@
 #include "core/pipeline/report_page/level_table.h"
 #include "core/pipeline/report_page/skyline_chart.h"
 #include "tests/support/html_checks.h"
+#include "tests/support/metre_steps.h"
 #include "tests/support/terrains.h"
 
 namespace farhorizon {
@@ -18,13 +19,12 @@ namespace {
 
 using testing::IsEmpty;
 
-constexpr GroundStep kMetres{1, 0, 0, -1};
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 // Lines over ground that rises from 100 to 200 metres, and levels that are off by so much.
 SkylineSet Sloping(const std::vector<double>& off) {
   const Dem dem = MakeDem(50, 50, [](auto, auto) { return 0; });
-  SkylineSet set{LinesAcross(dem, kMetres, 0, kLinesAcross), {}, {}};
+  SkylineSet set{LinesAcross(dem, kMetreSteps, 0, kLinesAcross), {}, {}};
   for (int i = 0; i < kLinesAcross; ++i) set.terrain.push_back(100 + 100.0 * i / kLinesAcross);
   for (const double d : off) {
     set.levels.push_back(set.terrain);

@@ -5,12 +5,11 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/metre_steps.h"
 #include "tests/support/terrains.h"
 
 namespace farhorizon {
 namespace {
-
-constexpr GroundStep kMetres{1, 0, 0, -1};
 
 HorizonFeature Seen(std::array<std::int32_t, 2> a, std::array<std::int32_t, 2> b, double from,
                     double to) {
@@ -77,7 +76,7 @@ TEST(DrawEdgeLayers, EachEdgeIsInOneLayer) {
   const std::vector<HorizonFeature> features = {
       Seen({0, 0}, {1, 1}, 0, 10), Seen({0, 8}, {1, 8}, 40, 60), Seen({4, 4}, {4, 5}, 80, 90),
       Seen({5, 4}, {5, 5}, 85, 100), undecided};
-  const auto layers = DrawEdgeLayers(features, FrameOf(dem, kMetres));
+  const auto layers = DrawEdgeLayers(features, FrameOf(dem, kMetreSteps));
   const std::array<std::int64_t, 5> counts = {1, 1, 2, 0, 1};
   for (std::size_t i = 0; i < layers.size(); ++i) {
     EXPECT_EQ(layers[i].edges, counts[i]) << i;
@@ -93,7 +92,7 @@ TEST(DrawEdgeLayers, HaveTheFramesSizeHoweverManyEdges) {
   for (std::int32_t c = 0; c + 1 < dem.columns; ++c) {
     for (std::int32_t r = 0; r < 3; ++r) features.push_back(Seen({c, r}, {c + 1, r}, c % 180, 181));
   }
-  const PictureFrame frame = FrameOf(dem, kMetres);
+  const PictureFrame frame = FrameOf(dem, kMetreSteps);
   const auto layers = DrawEdgeLayers(features, frame);
   std::int64_t edges = 0;
   for (const EdgeLayer& layer : layers) {
@@ -105,7 +104,7 @@ TEST(DrawEdgeLayers, HaveTheFramesSizeHoweverManyEdges) {
 
 TEST(DrawEdgeLayers, ADemWithoutHorizonEdgesHasEmptyLayers) {
   const Dem dem = MakeDem(3, 3, [](auto, auto) { return 0; });
-  for (const EdgeLayer& layer : DrawEdgeLayers({}, FrameOf(dem, kMetres))) {
+  for (const EdgeLayer& layer : DrawEdgeLayers({}, FrameOf(dem, kMetreSteps))) {
     EXPECT_EQ(layer.edges, 0);
     EXPECT_EQ(Drawn(layer), 0U);
   }

@@ -7,13 +7,11 @@
 
 #include "core/pipeline/report_page/relief.h"
 #include "tests/support/grid_meshes.h"
+#include "tests/support/metre_steps.h"
 #include "tests/support/terrains.h"
 
 namespace farhorizon {
 namespace {
-
-// Posts a metre apart, columns to the east, rows to the south.
-constexpr GroundStep kMetres{1, 0, 0, -1};
 
 TEST(RasterOf, ATerrainAndItsWholeMeshAreOneSurface) {
   std::mt19937 random(14);
@@ -21,7 +19,7 @@ TEST(RasterOf, ATerrainAndItsWholeMeshAreOneSurface) {
     const Dem dem = RandomDem({5 + i, 4 + i % 5, 20, i % 2 == 0 ? 0 : 15}, random);
     const Result<Terrain> terrain = Terrain::Build(dem);
     if (!terrain) continue;
-    const PictureFrame frame = FrameOf(dem, kMetres);
+    const PictureFrame frame = FrameOf(dem, kMetreSteps);
     const HeightRaster of_terrain = RasterOf(*terrain, frame);
     const HeightRaster of_mesh = RasterOf(WholeMesh(*terrain), frame, of_terrain.base_m);
     ASSERT_EQ(of_terrain.heights_m.size(), of_mesh.heights_m.size());
@@ -44,7 +42,7 @@ TEST(RasterOf, APlaneIsAPlaneWhicheverWayTheGridLies) {
   for (const bool flips : {false, true}) {
     Dem dem = MakeDem(7, 5, [](std::int32_t c, std::int32_t r) { return 30 + 2 * c + 3 * r; });
     dem.transform = {0, 0, flips ? -1.0 : 1.0, flips ? 1.0 : -1.0};
-    const PictureFrame frame = FrameOf(dem, kMetres);
+    const PictureFrame frame = FrameOf(dem, kMetreSteps);
     const HeightRaster raster = RasterOf(*Terrain::Build(dem), frame);
     EXPECT_EQ(raster.base_m, 30);
     // The map's upper left corner is post (0, 0), or the opposite one.
@@ -60,10 +58,10 @@ TEST(RasterOf, APlaneIsAPlaneWhicheverWayTheGridLies) {
 }
 
 TEST(FrameOf, KeepsSquareGroundSquareAndStripsVisible) {
-  const PictureFrame square = FrameOf(MakeDem(9, 9, [](auto, auto) { return 0; }), kMetres);
+  const PictureFrame square = FrameOf(MakeDem(9, 9, [](auto, auto) { return 0; }), kMetreSteps);
   EXPECT_EQ(square.width, square.height);
   EXPECT_FALSE(square.IsStretched());
-  const PictureFrame strip = FrameOf(MakeDem(2, 4000, [](auto, auto) { return 0; }), kMetres);
+  const PictureFrame strip = FrameOf(MakeDem(2, 4000, [](auto, auto) { return 0; }), kMetreSteps);
   EXPECT_GE(strip.width, 40);
   EXPECT_LE(strip.height, 1024);
   EXPECT_TRUE(strip.IsStretched());
@@ -73,7 +71,7 @@ TEST(FrameOf, KeepsSquareGroundSquareAndStripsVisible) {
 TEST(ShadedRelief, LevelGroundHasOneShadeAndHolesAreWhite) {
   Dem dem = MakeDem(6, 6, [](auto, auto) { return 7; });
   dem.heights[14] = kNoHeight;
-  const PictureFrame frame = FrameOf(dem, kMetres);
+  const PictureFrame frame = FrameOf(dem, kMetreSteps);
   const HeightRaster raster = RasterOf(*Terrain::Build(dem), frame);
   EXPECT_EQ(ReliefExaggeration(raster, frame), 1);
   const GreyPicture relief = ShadedRelief(raster, frame, 1);
@@ -87,7 +85,7 @@ TEST(ShadedRelief, LevelGroundHasOneShadeAndHolesAreWhite) {
 TEST(ShadedRelief, SlopesTowardsTheLightAreBrighter) {
   const auto shade = [](int dc, int dr) {
     const Dem dem = MakeDem(5, 5, [=](std::int32_t c, std::int32_t r) { return dc * c + dr * r; });
-    const PictureFrame frame = FrameOf(dem, kMetres);
+    const PictureFrame frame = FrameOf(dem, kMetreSteps);
     const GreyPicture relief = ShadedRelief(RasterOf(*Terrain::Build(dem), frame), frame, 1);
     return relief.values[relief.values.size() / 2 + 5];
   };

@@ -9,13 +9,11 @@
 #include "core/horizon/find_horizon.h"
 #include "core/horizon/lines/highest_over_line.h"
 #include "tests/support/grid_meshes.h"
+#include "tests/support/metre_steps.h"
 #include "tests/support/terrains.h"
 
 namespace farhorizon {
 namespace {
-
-// Posts a metre apart, columns to the east, rows to the south.
-constexpr GroundStep kMetres{1, 0, 0, -1};
 
 // Line i of those that LinesAcross lays towards `azimuth`, half way between posts.
 PlanLine Line(int azimuth, int i, const Dem& dem) {
@@ -51,7 +49,8 @@ TEST(ProfileOf, IsTheGreatestHeightOverEachLine) {
     if (!terrain) continue;
     const Horizon horizon = *FindHorizon(*terrain, {}, {});
     for (const int azimuth : {0, 45, 90, 135}) {
-      const ParallelLines lines = LinesAcross(dem, kMetres, azimuth, LinesBetween(azimuth, dem));
+      const ParallelLines lines =
+          LinesAcross(dem, kMetreSteps, azimuth, LinesBetween(azimuth, dem));
       const SkylineProfile of_horizon = ProfileOf(dem, horizon, lines);
       const SkylineProfile of_mesh = ProfileOf(WholeMesh(*terrain), lines);
       for (int k = 0; k < lines.count; ++k) {
@@ -71,12 +70,12 @@ TEST(ProfileOf, IsTheGreatestHeightOverEachLine) {
 
 TEST(LinesAcross, RunFromLeftToRight) {
   const Dem dem = MakeDem(11, 5, [](auto, auto) { return 0; });
-  const ParallelLines north = LinesAcross(dem, kMetres, 0, 10);
+  const ParallelLines north = LinesAcross(dem, kMetreSteps, 0, 10);
   EXPECT_NEAR(north.OffsetOf(0, 0), -5, 1e-12) << "west is on the left";
   EXPECT_NEAR(north.OffsetOf(10, 4), 5, 1e-12);
   EXPECT_NEAR(north.OffsetOfLine(0), -4.5, 1e-12);
   EXPECT_NEAR(north.OffsetOfLine(9), 4.5, 1e-12);
-  const ParallelLines east = LinesAcross(dem, kMetres, 90, 10);
+  const ParallelLines east = LinesAcross(dem, kMetreSteps, 90, 10);
   EXPECT_NEAR(east.OffsetOf(0, 0), -2, 1e-12) << "north is on the left";
   EXPECT_NEAR(east.OffsetOf(10, 4), 2, 1e-12);
 }
@@ -86,7 +85,7 @@ TEST(ProfileOf, AnEdgeAlongALineIsAsHighAsItsHigherEnd) {
   mesh.points = {{1, 0, 3}, {1, 2, 8}, {1, 1, 5}};
   mesh.triangles = {{0, 1, 2}};
   const Dem dem = MakeDem(3, 3, [](auto, auto) { return 0; });
-  const ParallelLines lines = LinesAcross(dem, kMetres, 0, 1);  // one, through the middle
+  const ParallelLines lines = LinesAcross(dem, kMetreSteps, 0, 1);  // one, through the middle
   EXPECT_EQ(ProfileOf(mesh, lines).front(), 8);
 }
 

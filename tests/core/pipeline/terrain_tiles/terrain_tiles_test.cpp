@@ -35,9 +35,10 @@ double Hills(int c, int r) {
 }
 
 // A DEM of degrees from `west` and `north` on, and the tiles of its build.
-class Built {
+class BuiltTiles {
  public:
-  explicit Built(double west, double north, const std::vector<double>& heights, int threads = 1)
+  explicit BuiltTiles(double west, double north, const std::vector<double>& heights,
+                      int threads = 1)
       : west_(west), north_(north), heights_(heights) {
     TestRaster raster;
     raster.columns = kColumns;
@@ -154,16 +155,16 @@ constexpr std::array<std::array<double, 2>, 3> kPlaces = {
 class TerrainTiles : public ::testing::TestWithParam<std::size_t> {
  protected:
   // Each place is built once.
-  static const Built& At(std::size_t place) {
-    static std::array<std::unique_ptr<Built>, kPlaces.size()> built;
+  static const BuiltTiles& At(std::size_t place) {
+    static std::array<std::unique_ptr<BuiltTiles>, kPlaces.size()> built;
     if (!built[place]) {
       built[place] =
-          std::make_unique<Built>(kPlaces[place][0], kPlaces[place][1], HillsWithVoids());
+          std::make_unique<BuiltTiles>(kPlaces[place][0], kPlaces[place][1], HillsWithVoids());
     }
     return *built[place];
   }
   void SetUp() override { ASSERT_TRUE(built_.status_); }
-  const Built& built_ = At(GetParam());
+  const BuiltTiles& built_ = At(GetParam());
 };
 
 INSTANTIATE_TEST_SUITE_P(Places, TerrainTiles, ::testing::Range<std::size_t>(0, kPlaces.size()));
@@ -291,8 +292,8 @@ TEST_P(TerrainTiles, ShowTheEllipsoidBesideTheDem) {
 }
 
 TEST(TerrainTilesOfABuild, AreTheSameAtAnyNumberOfThreads) {
-  const Built one(7.123, 46.321, HillsWithVoids(), 1);
-  const Built three(7.123, 46.321, HillsWithVoids(), 3);
+  const BuiltTiles one(7.123, 46.321, HillsWithVoids(), 1);
+  const BuiltTiles three(7.123, 46.321, HillsWithVoids(), 3);
   ASSERT_TRUE(one.status_);
   EXPECT_EQ(one.files_, three.files_);
 }
@@ -300,7 +301,7 @@ TEST(TerrainTilesOfABuild, AreTheSameAtAnyNumberOfThreads) {
 TEST(TerrainTilesOfABuild, GroundBelowTheEllipsoidIsAPit) {
   std::vector<double> heights;
   for (int i = 0; i < kColumns * kRows; ++i) heights.push_back(-90 - 40 * (i % kColumns % 3));
-  const Built built(-97.3, 32.7, heights);
+  const BuiltTiles built(-97.3, 32.7, heights);
   ASSERT_TRUE(built.status_) << built.status_.error().message;
   const std::optional<double> ground = built.HeightAt(12, 12);
   ASSERT_TRUE(ground);

@@ -16,22 +16,6 @@
 namespace farhorizon {
 namespace {
 
-using Corners = std::array<std::int32_t, 3>;
-
-Corners Turned(Corners t) {
-  std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-  return t;
-}
-
-std::set<Corners> TrianglesOf(const HalfEdgeMesh& mesh) {
-  std::set<Corners> triangles;
-  for (std::int32_t h = 0; h < mesh.half_edges(); h += 3) {
-    if (!mesh.Stands(h / 3)) continue;
-    triangles.insert(Turned({mesh.origin(h), mesh.origin(h + 1), mesh.origin(h + 2)}));
-  }
-  return triangles;
-}
-
 // The slow twin of a collapse: v becomes b, and what has b twice is gone.
 std::set<Corners> Collapsed(const std::set<Corners>& triangles, std::int32_t v, std::int32_t b) {
   std::set<Corners> left;

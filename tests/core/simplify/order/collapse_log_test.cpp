@@ -33,19 +33,6 @@ bool CollapseOnto(HalfEdgeMesh& mesh, const Pair& pair, CollapseLog* log) {
   return false;
 }
 
-using Corners = std::array<std::int32_t, 3>;
-
-std::set<Corners> TrianglesOf(const HalfEdgeMesh& mesh) {
-  std::set<Corners> triangles;
-  for (std::int32_t h = 0; h < mesh.half_edges(); h += 3) {
-    if (!mesh.Stands(h / 3)) continue;
-    Corners t = {mesh.origin(h), mesh.origin(h + 1), mesh.origin(h + 2)};
-    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-    triangles.insert(t);
-  }
-  return triangles;
-}
-
 std::vector<Pair> CollapseAtRandom(HalfEdgeMesh& mesh, CollapseLog& log, int tries,
                                    std::mt19937& random) {
   std::vector<Pair> done;

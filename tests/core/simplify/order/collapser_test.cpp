@@ -14,8 +14,8 @@
 namespace farhorizon {
 namespace {
 
-struct Bench : Workbench {
-  explicit Bench(const Dem& of) : Workbench(of), collapser(work) {
+struct CollapserBench : Workbench {
+  explicit CollapserBench(const Dem& of) : Workbench(of), collapser(work) {
     work.rules.BeginSoft(work.mesh);
     work.price.AllowRises(true);
     work.price.SetWeight(30);
@@ -27,7 +27,8 @@ struct Bench : Workbench {
 };
 
 TEST(Collapser, LeavesTwoTrianglesOfAPlane) {
-  Bench bench(MakeDem(17, 9, [](std::int32_t c, std::int32_t r) { return 3 * c - 2 * r; }));
+  CollapserBench bench(
+      MakeDem(17, 9, [](std::int32_t c, std::int32_t r) { return 3 * c - 2 * r; }));
   bench.ConsiderAll();
   ASSERT_TRUE(bench.collapser.Run(2, {}, [] {}));
   EXPECT_EQ(bench.work.mesh.triangles(), 2);
@@ -38,7 +39,7 @@ TEST(Collapser, StopsAtTheBudgetAndKeepsWhatStays) {
   std::mt19937 random(1);
   int held = 0;
   for (int round = 0; round < Rounds(800); ++round) {
-    Bench bench(AnySmallDem(12, random));
+    CollapserBench bench(AnySmallDem(12, random));
     HalfEdgeMesh& mesh = bench.work.mesh;
     std::vector<std::int32_t> staying;
     for (std::int32_t v = 0; v < mesh.vertices(); ++v) {
@@ -59,7 +60,7 @@ TEST(Collapser, StopsAtTheBudgetAndKeepsWhatStays) {
 }
 
 TEST(Collapser, TakesTheFlatBeforeTheSummit) {
-  Bench bench(
+  CollapserBench bench(
       MakeDem(15, 15, [](std::int32_t c, std::int32_t r) { return c == 6 && r == 7 ? 500 : 0; }));
   bench.ConsiderAll();
   ASSERT_TRUE(bench.collapser.Run(14, {}, [] {}));
@@ -68,7 +69,7 @@ TEST(Collapser, TakesTheFlatBeforeTheSummit) {
 }
 
 TEST(Collapser, ForcesAVertexWhateverItCosts) {
-  Bench bench(
+  CollapserBench bench(
       MakeDem(5, 5, [](std::int32_t c, std::int32_t r) { return c == 2 && r == 2 ? 9 : 0; }));
   EXPECT_TRUE(bench.collapser.Force(12));
   EXPECT_FALSE(bench.work.mesh.IsVertex(12));
@@ -78,7 +79,7 @@ TEST(Collapser, ForcesAVertexWhateverItCosts) {
 }
 
 TEST(Collapser, StopsWhenAStopIsRequested) {
-  Bench bench(FractalDem(65, 900, 100, 3));
+  CollapserBench bench(FractalDem(65, 900, 100, 3));
   std::stop_source source;
   source.request_stop();
   RunControl control;

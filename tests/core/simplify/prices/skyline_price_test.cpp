@@ -22,7 +22,7 @@ namespace farhorizon {
 namespace {
 
 constexpr float kWeight = 2;
-constexpr float kSlopeWeight = 0.25;
+constexpr float kSlopesWeigh = 0.25;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 struct Tally {
@@ -32,12 +32,12 @@ struct Tally {
   double missing = 0;  // the most that it is priced too low, of both sums
 };
 
-class Bench {
+class PriceBench {
  public:
-  Bench(const Dem& dem, std::mt19937& random) : bench(dem, {0.01, 0}), random_(random) {
+  PriceBench(const Dem& dem, std::mt19937& random) : bench(dem, {0.01, 0}), random_(random) {
     bench.work.price.SetWeight(kWeight);
     bench.work.price.AllowRises(true);
-    mesh().measure().SetSlopeWeight(kSlopeWeight);
+    mesh().measure().SetSlopeWeight(kSlopesWeigh);
     mesh().MeasureAll();
     bench.work.rules.BeginSoft(mesh());
   }
@@ -56,8 +56,8 @@ class Bench {
   }
   // Holds the price of what makes the mesh into `after`.
   void Compare(double price, const HalfEdgeMesh& after, Tally& tally) {
-    const Objective was = ObjectiveOf(bench.work, mesh(), kSlopeWeight, kWeight);
-    const Objective is = ObjectiveOf(bench.work, after, kSlopeWeight, kWeight);
+    const Objective was = ObjectiveOf(bench.work, mesh(), kSlopesWeigh, kWeight);
+    const Objective is = ObjectiveOf(bench.work, after, kSlopesWeigh, kWeight);
     if (!was.known || !is.known || !was.tops_are_true) return;
     const double rounding = 1e-2 + 1e-4 * (was.most + is.most);
     if (price < is.least - was.most - rounding) {
@@ -77,7 +77,7 @@ class Bench {
   std::mt19937& random_;
 };
 
-void TryCollapse(Bench& on, Tally& tally) {
+void TryCollapse(PriceBench& on, Tally& tally) {
   Ring ring;
   const std::int32_t v = on.Any(on.mesh().vertices());
   if (!on.mesh().IsVertex(v) || !on.mesh().Gather(v, ring)) return;
@@ -98,7 +98,7 @@ void TryCollapse(Bench& on, Tally& tally) {
   on.Compare(cost, after, tally);
 }
 
-void TryFlip(Bench& on, Tally& tally) {
+void TryFlip(PriceBench& on, Tally& tally) {
   const std::int32_t h = on.Any(on.mesh().half_edges());
   if (!MayFlip(on.mesh(), h)) return;
   Ring quad;
@@ -119,7 +119,7 @@ void TryFlip(Bench& on, Tally& tally) {
   on.Compare(cost, after, tally);
 }
 
-void TryPlace(Bench& on, bool move, Tally& tally) {
+void TryPlace(PriceBench& on, bool move, Tally& tally) {
   const Ground& ground = on.bench.ground;
   const std::int32_t v = on.Any(on.mesh().vertices());
   if (!on.bench.work.IsFree(v)) return;
@@ -151,7 +151,7 @@ Tally TallyOf(Kind kind, bool polished, std::uint32_t seed) {
   const int tries = kind == Kind::kMove ? 150 : 12;  // most are refused
   // Not a tenth under the sanitizers: what is rare has to come up.
   for (int round = 0; round < std::max(Rounds(500), 200); ++round) {
-    Bench on(AnySmallDem(kind == Kind::kMove ? 12 : 9, random), random);
+    PriceBench on(AnySmallDem(kind == Kind::kMove ? 12 : 9, random), random);
     if (polished) on.MakeLevel();
     for (int k = 0; k < tries; ++k) {
       switch (kind) {

@@ -12,7 +12,7 @@
 namespace farhorizon::kinetic {
 namespace {
 
-constexpr std::int32_t kTop = 1;
+constexpr std::int32_t kTopTag = 1;
 constexpr std::int32_t kBottom = 2;
 
 /// P and R of radius 3, which stand, and between them Q of radius 1, at a height that changes by
@@ -37,7 +37,7 @@ class ThreeDiamonds {
   }
   /// Whether pq, qr and pr are active, which touch P and R at their tops and Q at `at_q`.
   [[nodiscard]] std::array<bool, 3> Active(std::int32_t at_q) const {
-    return {IsActive(p_, q_, at_q), IsActive(r_, q_, at_q), IsActive(p_, r_, kTop)};
+    return {IsActive(p_, q_, at_q), IsActive(r_, q_, at_q), IsActive(p_, r_, kTopTag)};
   }
   [[nodiscard]] const SceneCounts& counts() const { return scene_.counts(); }
 
@@ -53,7 +53,7 @@ class ThreeDiamonds {
     add(-radius, 0, 0);
     add(0, -radius, kBottom);
     add(radius, 0, 0);
-    add(0, radius, kTop);
+    add(0, radius, kTopTag);
     return c;
   }
   /// Of the tangent that touches a at its top and b at the corner with the tag.
@@ -62,7 +62,7 @@ class ThreeDiamonds {
     for (HalfTangentId half = 2 * first; half < 2 * (first + 4); ++half) {
       const KineticPoint& own = scene_.hulls().point(scene_.tangents().Own(half));
       const KineticPoint& other = scene_.hulls().point(scene_.tangents().Other(half));
-      if (own.cluster != a || own.tag != kTop || other.tag != tag_at_b) continue;
+      if (own.cluster != a || own.tag != kTopTag || other.tag != tag_at_b) continue;
       EXPECT_EQ(scene_.order().IsActive(half), scene_.order().IsActive(Opposite(half)));
       return scene_.order().IsActive(half);
     }
@@ -82,10 +82,10 @@ constexpr std::array kAllButPr{true, true, false};
 TEST(CollinearEvent, GivesThePlacesOfPrToPqAndQrWhereQRises) {
   ThreeDiamonds hulls(0, 1);
   hulls.PlayTo(2);
-  EXPECT_EQ(hulls.Active(kTop), kOnlyPr);
+  EXPECT_EQ(hulls.Active(kTopTag), kOnlyPr);
   const SceneCounts before = hulls.counts();
   hulls.PlayTo(3);
-  EXPECT_EQ(hulls.Active(kTop), kAllButPr);
+  EXPECT_EQ(hulls.Active(kTopTag), kAllButPr);
   // Active and inactive at p and at r; the two inactive ones at q had no certificate between them.
   EXPECT_EQ(hulls.counts().tangent_failures[1] - before.tangent_failures[1], 2);
 }
@@ -93,10 +93,10 @@ TEST(CollinearEvent, GivesThePlacesOfPrToPqAndQrWhereQRises) {
 TEST(CollinearEvent, GivesThemBackWhereQSinks) {
   ThreeDiamonds hulls(4, -1);
   hulls.PlayTo(2);
-  EXPECT_EQ(hulls.Active(kTop), kAllButPr);
+  EXPECT_EQ(hulls.Active(kTopTag), kAllButPr);
   const SceneCounts before = hulls.counts();
   hulls.PlayTo(3);
-  EXPECT_EQ(hulls.Active(kTop), kOnlyPr);
+  EXPECT_EQ(hulls.Active(kTopTag), kOnlyPr);
   EXPECT_EQ(hulls.counts().tangent_failures[0] - before.tangent_failures[0], 1);
   EXPECT_EQ(hulls.counts().tangent_failures[1] - before.tangent_failures[1], 2);
 }

@@ -18,8 +18,8 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-constexpr double kFoot = 0.3048;
-constexpr double kSurveyFoot = 1200.0 / 3937;
+constexpr double kFeet = 0.3048;
+constexpr double kSurveyFeet = 1200.0 / 3937;
 constexpr char kEgm96InFeet[] =
     "VERTCRS[\"EGM96 height\",VDATUM[\"EGM96 geoid\"],CS[vertical,1],AXIS[\"up\",up],"
     "LENGTHUNIT[\"foot\",0.3048]]";
@@ -69,7 +69,7 @@ TEST_F(ValueScaleOf, AFileThatStatesAllAssumesNothing) {
   EXPECT_THAT(codes_, IsEmpty());
   EXPECT_EQ(Last({.crs = "EPSG:32610", .unit = "m"}, {.vertical_datum = "ellipsoid"}), 6);
   EXPECT_THAT(codes_, IsEmpty());
-  EXPECT_NEAR(Last({.crs = "EPSG:26910+6360"}), 6 * kSurveyFoot, 1e-9);
+  EXPECT_NEAR(Last({.crs = "EPSG:26910+6360"}), 6 * kSurveyFeet, 1e-9);
   EXPECT_THAT(codes_, IsEmpty());
 }
 
@@ -86,30 +86,30 @@ TEST_F(ValueScaleOf, SaysThatTheMapOfAStatePlaneIsInFeet) {
                              .crs = "EPSG:6529"};
   EXPECT_EQ(Last(raster), 6);
   EXPECT_THAT(text_, AllOf(HasSubstr("US survey foot"), HasSubstr("--height-unit")));
-  EXPECT_NEAR(Last(raster, {.height_unit = "us-ft"}), 6 * kSurveyFoot, 1e-9);
+  EXPECT_NEAR(Last(raster, {.height_unit = "us-ft"}), 6 * kSurveyFeet, 1e-9);
   EXPECT_THAT(codes_, ElementsAre("vertical-datum"));
 }
 
 TEST_F(ValueScaleOf, TheUnitOfTheCallsSystemCounts) {
-  EXPECT_NEAR(Last({.crs = "EPSG:32610"}, {.vertical_datum = kEgm96InFeet}), 6 * kFoot, 1e-9);
+  EXPECT_NEAR(Last({.crs = "EPSG:32610"}, {.vertical_datum = kEgm96InFeet}), 6 * kFeet, 1e-9);
   EXPECT_THAT(codes_, IsEmpty());
-  EXPECT_NEAR(Last({.crs = "EPSG:32610"}, {.crs = "EPSG:26910+6360"}), 6 * kSurveyFoot, 1e-9);
+  EXPECT_NEAR(Last({.crs = "EPSG:32610"}, {.crs = "EPSG:26910+6360"}), 6 * kSurveyFeet, 1e-9);
   EXPECT_THAT(codes_, IsEmpty());
   EXPECT_NEAR(Last({.crs = "EPSG:32610"}, {.crs = "+proj=utm +zone=10 +datum=WGS84 +vunits=ft"}),
-              6 * kFoot, 1e-9);
+              6 * kFeet, 1e-9);
   // The file's vertical system is in metres: it is what the call has set right.
-  EXPECT_NEAR(Last({.crs = "EPSG:32610+5773"}, {.vertical_datum = kEgm96InFeet}), 6 * kFoot, 1e-9);
+  EXPECT_NEAR(Last({.crs = "EPSG:32610+5773"}, {.vertical_datum = kEgm96InFeet}), 6 * kFeet, 1e-9);
   EXPECT_THAT(codes_, ElementsAre("height-unit"));
 }
 
 TEST_F(ValueScaleOf, ADatumInMetresMakesNoMetresOfFeet) {
-  EXPECT_NEAR(Last({.unit = "US survey foot"}, {.vertical_datum = "EPSG:5773"}), 6 * kSurveyFoot,
+  EXPECT_NEAR(Last({.unit = "US survey foot"}, {.vertical_datum = "EPSG:5773"}), 6 * kSurveyFeet,
               1e-9);
   EXPECT_THAT(codes_, ElementsAre("height-unit"));
-  EXPECT_NEAR(Last({.crs = "EPSG:26910+6360"}, {.vertical_datum = "EPSG:5773"}), 6 * kSurveyFoot,
+  EXPECT_NEAR(Last({.crs = "EPSG:26910+6360"}, {.vertical_datum = "EPSG:5773"}), 6 * kSurveyFeet,
               1e-9);
   EXPECT_THAT(codes_, ElementsAre("height-unit"));
-  EXPECT_NEAR(Last({.crs = "EPSG:26910+6360"}, {.vertical_datum = "ellipsoid"}), 6 * kSurveyFoot,
+  EXPECT_NEAR(Last({.crs = "EPSG:26910+6360"}, {.vertical_datum = "ellipsoid"}), 6 * kSurveyFeet,
               1e-9);
   EXPECT_EQ(Last({.unit = "US survey foot"}, {.vertical_datum = "EPSG:5773", .height_unit = "m"}),
             6);
@@ -120,7 +120,7 @@ TEST_F(ValueScaleOf, ADatumInMetresMakesNoMetresOfFeet) {
 TEST_F(ValueScaleOf, AKeyInFeetCountsBeforeASystemInMetres) {
   WriteTiff(dir_ / "dem.tif", {.crs = "EPSG:32610+5773", .options = {"GEOTIFF_VERSION=1.0"}});
   const std::pair<int, double> kUnits[] = {
-      {9001, 1}, {9002, kFoot}, {9003, kSurveyFoot}, {9014, 1.8288}};
+      {9001, 1}, {9002, kFeet}, {9003, kSurveyFeet}, {9014, 1.8288}};
   for (const auto& [code, metres] : kUnits) {
     SetVerticalUnits(dir_ / "dem.tif", code);
     EXPECT_NEAR(ReadAgain().HeightM(5), 6 * metres, 1e-9) << code;
@@ -142,11 +142,11 @@ TEST_F(ValueScaleOf, AKeyInFeetCountsBeforeASystemInMetres) {
 }
 
 TEST_F(ValueScaleOf, AStatedUnitTakesThePlaceOfOneThatIsNotKnown) {
-  EXPECT_NEAR(Last({.unit = "m*10"}, {.height_unit = "ft"}), 6 * kFoot, 1e-9);
+  EXPECT_NEAR(Last({.unit = "m*10"}, {.height_unit = "ft"}), 6 * kFeet, 1e-9);
 }
 
 TEST_F(ValueScaleOf, ScaleAndOffsetAreInTheUnit) {
-  EXPECT_NEAR(Last({.scale = 10, .offset = 5, .unit = "ft"}), 65 * kFoot, 1e-9);
+  EXPECT_NEAR(Last({.scale = 10, .offset = 5, .unit = "ft"}), 65 * kFeet, 1e-9);
 }
 
 TEST_F(ValueScaleOf, DepthsTurnTheirSignOnce) {
@@ -164,7 +164,7 @@ TEST_F(ValueScaleOf, DepthsTurnTheirSignOnce) {
   }
   EXPECT_EQ(Last({.crs = "EPSG:32610"}, {.vertical_datum = "EPSG:5715"}), -6);
   EXPECT_EQ(Last({.crs = "EPSG:32610"}, {.crs = "EPSG:32610+5715"}), -6);
-  EXPECT_NEAR(Last({.crs = "EPSG:26910+6358"}), -6 * kSurveyFoot, 1e-9);  // NAVD88 depth (ftUS)
+  EXPECT_NEAR(Last({.crs = "EPSG:26910+6358"}), -6 * kSurveyFeet, 1e-9);  // NAVD88 depth (ftUS)
 }
 
 TEST_F(ValueScaleOf, SaysThatTheFilesDatumGaveWayToTheCallsMap) {
