@@ -19,7 +19,7 @@ struct FsckArguments {
 // Prints a line for each fault.
 void Say(const std::string& line) { std::printf("%s\n", line.c_str()); }
 
-int Report(const Result<FsckSum>& sum) {
+int ReportSum(const Result<FsckSum>& sum) {
   if (!sum) return ReportError(sum.error());
   std::fprintf(stderr,
                "farhorizon: %lld jobs, %lld objects of %lld bytes; %lld faults, %lld mended\n",
@@ -35,7 +35,7 @@ int Run(const FsckArguments& arguments) {
     return ReportError({ErrorCode::kInvalidArgument, "give the data directory: farhorizon fsck DIR",
                         "invalid-argument"});
   }
-  return Report(CheckStore({directory, arguments.repair, Say}));
+  return ReportSum(CheckStore({directory, arguments.repair, Say}));
 }
 
 }  // namespace
@@ -73,7 +73,7 @@ void AddBackup(Command& program, SelectedCommand& selected) {
   command.SetFooter(
       "To restore: stop the service, move its data directory away and the copy into its place.");
   command.Select(selected, [arguments] {
-    return Report(BackUpStore({arguments->directory, false, Say}, arguments->target));
+    return ReportSum(BackUpStore({arguments->directory, false, Say}, arguments->target));
   });
 }
 

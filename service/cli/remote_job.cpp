@@ -25,8 +25,8 @@ using std::chrono::seconds;
 using Clock = std::chrono::steady_clock;
 
 constexpr const char* kManifest = "manifest.json";
-constexpr milliseconds kFirstPause{100};
-constexpr milliseconds kLongestPause{2000};
+constexpr milliseconds kFirstPollPause{100};
+constexpr milliseconds kLongestPollPause{2000};
 // Less than the client's patience with a silent connection.
 constexpr int kLongPollSeconds = 20;
 
@@ -137,7 +137,7 @@ Result<json> WaitForEnd(const JobClient& client, const std::string& id,
                         std::optional<seconds> most) {
   const Clock::time_point start = Clock::now();
   std::string tag;
-  milliseconds pause = kFirstPause;
+  milliseconds pause = kFirstPollPause;
   for (;;) {
     const auto left =
         most ? std::chrono::ceil<seconds>(start + *most - Clock::now()) : seconds(kLongPollSeconds);
@@ -170,7 +170,7 @@ Result<json> WaitForEnd(const JobClient& client, const std::string& id,
     // A service that does not wait is not to be asked again without a pause.
     if (!asks_to_wait || !response->Header("preference-applied").empty()) continue;
     Pause(pause, client.stop());
-    pause = std::min(pause * 3 / 2, kLongestPause);
+    pause = std::min(pause * 3 / 2, kLongestPollPause);
   }
 }
 

@@ -35,14 +35,12 @@ using nlohmann::json;
 
 // Of the JSON beside the DEM; all that an echo may be sent.
 constexpr std::size_t kMostRest = std::size_t{1} << 20U;
-// How long a client waits for an answer that is not a job's, at most.
-constexpr std::int64_t kMostWaitSeconds = 60;
 constexpr std::chrono::milliseconds kLook{20};
 
 // What an echo needs: a process of this program that does next to nothing.
 constexpr JobCost kEchoCost{std::int64_t{1} << 27U, 1};
 
-Error Invalid(const std::string& what) {
+Error InvalidInput(const std::string& what) {
   return {ErrorCode::kInvalidArgument, what, "invalid-parameter"};
 }
 
@@ -64,7 +62,7 @@ struct ExecutionBody {
   }
   Status TakeDem(std::string_view text) {
     decoded.clear();
-    if (!decoder.Feed(text, decoded)) return Invalid("the input dem is no base64");
+    if (!decoder.Feed(text, decoded)) return InvalidInput("the input dem is no base64");
     return spool.Write(decoded);
   }
 
@@ -78,14 +76,14 @@ struct ExecutionBody {
 
 // Checks what the input `dem` says of itself.
 Status CheckDemInput(const json& inputs, const ExecutionBody& body) {
-  if (!inputs.contains("dem")) return Invalid("the input dem is missing");
+  if (!inputs.contains("dem")) return InvalidInput("the input dem is missing");
   Result<GivenInput> dem = ReadInput("dem", inputs["dem"]);
   if (!dem) return std::move(dem.error());
   if (!body.sieve.found() || !body.decoder.MayEnd()) {
-    return Invalid("the input dem must be one text in base64, or an object with it as value");
+    return InvalidInput("the input dem must be one text in base64, or an object with it as value");
   }
   if (!dem->encoding.empty() && dem->encoding != "base64") {
-    return Invalid("the encoding of the input dem must be base64");
+    return InvalidInput("the encoding of the input dem must be base64");
   }
   if (IsDemMediaType(MediaTypeIn(dem->media_type))) return Ok{};
   return Error{ErrorCode::kUnsupportedData,

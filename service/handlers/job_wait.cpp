@@ -14,8 +14,6 @@ namespace farhorizon {
 
 namespace {
 
-constexpr std::int64_t kMostWaitSeconds = 60;
-
 class JobWait : public LateResponse {
  public:
   JobWait(const HandlerContext& context, const HttpRequest& request, std::int64_t seconds,

@@ -7,6 +7,9 @@
 
 namespace farhorizon {
 
+/// For how long a client may wait for one answer.
+inline constexpr std::int64_t kMostWaitSeconds = 60;
+
 /// What a client would like of the answer [RFC 7240].
 struct Preferences {
   bool respond_async = false;

@@ -8,8 +8,8 @@ namespace farhorizon {
 
 namespace {
 
-constexpr std::chrono::milliseconds kFirstPause{50};
-constexpr std::chrono::milliseconds kLongestPause{5000};
+constexpr std::chrono::milliseconds kFirstRetryPause{50};
+constexpr std::chrono::milliseconds kLongestRetryPause{5000};
 // For a connection that others use.
 constexpr std::chrono::seconds kLongestWait{5};
 constexpr std::chrono::milliseconds kWatchInterval{500};
@@ -18,7 +18,7 @@ SqlFailure Unanswered(const char* why) { return {{ErrorCode::kResourceExhausted,
 
 // From half to all of a bound that doubles: many services do not come back at one time.
 std::chrono::milliseconds PauseAfter(int failures) {
-  const auto bound = std::min(kLongestPause, kFirstPause * (1 << std::min(failures, 10)));
+  const auto bound = std::min(kLongestRetryPause, kFirstRetryPause * (1 << std::min(failures, 10)));
   return bound / 2 + bound * RandomBytes()[0] / 512;
 }
 

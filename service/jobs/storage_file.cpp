@@ -16,7 +16,7 @@ namespace farhorizon {
 
 namespace {
 
-constexpr std::size_t kPieceBytes = std::size_t{1} << 18U;
+constexpr std::size_t kCopiedAtOnce = std::size_t{1} << 18U;
 
 }  // namespace
 
@@ -40,7 +40,7 @@ Result<UniqueFd> OpenForReading(const std::filesystem::path& path) {
 
 Status ForEachPiece(int fd, const char* doing,
                     const std::function<Status(std::string_view piece)>& take) {
-  std::string piece(kPieceBytes, '\0');
+  std::string piece(kCopiedAtOnce, '\0');
   for (;;) {
     const std::int64_t size = ReadSome(fd, piece);
     if (size < 0) return StorageError(doing);
