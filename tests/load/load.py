@@ -10,6 +10,7 @@ import bodies  # noqa: E402
 import command  # noqa: E402
 import events  # noqa: E402
 import machines  # noqa: E402
+import nodes  # noqa: E402
 import overload  # noqa: E402
 import poll  # noqa: E402
 import slow  # noqa: E402
@@ -19,7 +20,7 @@ import tiles  # noqa: E402
 
 LOADS = {"poll": poll.run, "submit": submit.run, "overload": overload.run, "slow": slow.run, "bodies": bodies.run,
          "tiles": tiles.run, "events": events.run, "machines": machines.run,
-         "soak": soak.run}
+         "nodes": nodes.run, "soak": soak.run}
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
