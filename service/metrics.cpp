@@ -53,6 +53,10 @@ struct Registry {
                "From a request's head to the end of its response");
   prometheus::Counter& uploaded =
       CounterIn(all, "farhorizon_upload_bytes_total", "Bytes of the bodies of submissions");
+  prometheus::Gauge& uploads =
+      GaugeIn(all, "farhorizon_uploads", "Resumable uploads that no job has yet");
+  prometheus::Gauge& upload_bytes =
+      GaugeIn(all, "farhorizon_uploads_stored_bytes", "Bytes of these that are there");
   prometheus::Histogram& waits =
       FamilyIn(all, BuildHistogram(), "farhorizon_job_queue_wait_seconds",
                "From a job's acceptance to the start of a run")
@@ -94,8 +98,8 @@ Registry& Registered() {
 
 // The values of a label must be few: a client makes up methods as it likes.
 std::string MethodLabel(const std::string& method) {
-  constexpr std::array<std::string_view, 6> kKnown = {"GET",    "HEAD", "POST",
-                                                      "DELETE", "PUT",  "OPTIONS"};
+  constexpr std::array<std::string_view, 7> kKnown = {"GET", "HEAD",  "POST",   "DELETE",
+                                                      "PUT", "PATCH", "OPTIONS"};
   return std::find(kKnown.begin(), kKnown.end(), method) != kKnown.end() ? method : "other";
 }
 
@@ -143,6 +147,8 @@ std::string MetricsText(const Gauges& gauges) {
   Registry& registry = Registered();
   registry.jobs.Add({{"state", "accepted"}}).Set(static_cast<double>(gauges.jobs_accepted));
   registry.jobs.Add({{"state", "running"}}).Set(static_cast<double>(gauges.jobs_running));
+  registry.uploads.Set(static_cast<double>(gauges.uploads));
+  registry.upload_bytes.Set(static_cast<double>(gauges.upload_bytes));
   registry.waiting.Set(static_cast<double>(gauges.waiting_requests));
   registry.free_bytes.Set(static_cast<double>(gauges.free_bytes));
   RaiseTo(registry.dropped, static_cast<double>(gauges.log_lines_dropped));

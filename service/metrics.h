@@ -35,6 +35,8 @@ struct Gauges {
   bool ready = false;
   std::string version;                ///< of the program
   std::int64_t waiting_requests = 0;  ///< for changes of jobs
+  std::int64_t uploads = 0;           ///< resumable ones that no job has yet
+  std::int64_t upload_bytes = 0;      ///< of these, that are there
 };
 
 /// All metrics in the text format, version 0.0.4, with what is known of the process.

@@ -37,6 +37,7 @@ JobServiceOptions JobOptions(const Config& config) {
   JobServiceOptions options = config.jobs;
   const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   options.workers = config.workers > 0 ? config.workers : cores;
+  options.uploads.bounds.each = config.max_body_bytes;
   return options;
 }
 

@@ -89,7 +89,7 @@ std::vector<ConfigKey> HttpKeys() {
       Number("http.headSeconds", http(&ServerOptions::head_time), 1, kDay,
              "time for a request's head to come in"),
       Number("http.idleSeconds", http(&ServerOptions::idle_time), 1, kDay,
-             "time that a connection may wait between requests"),
+             "time that a connection may wait between requests, or for the next byte of a body"),
       Number("http.bodyGraceSeconds", http(&ServerOptions::body_grace), 1, kDay,
              "time before the least rate of a body counts"),
       Number("http.bodyBytesPerSecond", http(&ServerOptions::body_bytes_per_second), 1, kTebibyte,
@@ -171,6 +171,27 @@ std::vector<ConfigKey> JobKeys() {
   };
 }
 
+std::vector<ConfigKey> UploadKeys() {
+  const auto uploads = [](auto... fields) {
+    return Path(&Config::jobs, &JobServiceOptions::uploads, fields...);
+  };
+  const auto bound = [&](auto field) { return uploads(&UploadOptions::bounds, field); };
+  return {
+      Number("uploads.max", bound(&UploadBounds::all), 0, 1'000'000,
+             "resumable uploads that no job has yet; more get 503"),
+      Number("uploads.maxPerClient", bound(&UploadBounds::of_client), 0, 1'000'000,
+             "of these, uploads of one client: of an owner of keys, or of one address; more get "
+             "429"),
+      Number("uploads.maxBytes", bound(&UploadBounds::bytes), 0, 1024 * kTebibyte,
+             "bytes of all of these by their lengths, http.maxBodyBytes where one is not known"),
+      Number("uploads.maxBytesPerClient", bound(&UploadBounds::bytes_of_client), 0,
+             1024 * kTebibyte, "of these, bytes of one client's"),
+      Number("uploads.keepSeconds", uploads(&UploadOptions::keep_seconds), 1, 366 * kDay,
+             "time that an upload is kept after the last bytes that came, and after the last job "
+             "that was made of it"),
+  };
+}
+
 std::vector<ConfigKey> StoreKeys() {
   const auto store = [](auto field) {
     return Path(&Config::jobs, &JobServiceOptions::store, field);
@@ -245,7 +266,7 @@ std::vector<ConfigKey> AllKeys() {
              "jobs at once; 0: as many as there are cores"),
   };
   for (std::vector<ConfigKey> section :
-       {HttpKeys(), AuthKeys(), StoreKeys(), JobKeys(), WorkerKeys()}) {
+       {HttpKeys(), AuthKeys(), StoreKeys(), JobKeys(), UploadKeys(), WorkerKeys()}) {
     std::move(section.begin(), section.end(), std::back_inserter(keys));
   }
   keys.push_back(Choice("log.level", Path(&Config::log, &LogOptions::level), kLogLevelNames,

@@ -51,7 +51,8 @@ ordered_json ReadSource() {
            {"process", kProcessSchemaText},
            {"process-list", kProcessListSchemaText},
            {"results", kResultsSchemaText},
-           {"status-info", kStatusInfoSchemaText}}) {
+           {"status-info", kStatusInfoSchemaText},
+           {"upload", kUploadSchemaText}}) {
     ordered_json schema = ordered_json::parse(text);
     schema.erase("$id");
     schema.erase("$schema");

@@ -17,4 +17,12 @@ HttpResponse FinishExchange(Exchange& exchange, const HttpRequest& request) {
   }
 }
 
+void AbandonExchange(Exchange& exchange, const HttpRequest& request) {
+  try {
+    exchange.Abandon();
+  } catch (const std::exception& bug) {
+    Log(LogLevel::kError, "internal error", {{"path", request.path}, {"error", bug.what()}});
+  }
+}
+
 }  // namespace farhorizon

@@ -22,6 +22,10 @@ class Exchange {
   /// connection closed.
   virtual Status Take(std::string_view piece) = 0;
 
+  /// The request ends without Finish: its body was broken off or too slow, or Take has failed. The
+  /// last call.
+  virtual void Abandon() {}
+
   /// The response. Requires: the whole body has been taken; called once.
   virtual HttpResponse Finish() = 0;
 };
@@ -32,5 +36,8 @@ using Admission = std::variant<HttpResponse, std::unique_ptr<Exchange>>;
 
 /// exchange.Finish(), with an exception turned into 500 "internal-error" and a line of the log.
 HttpResponse FinishExchange(Exchange& exchange, const HttpRequest& request);
+
+/// exchange.Abandon(), with an exception turned into a line of the log.
+void AbandonExchange(Exchange& exchange, const HttpRequest& request);
 
 }  // namespace farhorizon

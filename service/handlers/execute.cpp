@@ -15,6 +15,7 @@
 #include "service/handlers/content_digest.h"
 #include "service/handlers/echo_inputs.h"
 #include "service/handlers/execute_request.h"
+#include "service/handlers/input_link.h"
 #include "service/handlers/json_parameters.h"
 #include "service/handlers/json_sieve.h"
 #include "service/handlers/preferences.h"
@@ -74,9 +75,17 @@ struct ExecutionBody {
   JsonSieve sieve;
 };
 
-// Checks what the input `dem` says of itself.
+// Checks what the input `dem` says of its format.
+Status CheckDemMedia(const std::string& media_type) {
+  if (IsDemMediaType(MediaTypeIn(media_type))) return Ok{};
+  return Error{ErrorCode::kUnsupportedData,
+               "the input dem says that it is " + media_type.substr(0, 100) +
+                   "; send it as image/tiff or application/octet-stream",
+               "unsupported-media-type"};
+}
+
+// Checks what the input `dem`, which is a value, says of itself.
 Status CheckDemInput(const json& inputs, const ExecutionBody& body) {
-  if (!inputs.contains("dem")) return InvalidInput("the input dem is missing");
   Result<GivenInput> dem = ReadInput("dem", inputs["dem"]);
   if (!dem) return std::move(dem.error());
   if (!body.sieve.found() || !body.decoder.MayEnd()) {
@@ -85,11 +94,7 @@ Status CheckDemInput(const json& inputs, const ExecutionBody& body) {
   if (!dem->encoding.empty() && dem->encoding != "base64") {
     return InvalidInput("the encoding of the input dem must be base64");
   }
-  if (IsDemMediaType(MediaTypeIn(dem->media_type))) return Ok{};
-  return Error{ErrorCode::kUnsupportedData,
-               "the input dem says that it is " + dem->media_type.substr(0, 100) +
-                   "; send it as image/tiff or application/octet-stream",
-               "unsupported-media-type"};
+  return CheckDemMedia(dem->media_type);
 }
 
 // The inputs beside the DEM, as parameters of a job.
@@ -124,6 +129,8 @@ class ExecuteExchange : public Exchange {
 
  private:
   Result<Job> Submit();
+  /// The upload that the input `dem` links to; nullopt where the DEM is in the body.
+  Result<std::optional<Upload>> TakeDem(const json& inputs);
   Result<Job> SubmitTerrain(const ExecuteRequest& asked);
   Result<Job> SubmitEcho(const ExecuteRequest& asked);
   /// The job's results, once it has ended; nullopt if it takes too long.
@@ -137,11 +144,25 @@ class ExecuteExchange : public Exchange {
   ContentDigest digest_;
 };
 
+Result<std::optional<Upload>> ExecuteExchange::TakeDem(const json& inputs) {
+  if (!inputs.contains("dem")) return InvalidInput("the input dem is missing");
+  Result<std::optional<InputLink>> link = LinkOf("dem", inputs["dem"]);
+  if (!link) return std::move(link.error());
+  Status fits = *link ? CheckDemMedia((*link)->type) : CheckDemInput(inputs, body_);
+  if (!fits) return std::move(fits.error());
+  if (!*link) return std::optional<Upload>();
+  Result<Upload> upload = LinkedUpload(context_, request_, **link);
+  if (!upload) return std::move(upload.error());
+  return std::optional<Upload>(*std::move(upload));
+}
+
 Result<Job> ExecuteExchange::SubmitTerrain(const ExecuteRequest& asked) {
-  if (Status dem = CheckDemInput(asked.inputs, body_); !dem) return std::move(dem.error());
+  Result<std::optional<Upload>> linked = TakeDem(asked.inputs);
+  if (!linked) return std::move(linked.error());
   Result<Parameters> parameters = ParametersOfInputs(asked.inputs);
   if (!parameters) return std::move(parameters.error());
-  std::string filename;
+  const std::optional<Upload>& upload = *linked;
+  std::string filename = upload ? upload->filename : "";
   if (const auto name = parameters->find("filename"); name != parameters->end()) {
     filename = name->second;
     parameters->erase(name);
@@ -155,7 +176,12 @@ Result<Job> ExecuteExchange::SubmitTerrain(const ExecuteRequest& asked) {
                         .terms = wishes->terms,
                         .options = std::move(wishes->options),
                         .answer = WriteResultWishes(asked.wishes),
-                        .owner = request_.caller.owner};
+                        .owner = request_.caller.owner,
+                        .upload = upload ? upload->id : ""};
+  if (upload) {
+    Status copied = context_.jobs.Uploads().CopyTo(*upload, body_.spool);
+    if (!copied) return std::move(copied.error());
+  }
   return SubmitUpload(context_, body_.spool, std::move(submission));
 }
 

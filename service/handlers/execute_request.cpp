@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "service/handlers/input_link.h"
 #include "service/handlers/processes.h"
 #include "service/strict_json.h"
 
@@ -117,10 +118,7 @@ Error NoSuchProcess(std::string_view process) {
 Result<GivenInput> ReadInput(const std::string& name, const json& given) {
   if (!given.is_object()) return GivenInput{given, "", ""};
   if (given.contains("href")) {
-    return Error{
-        ErrorCode::kInvalidArgument,
-        "the input " + name + " is a link, and this service fetches nothing; send the value itself",
-        "href-not-allowed"};
+    return HrefNotAllowed(name);
   }
   if (!given.contains("value")) return GivenInput{given, "", ""};
   return GivenInput{given["value"], TextOf(given, "mediaType"), TextOf(given, "encoding")};

@@ -61,12 +61,14 @@ HttpResponse Metrics(const HandlerContext& context) {
   const Result<UnfinishedJobs> jobs = context.jobs.CountUnfinished();
   const UnfinishedJobs counts = jobs ? *jobs : UnfinishedJobs{};
   const Result<std::int64_t> room = context.jobs.FreeBytes();
+  const Result<UploadCounts> counted = context.jobs.Uploads().Count();
+  const UploadCounts uploads = counted ? *counted : UploadCounts{};
   HttpResponse response;
   response.Set("Content-Type", "text/plain; version=0.0.4; charset=utf-8");
   response.Set("Cache-Control", "no-store");
-  response.body =
-      MetricsText({counts.accepted, counts.running, room ? *room : 0, LogLinesDropped(),
-                   AllSucceed(context.jobs.CheckReady()), Version(), context.jobs.CountWatches()});
+  response.body = MetricsText({counts.accepted, counts.running, room ? *room : 0, LogLinesDropped(),
+                               AllSucceed(context.jobs.CheckReady()), Version(),
+                               context.jobs.CountWatches(), uploads.uploads, uploads.bytes});
   return response;
 }
 

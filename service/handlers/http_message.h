@@ -106,8 +106,9 @@ struct HttpResponse {
   std::shared_ptr<EventSource> events;  ///< likewise
   std::shared_ptr<LateResponse> late;   ///< gives the response in place of this one
 
-  std::string code;    ///< of the problem that it is, for the log
-  std::string job_id;  ///< of the job that it is about, for the log
+  std::string code;       ///< of the problem that it is, for the log
+  std::string job_id;     ///< of the job that it is about, for the log
+  std::string upload_id;  ///< of the upload, likewise
 
   void Set(std::string name, std::string value) {
     headers.emplace_back(std::move(name), std::move(value));

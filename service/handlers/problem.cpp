@@ -30,6 +30,7 @@ constexpr ErrorKind kKinds400[] = {
     "invalid-multipart",
     "invalid-parameter",
     "invalid-query-parameter-value",
+    "invalid-upload",
     "invalid-url",
     "max-error-too-small",
     "mesh-frame",
@@ -42,14 +43,14 @@ constexpr ErrorKind kKinds400[] = {
 constexpr ErrorKind kKinds401[] = {"invalid-key", "key-required"};
 constexpr ErrorKind kKinds403[] = {"href-not-allowed", "insufficient-scope", "origin-not-allowed"};
 constexpr ErrorKind kKinds404[] = {
-    "no-config",        "no-such-file",   "no-such-job",
-    "no-such-key",      "no-such-output", "no-such-process",
-    "no-such-resource", "not-found",      "result-not-available",
-    "result-not-ready",
+    "no-config",      "no-such-file",         "no-such-job",      "no-such-key",
+    "no-such-output", "no-such-process",      "no-such-resource", "no-such-upload",
+    "not-found",      "result-not-available", "result-not-ready",
 };
 constexpr ErrorKind kKinds405[] = {"method-not-allowed"};
 constexpr ErrorKind kKinds408[] = {"request-timeout"};
-constexpr ErrorKind kKinds412[] = {"precondition-failed"};
+constexpr ErrorKind kKinds409[] = {"upload-incomplete", "upload-offset-mismatch"};
+constexpr ErrorKind kKinds412[] = {"precondition-failed", "unsupported-tus-version"};
 constexpr ErrorKind kKinds413[] = {"body-not-allowed", "body-too-large", "raster-too-large"};
 constexpr ErrorKind kKinds414[] = {"target-too-long"};
 constexpr ErrorKind kKinds415[] = {
@@ -104,11 +105,13 @@ constexpr ErrorKind kKinds422[] = {
     "unsupported-type",
     "work-budget",
 };
-constexpr ErrorKind kKinds429[] = {"too-many-jobs", "too-many-requests"};
+constexpr ErrorKind kKinds429[] = {"too-many-jobs", "too-many-requests", "too-many-uploads"};
 constexpr ErrorKind kKinds431[] = {
     "head-too-large",
     "too-many-header-fields",
 };
+// Of tus, which has it for want of one in HTTP.
+constexpr ErrorKind kKinds460[] = {"checksum-mismatch"};
 constexpr ErrorKind kKinds500[] = {
     "cannot-listen",  "connection",         "data-directory",
     "input-corrupt",  "internal-error",     "io",
@@ -119,7 +122,12 @@ constexpr ErrorKind kKinds500[] = {
 };
 constexpr ErrorKind kKinds501[] = {"transfer-encoding-not-implemented"};
 constexpr ErrorKind kKinds503[] = {
-    "cancelled",          "draining", "queue-full", "resource-exhausted", "too-many-connections",
+    "cancelled",
+    "draining",
+    "queue-full",
+    "resource-exhausted",
+    "too-many-connections",
+    "uploads-full",
     "worker-not-started",
 };
 constexpr ErrorKind kKinds505[] = {"version-not-supported"};
@@ -132,11 +140,12 @@ struct StatusRow {
 constexpr std::array kStatuses = {
     StatusRow{400, kKinds400}, StatusRow{401, kKinds401}, StatusRow{403, kKinds403},
     StatusRow{404, kKinds404}, StatusRow{405, kKinds405}, StatusRow{408, kKinds408},
-    StatusRow{412, kKinds412}, StatusRow{413, kKinds413}, StatusRow{414, kKinds414},
-    StatusRow{415, kKinds415}, StatusRow{416, kKinds416}, StatusRow{417, kKinds417},
-    StatusRow{421, kKinds421}, StatusRow{422, kKinds422}, StatusRow{429, kKinds429},
-    StatusRow{431, kKinds431}, StatusRow{500, kKinds500}, StatusRow{501, kKinds501},
-    StatusRow{503, kKinds503}, StatusRow{505, kKinds505}, StatusRow{507, kKinds507},
+    StatusRow{409, kKinds409}, StatusRow{412, kKinds412}, StatusRow{413, kKinds413},
+    StatusRow{414, kKinds414}, StatusRow{415, kKinds415}, StatusRow{416, kKinds416},
+    StatusRow{417, kKinds417}, StatusRow{421, kKinds421}, StatusRow{422, kKinds422},
+    StatusRow{429, kKinds429}, StatusRow{431, kKinds431}, StatusRow{460, kKinds460},
+    StatusRow{500, kKinds500}, StatusRow{501, kKinds501}, StatusRow{503, kKinds503},
+    StatusRow{505, kKinds505}, StatusRow{507, kKinds507},
 };
 
 // 0 if the kind is in no row, or in several.

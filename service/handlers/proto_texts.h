@@ -15,5 +15,6 @@ extern const std::string_view kProcessListSchemaText;
 extern const std::string_view kProcessSchemaText;
 extern const std::string_view kResultsSchemaText;
 extern const std::string_view kStatusInfoSchemaText;
+extern const std::string_view kUploadSchemaText;
 
 }  // namespace farhorizon

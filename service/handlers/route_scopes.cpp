@@ -24,6 +24,11 @@ constexpr std::array kRows = {
     Row{"GET", "/readyz", std::nullopt},
     Row{"GET", "/metrics", Scope::kAdmin},
     Row{"POST", "/jobs/{id}/ticket", Scope::kRead},
+    // Whoever may send a DEM may see how far it is, and give it up.
+    Row{"GET", "/uploads/{id}", Scope::kSubmit},
+    Row{"DELETE", "/uploads/{id}", Scope::kSubmit},
+    Row{"OPTIONS", "/uploads", std::nullopt},
+    Row{"OPTIONS", "/uploads/{id}", std::nullopt},
 };
 
 }  // namespace

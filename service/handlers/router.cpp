@@ -74,19 +74,31 @@ class BodylessExchange : public Exchange {
   const std::function<HttpResponse(const HttpRequest&)>& answer_;
 };
 
-HttpResponse AnswerOptions(const std::string& methods) {
+// For clients that know no PATCH and DELETE [Tus, "X-HTTP-Method-Override"].
+void TakeMethodOverride(HttpRequest& request) {
+  if (request.method != "POST" || !request.path.starts_with("/uploads/")) return;
+  const std::string* method = request.Header("x-http-method-override");
+  if (method != nullptr && (*method == "PATCH" || *method == "DELETE" || *method == "HEAD")) {
+    request.method = *method;
+  }
+}
+
+}  // namespace
+
+HttpResponse OptionsResponse(const std::string& methods) {
   HttpResponse response;
   response.status = 204;
   response.Set("Allow", methods);
   response.Set("Access-Control-Allow-Methods", methods);
-  response.Set("Access-Control-Allow-Headers",
-               "Authorization, Content-Digest, Content-Type, Idempotency-Key, If-Match, "
-               "If-None-Match, If-Range, Prefer, Range, traceparent, X-Request-Id");
+  response.Set(
+      "Access-Control-Allow-Headers",
+      "Authorization, Content-Digest, Content-Type, Idempotency-Key, If-Match, "
+      "If-None-Match, If-Range, Prefer, Range, traceparent, Tus-Resumable, Upload-Checksum, "
+      "Upload-Defer-Length, Upload-Length, Upload-Metadata, Upload-Offset, "
+      "X-HTTP-Method-Override, X-Request-Id");
   response.Set("Access-Control-Max-Age", "86400");
   return response;
 }
-
-}  // namespace
 
 Route BodylessRoute(std::string method, std::string pattern,
                     std::function<HttpResponse(const HttpRequest& request)> answer,
@@ -102,6 +114,7 @@ Route BodylessRoute(std::string method, std::string pattern,
 }
 
 const Route* Router::Find(HttpRequest& request) const {
+  TakeMethodOverride(request);
   const std::string& method = request.method == "HEAD" ? std::string("GET") : request.method;
   for (const Route& route : routes_) {
     if (route.method != method) continue;
@@ -117,7 +130,7 @@ const Route* Router::Find(HttpRequest& request) const {
 std::vector<std::string> Router::MethodsAt(const std::string& path) const {
   std::vector<std::string> methods;
   for (const Route& route : routes_) {
-    if (!Match(route.pattern, path)) continue;
+    if (route.method == "OPTIONS" || !Match(route.pattern, path)) continue;
     methods.push_back(route.method);
     if (route.method == "GET") methods.emplace_back("HEAD");
   }
@@ -132,7 +145,7 @@ Admission Router::Begin(const Route* route, const HttpRequest& request) const {
     return ProblemResponse(request,
                            {"no-such-resource", "there is nothing at this path; see /jobs"});
   }
-  if (request.method == "OPTIONS") return AnswerOptions(Joined(methods));
+  if (request.method == "OPTIONS") return OptionsResponse(Joined(methods));
   HttpResponse response = ProblemResponse(
       request, {"method-not-allowed",
                 "this resource does not know that method; it knows " + Joined(methods)});

@@ -32,6 +32,10 @@ Route BodylessRoute(std::string method, std::string pattern,
                     std::function<HttpResponse(const HttpRequest& request)> answer,
                     WaitsFor waits_for = WaitsFor::kStore);
 
+/// The answer to OPTIONS for a resource with these methods, also to a browser that asks whether a
+/// page of another origin may use them.
+HttpResponse OptionsResponse(const std::string& methods);
+
 /// Finds the route of a request. Answers by itself requests that have none: 404, 405, OPTIONS. HEAD
 /// takes the route of GET; the server leaves out the body of the response.
 /// Threads: safe once built.
@@ -40,7 +44,8 @@ class Router {
   explicit Router(std::vector<Route> routes) : routes_(std::move(routes)) {}
 
   /// The route of a request of which only the head has been read, nullptr if it has none; sets
-  /// request.route and request.parameters.
+  /// request.route and request.parameters, and the method of an upload's request that comes as POST
+  /// with X-HTTP-Method-Override.
   const Route* Find(HttpRequest& request) const;
 
   /// Admits or answers the request. route: as Find gives it. Requires: `request` outlives the

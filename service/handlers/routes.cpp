@@ -12,6 +12,7 @@
 #include "service/handlers/results.h"
 #include "service/handlers/submit.h"
 #include "service/handlers/tickets.h"
+#include "service/handlers/uploads.h"
 
 namespace farhorizon {
 
@@ -20,7 +21,7 @@ Router BuildRouter(const HandlerContext& context) {
                                EventsRoute(context)};
   for (const std::vector<Route>& group :
        {JobRoutes(context), ResultRoutes(context), HealthRoutes(context), PageRoutes(context),
-        CapabilityRoutes(context)}) {
+        CapabilityRoutes(context), UploadRoutes(context)}) {
     routes.insert(routes.end(), group.begin(), group.end());
   }
   return Router(std::move(routes));

@@ -135,7 +135,9 @@ std::optional<Problem> CheckFields(HttpRequest& request) {
   // Each of these fields decides where the request goes, where it ends or what it means.
   for (const std::string_view name :
        {"host", "content-length", "transfer-encoding", "content-type", "expect", "range",
-        "if-range", "if-match", "if-none-match", "idempotency-key", "authorization"}) {
+        "if-range", "if-match", "if-none-match", "idempotency-key", "authorization",
+        "tus-resumable", "upload-length", "upload-offset", "upload-defer-length", "upload-metadata",
+        "upload-checksum", "x-http-method-override"}) {
     if (auto problem = CheckOnce(request, name)) return problem;
   }
   const std::string* host = request.Header("host");

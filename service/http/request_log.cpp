@@ -24,6 +24,7 @@ void LogRequest(const HttpRequest& request, const HttpResponse& response,
   add("key_id", request.caller.key_id);
   add("trace_id", TraceIdOf(request));
   add("job_id", response.job_id);
+  add("upload_id", response.upload_id);
   add("code", response.code);
   const bool health =
       request.path == "/healthz" || request.path == "/readyz" || request.path == "/metrics";

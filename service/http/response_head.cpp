@@ -24,6 +24,10 @@ std::string ResponseHead(const HttpRequest& request, const HttpResponse& respons
   add("Date", FormatHttpDate(NowMs()));
   add("Connection", keep_alive ? "keep-alive" : "close");
   add("X-Content-Type-Options", "nosniff");
+  // Errors have it, too [Tus, "Tus-Resumable"].
+  if (request.path == "/uploads" || request.path.starts_with("/uploads/")) {
+    add("Tus-Resumable", "1.0.0");
+  }
   // A handler that has a page says what the page may do; nothing else is one.
   const bool has_policy =
       std::any_of(response.headers.begin(), response.headers.end(),
@@ -33,7 +37,9 @@ std::string ResponseHead(const HttpRequest& request, const HttpResponse& respons
     add("Access-Control-Allow-Origin", cors.readable_by);
     add("Access-Control-Expose-Headers",
         "Location, ETag, Link, Retry-After, Preference-Applied, Content-Range, Accept-Ranges, "
-        "Repr-Digest, WWW-Authenticate");
+        "Repr-Digest, WWW-Authenticate, Tus-Resumable, Tus-Version, Tus-Max-Size, Tus-Extension, "
+        "Tus-Checksum-Algorithm, Upload-Offset, Upload-Length, Upload-Defer-Length, "
+        "Upload-Metadata, Upload-Expires");
   }
   if (cors.depends_on_origin) add("Vary", "Origin");
   if (!request.caller.key_id.empty()) add("Vary", "Authorization");

@@ -19,7 +19,7 @@ struct ServerOptions {
   int upload_threads = 16;  ///< for uploads that are looked into
   std::size_t max_head_bytes = 16384;
   std::chrono::seconds head_time{10};   ///< from its first byte, and of a connection's first
-  std::chrono::seconds idle_time{60};   ///< between requests
+  std::chrono::seconds idle_time{60};   ///< between requests, and without a byte of a body
   std::chrono::seconds body_grace{20};  ///< before body_bytes_per_second counts
   std::int64_t body_bytes_per_second = 1024;
   std::chrono::seconds write_time{30};  ///< for each 64 KiB that the client does not take

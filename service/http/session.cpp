@@ -178,6 +178,12 @@ asio::awaitable<HttpResponse> Session::MakeResponse(HttpRequest& request, bool& 
   Exchange& exchange = *std::get<std::unique_ptr<Exchange>>(admission);
   std::optional<HttpResponse> refusal = co_await ReadBody(request, exchange);
   read_whole = !refusal;
+  if (refusal) {
+    co_await RunOn(context_.threads, WaitsFor::kStore, [&] {
+      AbandonExchange(exchange, request);
+      return true;
+    });
+  }
   // Not by ?: with co_await in one arm: g++ 12 destroys the response twice.
   if (refusal) co_return *std::move(refusal);
   co_return co_await RunOn(context_.threads, waits_for,
@@ -198,7 +204,8 @@ asio::awaitable<std::optional<HttpResponse>> Session::ReadBody(const HttpRequest
   const Clock::time_point start = Clock::now();
   while (!reader.done()) {
     const auto earned = std::chrono::seconds(reader.received() / options.body_bytes_per_second);
-    WaitUntil(start + options.body_grace + earned);
+    const auto silent = Clock::now() + options.idle_time;
+    WaitUntil(std::min<Clock::time_point>(start + options.body_grace + earned, silent));
     error_code failure;
     const std::string_view piece = co_await reader.ReadSome(stream_, buffer_, failure);
     if (failure && late_) {

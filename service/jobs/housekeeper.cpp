@@ -62,6 +62,7 @@ void Housekeeper::Tidy() {
   household_.reserve.Ensure();
   RecoverLost();
   RemoveExpired();
+  RemoveExpiredUploads();
   CollectObjects();
 }
 
@@ -104,6 +105,15 @@ void Housekeeper::RemoveExpired() {
     Log(LogLevel::kInfo, "jobs expired", {{"jobs", *removed}});
   }
   if (retention.bytes > 0) next_sum_ = Clock::now() + kSumInterval;
+}
+
+void Housekeeper::RemoveExpiredUploads() {
+  for (;;) {
+    const Result<std::int64_t> removed = household_.uploads.RemoveExpired(NowMs());
+    if (!removed) return Warn("expired uploads are left", removed.error());
+    if (*removed == 0) return;
+    Log(LogLevel::kInfo, "uploads expired", {{"uploads", *removed}});
+  }
 }
 
 void Housekeeper::Warn(const char* what, const Error& error) {

@@ -11,6 +11,7 @@
 #include "service/jobs/job_store.h"
 #include "service/jobs/object_collector.h"
 #include "service/jobs/storage_health.h"
+#include "service/jobs/upload_service.h"
 
 namespace farhorizon {
 
@@ -19,13 +20,14 @@ struct Household {
   const DataDirectory& directory;
   JobStore& jobs;
   ObjectCollector& objects;
+  UploadService& uploads;
   DiskReserve& reserve;
   Retention retention;
   std::function<void()> on_lost_lock;  ///< called once
 };
 
 /// A thread for the work that nobody waits for: ends jobs at their deadline, takes up those whose
-/// lease is over, removes expired jobs and what removed jobs have left, keeps the reserve and
+/// lease is over, removes expired jobs and uploads and what they have left, keeps the reserve and
 /// watches the lock. Of services that share a store, each does it.
 class Housekeeper {
  public:
@@ -45,6 +47,7 @@ class Housekeeper {
   void RecoverLost();
   void CollectObjects();
   void RemoveExpired();
+  void RemoveExpiredUploads();
   /// Logs a failure, unless it is the one that was logged last.
   void Warn(const char* what, const Error& error);
 

@@ -62,6 +62,7 @@ JobService::JobService(JobServiceOptions options, const MemoryPlan& memory, Data
       collector_(*jobs_, *objects_),
       health_(directory_, *jobs_, options_.min_free_bytes),
       reserve_(directory_.Reserve()),
+      uploads_({*jobs_, *objects_, collector_, directory_.Spool()}, options_.uploads),
       probe_(directory_.Work(), options_.probe, options_.runner),
       runner_({*jobs_, *objects_, collector_, health_}, directory_.Work(), options_.runner) {
   jobs_->OnChange([changes = changes_](const std::string& id) { changes->Tell(id); });
@@ -99,8 +100,8 @@ void JobService::Begin() {
   MarkRunning(directory_.lock.get());
   engine_ = std::make_unique<JobEngine>(*jobs_, runner_,
                                         EngineLimits{options_.workers, memory_.jobs_bytes});
-  housekeeper_ = std::make_unique<Housekeeper>(Household{directory_, *jobs_, collector_, reserve_,
-                                                         options_.retention,
+  housekeeper_ = std::make_unique<Housekeeper>(Household{directory_, *jobs_, collector_, uploads_,
+                                                         reserve_, options_.retention,
                                                          [this] { engine_->StopTaking(); }});
 }
 
@@ -122,9 +123,12 @@ QueueBounds JobService::Bounds() const {
   return {all, own > 0 ? own : all - all / 8};
 }
 
+Status JobService::CheckUploadRoom() const {
+  return draining_ ? Status(Draining()) : health_.CheckRoom();
+}
+
 Status JobService::CheckRoom(const std::string& client) {
-  if (draining_) return Draining();
-  Status room = health_.CheckRoom();
+  Status room = CheckUploadRoom();
   if (!room) return room;
   return jobs_->CheckQueue(client, Bounds());
 }
@@ -172,6 +176,10 @@ Result<Job> JobService::Submit(const SpoolFile& upload, const Submission& submis
        submission.cost, submission.process, submission.answer, submission.owner},
       Bounds(), NowMs());
   if (inserted) objects_->Keep({stored->sha256});
+  if (inserted && !submission.upload.empty()) {
+    const Status settled = uploads_.Settle(submission.upload, *stored);
+    if (!settled) Log(LogLevel::kWarning, "parts are left", {{"error", settled.error().message}});
+  }
   pin->reset();
   if (inserted) {
     engine_->Wake();

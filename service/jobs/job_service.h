@@ -24,6 +24,7 @@
 #include "service/jobs/spool_file.h"
 #include "service/jobs/storage_health.h"
 #include "service/jobs/upload_probe.h"
+#include "service/jobs/upload_service.h"
 #include "service/jobs/verified_object.h"
 
 namespace farhorizon {
@@ -44,6 +45,7 @@ struct JobServiceOptions {
   Priority highest_priority = Priority::kHigh;
   std::int64_t deadline_seconds = 0;  ///< of a job that comes without one; 0: none
   std::int64_t max_watches = 512;     ///< requests at once that wait for changes of jobs
+  UploadOptions uploads;
 };
 
 /// A client's DEM and its parameters.
@@ -59,6 +61,7 @@ struct Submission {
   std::string process = kTerrainProcess;
   std::string answer = {};  ///< as Job has it
   std::string owner = {};   ///< whose key it comes with; empty: no key was asked for
+  std::string upload = {};  ///< the id of the Upload that its bytes are of; empty: of none
 };
 
 /// One thing that a service depends on.
@@ -92,6 +95,9 @@ class JobService {
   /// Succeeds if a new job of `client` would be accepted now. Errors: kResourceExhausted
   ///   "draining", "queue-full", "too-many-jobs", "no-space"; kIo "data-directory".
   Status CheckRoom(const std::string& client);
+  /// The same for an upload, which takes no place in the queue.
+  Status CheckUploadRoom() const;
+  UploadService& Uploads() { return uploads_; }
   Result<SpoolFile> NewSpoolFile() { return SpoolFile::Create(directory_.Spool()); }
 
   /// As UploadProbe::Look has it.
@@ -162,6 +168,7 @@ class JobService {
   ObjectVerifier verifier_;
   StorageHealth health_;
   DiskReserve reserve_;
+  UploadService uploads_;
   std::atomic<bool> draining_{false};
   UploadProbe probe_;
   JobRunner runner_;

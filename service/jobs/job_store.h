@@ -17,6 +17,8 @@
 
 namespace farhorizon {
 
+class SqlDatabase;
+
 /// A job as it is submitted; Insert makes an accepted job of it.
 struct NewJob {
   std::string filename;
@@ -209,7 +211,7 @@ class JobStore {
 
   /// The job's artifacts in the order of their names. Empty unless the job is successful.
   virtual Result<std::vector<Artifact>> Artifacts(const std::string& id) = 0;
-  /// True if the object is the input or an artifact of a job.
+  /// True if the object is the input or an artifact of a job, or of an upload.
   virtual Result<bool> IsReferenced(const std::string& sha256) = 0;
   /// Objects of jobs that were removed: each may be removed, too, unless it is referenced.
   virtual Result<std::vector<std::string>> Garbage() = 0;
@@ -222,6 +224,11 @@ class JobStore {
 
   /// Writes to the store; succeeds if what it wrote is durable.
   virtual Status Ping() = 0;
+
+  /// Runs `work` in a transaction on the store's database, for tables beside that of the jobs; it
+  /// is rolled back where `work` fails. `work` may be run again after a try that stored nothing.
+  /// Errors: those of `work`, too.
+  virtual Status Transact(const std::function<Status(SqlDatabase&)>& work) = 0;
 
   // What several processes need of a store that they share. As these calls stand here, they are
   // those of a store with one process.

@@ -88,6 +88,7 @@ class PostgresJobStore : public JobStore {
   Result<StoreIdentity> Identity() override;
   Result<StoreIdentity> BeginGeneration() override;
   Status Ping() override;
+  Status Transact(const std::function<Status(SqlDatabase&)>& work) override;
 
   [[nodiscard]] std::optional<milliseconds> LeaseTime() const override { return options_.lease; }
   Result<std::vector<std::string>> Hold(const std::vector<HeldRun>& runs) override;
@@ -342,6 +343,15 @@ Status PostgresJobStore::Ping() {
     Statement(database, "SELECT 1 FROM jobs LIMIT 1").Step();
     Statement(database, "UPDATE store SET pings = pings + 1").Run();
     return Ok{};
+  });
+}
+
+Status PostgresJobStore::Transact(const std::function<Status(SqlDatabase&)>& work) {
+  return Guarded([&](PostgresDatabase& database) -> Status {
+    Transaction transaction(database);
+    Status done = work(database);
+    if (done) transaction.Commit();
+    return done;
   });
 }
 

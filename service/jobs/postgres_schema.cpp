@@ -108,7 +108,35 @@ END $$;
 CREATE TRIGGER changes_are_told AFTER UPDATE OF updated_ms OR DELETE ON jobs
   FOR EACH ROW EXECUTE FUNCTION tell_of_change();
 )";
-constexpr std::array kVersions = {kVersion1};
+constexpr const char* kVersion2 = R"(
+CREATE TABLE uploads (
+  id TEXT COLLATE "C" PRIMARY KEY,
+  owner TEXT COLLATE "C" NOT NULL,
+  client TEXT COLLATE "C" NOT NULL,
+  filename TEXT NOT NULL,
+  media_type TEXT NOT NULL,
+  metadata TEXT NOT NULL,
+  bytes BIGINT,
+  offset_bytes BIGINT NOT NULL DEFAULT 0,
+  turn BIGINT NOT NULL DEFAULT 0,
+  sha256 TEXT COLLATE "C",
+  created_ms BIGINT NOT NULL,
+  expires_ms BIGINT NOT NULL,
+  CHECK (offset_bytes BETWEEN 0 AND coalesce(bytes, offset_bytes))
+);
+CREATE INDEX uploads_by_client ON uploads (client);
+CREATE INDEX uploads_by_end ON uploads (expires_ms);
+CREATE INDEX uploads_by_object ON uploads (sha256) WHERE sha256 IS NOT NULL;
+CREATE TABLE upload_parts (
+  upload_id TEXT COLLATE "C" NOT NULL REFERENCES uploads (id) ON DELETE CASCADE,
+  at_offset BIGINT NOT NULL,
+  bytes BIGINT NOT NULL,
+  sha256 TEXT COLLATE "C" NOT NULL,
+  PRIMARY KEY (upload_id, at_offset)
+);
+CREATE INDEX upload_parts_by_object ON upload_parts (sha256);
+)";
+constexpr std::array kVersions = {kVersion1, kVersion2};
 constexpr auto kLatest = static_cast<std::int64_t>(kVersions.size());
 
 std::int64_t VersionOf(const PostgresDatabase& database) {

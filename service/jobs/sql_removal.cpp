@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "service/jobs/sql_rows.h"
+#include "service/jobs/sql_uploads.h"
 
 namespace farhorizon {
 
@@ -116,7 +117,7 @@ bool IsReferenced(const SqlDatabase& database, const std::string& sha256) {
                 "SELECT 1 FROM jobs WHERE input_sha256 = ? UNION ALL "
                 "SELECT 1 FROM artifacts WHERE sha256 = ? UNION ALL "
                 "SELECT 1 FROM artifacts WHERE gzip_sha256 = ? LIMIT 1");
-  return row.Bind(sha256).Bind(sha256).Bind(sha256).Step();
+  return row.Bind(sha256).Bind(sha256).Bind(sha256).Step() || IsOfUpload(database, sha256);
 }
 
 std::vector<std::string> SelectGarbage(const SqlDatabase& database) {

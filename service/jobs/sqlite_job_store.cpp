@@ -58,6 +58,7 @@ class SqliteJobStore : public JobStore {
   Result<StoreIdentity> Identity() override;
   Result<StoreIdentity> BeginGeneration() override;
   Status Ping() override;
+  Status Transact(const std::function<Status(SqlDatabase&)>& work) override;
 
  private:
   // Runs `work` under the mutex; returns a SqlFailure as its Error.
@@ -283,6 +284,15 @@ Status SqliteJobStore::Ping() {
   return Call([&] {
     Statement(database_, "UPDATE store SET pings = pings + 1").Run();
     return Ok{};
+  });
+}
+
+Status SqliteJobStore::Transact(const std::function<Status(SqlDatabase&)>& work) {
+  return Guarded([&]() -> Status {
+    Transaction transaction(database_);
+    Status done = work(database_);
+    if (done) transaction.Commit();
+    return done;
   });
 }
 

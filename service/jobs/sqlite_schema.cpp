@@ -111,8 +111,36 @@ INSERT INTO idempotency_keys (key, job_id, created_ms)
 DROP TABLE idempotency_keys_of_all;
 CREATE INDEX idempotency_keys_by_job ON idempotency_keys (job_id);
 )";
+constexpr const char* kVersion8 = R"(
+CREATE TABLE uploads (
+  id TEXT PRIMARY KEY,
+  owner TEXT NOT NULL,
+  client TEXT NOT NULL,
+  filename TEXT NOT NULL,
+  media_type TEXT NOT NULL,
+  metadata TEXT NOT NULL,
+  bytes INTEGER,
+  offset_bytes INTEGER NOT NULL DEFAULT 0,
+  turn INTEGER NOT NULL DEFAULT 0,
+  sha256 TEXT,
+  created_ms INTEGER NOT NULL,
+  expires_ms INTEGER NOT NULL,
+  CHECK (offset_bytes BETWEEN 0 AND coalesce(bytes, offset_bytes))
+) STRICT, WITHOUT ROWID;
+CREATE INDEX uploads_by_client ON uploads (client);
+CREATE INDEX uploads_by_end ON uploads (expires_ms);
+CREATE INDEX uploads_by_object ON uploads (sha256) WHERE sha256 IS NOT NULL;
+CREATE TABLE upload_parts (
+  upload_id TEXT NOT NULL REFERENCES uploads (id) ON DELETE CASCADE,
+  at_offset INTEGER NOT NULL,
+  bytes INTEGER NOT NULL,
+  sha256 TEXT NOT NULL,
+  PRIMARY KEY (upload_id, at_offset)
+) STRICT, WITHOUT ROWID;
+CREATE INDEX upload_parts_by_object ON upload_parts (sha256);
+)";
 constexpr std::array kVersions = {kVersion1, kVersion2, kVersion3, kVersion4,
-                                  kVersion5, kVersion6, kVersion7};
+                                  kVersion5, kVersion6, kVersion7, kVersion8};
 
 std::int64_t CountOfTables(Database& database) {
   Statement count(database, "SELECT count(*) FROM sqlite_schema");

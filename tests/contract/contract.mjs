@@ -8,6 +8,7 @@ import { checkDocument, documentOf } from './document.mjs';
 import { checkEts } from './ets.mjs';
 import { checkInputs } from './inputs.mjs';
 import { checkJobs } from './jobs.mjs';
+import { checkUploads } from './uploads.mjs';
 import { startService } from './service.mjs';
 import { finish } from './verdict.mjs';
 
@@ -17,12 +18,13 @@ const packages = createRequire(join(cache, 'package.json'));
 
 const service = await startService(program, port);
 try {
-  const run = { base: service.base, cache, root, packages };
+  const run = { base: service.base, cache, root, packages, program };
   await checkDocument(run);
   run.document = await documentOf(run);
   await checkEts(run);
   await checkInputs(run);
   await checkJobs(run);
+  await checkUploads(run);
   await checkClients(run);
 } finally {
   await service.stop();

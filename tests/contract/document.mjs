@@ -53,7 +53,7 @@ export const documentOf = async (run) => {
   const served = await ask('GET', `${run.base}/api`);
   const api = await SwaggerParser.dereference(served.json);
   const operations = Object.entries(api.paths).flatMap(([path, item]) =>
-    ['get', 'post', 'delete'].filter((method) => item[method]).map((method) => ({
+    ['get', 'post', 'patch', 'delete', 'options'].filter((method) => item[method]).map((method) => ({
       method: method.toUpperCase(),
       pattern: new RegExp(
         `^${path.replaceAll('.', '\\.').replace(/\{[^}]*\*\}/, '.+').replace(/\{[^}]*\}/g, '[^/]+')}$`),

@@ -45,8 +45,9 @@ export const ended = async (location) => {
   }
 };
 
-export const startService = async (program, port) => {
-  const folder = mkdtempSync(join(tmpdir(), 'contract-'));
+// In `folder`, which stays, or in one of its own.
+export const startService = async (program, port, kept) => {
+  const folder = kept ?? mkdtempSync(join(tmpdir(), 'contract-'));
   const log = join(folder, 'log');
   const out = openSync(log, 'w');
   const child = spawn(
@@ -61,11 +62,15 @@ export const startService = async (program, port) => {
   const stop = async () => {
     child.kill('SIGTERM');
     await ends;
-    rmSync(folder, { recursive: true, force: true });
+    if (!kept) rmSync(folder, { recursive: true, force: true });
+  };
+  const kill = async () => {
+    child.kill('SIGKILL');
+    await ends;
   };
   for (let tries = 0; tries < 400 && child.exitCode === null; ++tries) {
     const found = /"msg":"serving".*?"url":"(http:[^"]+)"/.exec(readFileSync(log, 'utf8'));
-    if (found) return { base: found[1], stop };
+    if (found) return { base: found[1], stop, kill, log };
     await pause(50);
   }
   const said = readFileSync(log, 'utf8');

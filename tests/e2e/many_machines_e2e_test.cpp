@@ -135,6 +135,36 @@ TEST_F(ManyMachinesE2e, AKilledProcessCostsALeaseAndItsJobEndsSuccessfulOnce) {
   EXPECT_EQ(Ask(machines_[left].port, "GET", "/jobs/" + id + "/results/report.json").status, 200);
 }
 
+TEST_F(ManyMachinesE2e, AnUploadGoesOnAtAnotherMachine) {
+  Start("ada", "serve");
+  Start("bob", "serve");
+  const std::string dem = SmallGrid();
+  const std::string tus = "Tus-Resumable: 1.0.0\r\n";
+  const RawAnswer made = Ask(machines_["ada"].port, "POST", "/uploads",
+                             tus + "Upload-Length: " + std::to_string(dem.size()) + "\r\n");
+  ASSERT_EQ(made.status, 201) << made.body;
+  const std::size_t at = made.head.find("/uploads/");
+  const std::string path = made.head.substr(at, made.head.find("\r\n", at) - at);
+  const auto patch = [&](const std::string& name, std::size_t offset, const std::string& body) {
+    return Ask(machines_[name].port, "PATCH", path,
+               tus + "Content-Type: application/offset+octet-stream\r\nUpload-Offset: " +
+                   std::to_string(offset) + "\r\n",
+               body)
+        .status;
+  };
+  EXPECT_EQ(patch("ada", 0, dem.substr(0, 300)), 204);
+  EXPECT_EQ(patch("bob", 300, dem.substr(300, 300)), 204);
+  EXPECT_EQ(patch("ada", 300, dem.substr(300)), 409);
+  Kill("ada");
+  EXPECT_EQ(patch("bob", 600, dem.substr(600)), 204);
+  const json body = {
+      {"inputs", {{"dem", {{"href", path}}}, {"crs", "EPSG:4326"}, {"filename", "good.asc"}}}};
+  const RawAnswer job = Ask(machines_["bob"].port, "POST", "/jobs",
+                            "Content-Type: application/json\r\n", body.dump());
+  ASSERT_EQ(job.status, 201) << job.body;
+  EXPECT_EQ(WaitForEnd("bob", json::parse(job.body).value("jobID", "")), "successful");
+}
+
 TEST_F(ManyMachinesE2e, AFrozenProcessLosesItsJobAndStoresNothingWhenItGoesOn) {
   Start("ada", "serve");
   Start("worker", "work");

@@ -6,6 +6,7 @@ import threading
 import time
 import uuid
 
+import uploads
 from history import History, Reference
 from service import QUERY, Service
 
@@ -35,9 +36,17 @@ class Client(threading.Thread):
     def submit(self) -> None:
         reference = self.random.choice(self.references)
         key = str(uuid.UUID(int=self.random.getrandbits(128))) if self.random.random() < .7 else None
+        path = None
+        if self.random.random() < .3:
+            path = uploads.upload(self.service, self.history, self.random, reference.dem)
+            if path is None:
+                return
         for _ in range(100):
             try:
-                status, document = self.service.submit(reference.dem, QUERY, key, 15)
+                if path:
+                    status, document = uploads.submit(self.service, path, key)
+                else:
+                    status, document = self.service.submit(reference.dem, QUERY, key, 15)
             except BROKEN:
                 if key is None:
                     raise

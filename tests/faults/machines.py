@@ -79,7 +79,9 @@ def check_objects(history: History, server: database.Database, objects: str) -> 
     """I7, once nothing is under way: rows without their object, and objects without a row."""
     named = {row[0] for row in server.query(
         "SELECT input_sha256 FROM farhorizon.jobs UNION SELECT sha256 FROM farhorizon.artifacts UNION "
-        "SELECT gzip_sha256 FROM farhorizon.artifacts WHERE gzip_sha256 IS NOT NULL")}
+        "SELECT gzip_sha256 FROM farhorizon.artifacts WHERE gzip_sha256 IS NOT NULL UNION "
+        "SELECT sha256 FROM farhorizon.upload_parts UNION "
+        "SELECT sha256 FROM farhorizon.uploads WHERE sha256 IS NOT NULL")}
     there = {name for _, _, files in os.walk(objects) for name in files if len(name) == 64}
     if named - there or there - named:
         history.violated(f"I7: {len(there - named)} orphans, {len(named - there)} dangling rows")

@@ -12,7 +12,7 @@ namespace {
 
 // The value of a metric; 0 where it is not there. Other tests of the process count, too.
 double ValueOf(const std::string& metric) {
-  std::istringstream lines(MetricsText({3, 2, 5'000'000'000, 7, true, "1.2.3", 4}));
+  std::istringstream lines(MetricsText({3, 2, 5'000'000'000, 7, true, "1.2.3", 4, 6, 600}));
   for (std::string line; std::getline(lines, line);) {
     if (line.rfind(metric + " ", 0) == 0) return std::stod(line.substr(metric.size()));
   }
@@ -51,6 +51,8 @@ TEST(Metrics, MeasureWhenAsked) {
   EXPECT_EQ(ValueOf("farhorizon_log_lines_dropped_total"), 7);
   EXPECT_EQ(ValueOf("farhorizon_ready"), 1);
   EXPECT_EQ(ValueOf("farhorizon_waiting_requests"), 4);
+  EXPECT_EQ(ValueOf("farhorizon_uploads"), 6);
+  EXPECT_EQ(ValueOf("farhorizon_uploads_stored_bytes"), 600);
   EXPECT_EQ(ValueOf("farhorizon_build_info{version=\"1.2.3\"}"), 1);
   EXPECT_GT(ValueOf("process_resident_memory_bytes"), 1e6);
   EXPECT_GT(ValueOf("process_open_fds"), 2);

@@ -21,7 +21,7 @@ namespace farhorizon {
 class HandlersTest : public testing::Test {
  protected:
   void SetUp() override {
-    JobServiceOptions options;
+    JobServiceOptions options = jobs_options_;
     options.data = folder_ / "data";
     options.workers = 0;  // nothing runs: jobs stay where the test puts them
     options.max_waiting = 2;
@@ -52,7 +52,10 @@ class HandlersTest : public testing::Test {
     Exchange& exchange = *std::get<std::unique_ptr<Exchange>>(admission);
     if (!body.empty()) {
       const Status taken = exchange.Take(body);
-      if (!taken) return ProblemResponse(request, ProblemOf(taken.error()));
+      if (!taken) {
+        AbandonExchange(exchange, request);
+        return ProblemResponse(request, ProblemOf(taken.error()));
+      }
     }
     return FinishExchange(exchange, request);
   }
@@ -87,7 +90,8 @@ class HandlersTest : public testing::Test {
   TempDir folder_;
   std::unique_ptr<JobService> jobs_;
   std::unique_ptr<Router> router_;
-  std::shared_ptr<KeyGate> gate_;  ///< set by tests with keys
+  JobServiceOptions jobs_options_;  ///< what a test sets before SetUp
+  std::shared_ptr<KeyGate> gate_;   ///< set by tests with keys
 };
 
 }  // namespace farhorizon

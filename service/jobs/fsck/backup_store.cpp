@@ -35,7 +35,9 @@ std::vector<std::string> NamedObjects(const fs::path& database_file) {
   database.Open(database_file);
   Statement rows(database,
                  "SELECT input_sha256 FROM jobs UNION SELECT sha256 FROM artifacts "
-                 "UNION SELECT gzip_sha256 FROM artifacts WHERE gzip_sha256 IS NOT NULL");
+                 "UNION SELECT gzip_sha256 FROM artifacts WHERE gzip_sha256 IS NOT NULL "
+                 "UNION SELECT sha256 FROM upload_parts "
+                 "UNION SELECT sha256 FROM uploads WHERE sha256 IS NOT NULL");
   std::vector<std::string> names;
   while (rows.Step()) names.push_back(rows.Text(0));
   return names;

@@ -6,6 +6,7 @@
 #include "service/jobs/fsck/check_database.h"
 #include "service/jobs/fsck/check_jobs.h"
 #include "service/jobs/fsck/check_objects.h"
+#include "service/jobs/fsck/check_uploads.h"
 #include "service/jobs/fsck/fsck_run.h"
 #include "service/jobs/sqlite_schema.h"
 
@@ -53,6 +54,7 @@ Result<FsckSum> Look(FsckRun& run) {
   Database database;
   database.Open(run.directory.Jobs());
   PrepareSchema(database);
+  CheckUploads(run, database);
   CheckJobs(run, database);
   return run.sum;
 }

@@ -153,6 +153,39 @@ TEST_F(KeyGateTest, ShowsEachOwnerItsOwnJobsAlone) {
   EXPECT_EQ(Send("DELETE", "/jobs/" + job, KeyWith({Scope::kAdmin})).status, 200);
 }
 
+TEST_F(KeyGateTest, ShowsEachOwnerItsOwnUploadsAlone) {
+  const auto with = [](Headers key, Headers more = {}) {
+    key.emplace_back("tus-resumable", "1.0.0");
+    key.insert(key.end(), more.begin(), more.end());
+    return key;
+  };
+  const Headers piece = {{"upload-offset", "0"},
+                         {"content-type", "application/offset+octet-stream"}};
+  const Headers ada = KeyWith({Scope::kSubmit});
+  const HttpResponse made = Send("POST", "/uploads", with(ada, {{"upload-length", "8"}}));
+  ASSERT_EQ(made.status, 201) << made.body;
+  const std::string path = "/uploads/" + made.upload_id;
+  const std::string job = json{{"inputs", {{"dem", {{"href", path}}}}}}.dump();
+
+  const Headers bob = KeyWith(usual_);
+  EXPECT_EQ(Send("HEAD", path, with(bob)).status, 404);
+  EXPECT_EQ(CodeOf(Send("GET", path, with(bob))), "no-such-upload");
+  EXPECT_EQ(CodeOf(Send("PATCH", path, with(bob, piece), tiff_)), "no-such-upload");
+  EXPECT_EQ(CodeOf(Send("DELETE", path, with(bob))), "no-such-upload");
+  EXPECT_EQ(Send("PATCH", path, with(ada, piece), tiff_).status, 204);
+  EXPECT_EQ(CodeOf(Post("/jobs", job, "application/json", bob)), "no-such-upload");
+
+  const Headers reader = KeyWith({Scope::kRead, Scope::kDelete});
+  for (const char* method : {"GET", "HEAD", "PATCH", "DELETE"}) {
+    EXPECT_EQ(CodeOf(Send(method, path, with(reader))), "insufficient-scope") << method;
+  }
+  EXPECT_EQ(Send("POST", "/uploads", with({}, {{"upload-length", "8"}})).status, 401);
+  EXPECT_EQ(Send("OPTIONS", "/uploads").status, 204) << "a browser's preflight has no key";
+  EXPECT_EQ(Send("HEAD", path, with(KeyWith({Scope::kAdmin}))).status, 200);
+  EXPECT_EQ(Post("/jobs", job, "application/json", ada).status, 201);
+  EXPECT_EQ(Send("DELETE", path, with(ada)).status, 204);
+}
+
 TEST_F(KeyGateTest, AFloodOfOneKeyLeavesRoomForOthers) {
   const Headers ada = KeyWith(usual_);
   const Headers bob = KeyWith(usual_);

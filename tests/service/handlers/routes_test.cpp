@@ -28,7 +28,7 @@ TEST_F(RoutesTest, AnswersWhatOpenapiSays) {
   std::set<std::string> promised;
   const json api = OpenApi();
   for (const auto& [path, item] : api["paths"].items()) {
-    for (const char* method : {"get", "post", "delete"}) {
+    for (const char* method : {"get", "post", "patch", "delete", "options"}) {
       if (item.contains(method)) promised.insert(method + (" " + path));
     }
   }
@@ -43,7 +43,7 @@ TEST_F(RoutesTest, NeedsTheScopesThatOpenapiSays) {
   std::map<std::string, std::string> promised;
   const json api = OpenApi();
   for (const auto& [path, item] : api["paths"].items()) {
-    for (const char* method : {"get", "post", "delete"}) {
+    for (const char* method : {"get", "post", "patch", "delete", "options"}) {
       if (!item.contains(method)) continue;
       const json security = item[method].value("security", json::array({"none stated"}));
       promised[method + (" " + path)] =
@@ -80,6 +80,9 @@ TEST_F(RoutesTest, AnswersInTheShapesOfTheSchemas) {
   const HttpResponse job = Post("/jobs", tiff_);
   EXPECT_THAT(offences(job.body, "status-info"), IsEmpty());
   EXPECT_THAT(offences(Send("GET", "/jobs").body, "job-list"), IsEmpty());
+  const HttpResponse upload =
+      Send("POST", "/uploads", {{"tus-resumable", "1.0.0"}, {"upload-length", "5"}});
+  EXPECT_THAT(offences(Send("GET", "/uploads/" + upload.upload_id).body, "upload"), IsEmpty());
   EXPECT_THAT(offences(Send("GET", "/jobs/x").body, "problem"), IsEmpty());
   EXPECT_THAT(offences(Send("GET", "/").body, "landing"), IsEmpty());
   EXPECT_THAT(offences(Send("GET", "/conformance").body, "conformance"), IsEmpty());

@@ -17,6 +17,7 @@
 #include "service/jobs/postgres.h"
 #include "service/jobs/storage_file.h"
 #include "tests/service/jobs/job_store_conformance.h"
+#include "tests/service/jobs/upload_conformance.h"
 #include "tests/support/postgres_server.h"
 
 // libpqxx 6.4 does not free the result of a statement whose connection is lost.
@@ -73,6 +74,7 @@ std::unique_ptr<JobStorage> MakePostgresStorage(const std::filesystem::path& /*f
 INSTANTIATE_TEST_SUITE_P(Postgres, JobStoreConformance, testing::Values(MakePostgresStorage));
 INSTANTIATE_TEST_SUITE_P(Postgres, Choice, testing::Values(MakePostgresStorage));
 INSTANTIATE_TEST_SUITE_P(Postgres, Expiry, testing::Values(MakePostgresStorage));
+INSTANTIATE_TEST_SUITE_P(Postgres, UploadConformance, testing::Values(MakePostgresStorage));
 
 // Two processes on one store.
 class SharedStore : public testing::Test {

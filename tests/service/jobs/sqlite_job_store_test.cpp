@@ -4,6 +4,7 @@
 
 #include "service/jobs/sqlite.h"
 #include "tests/service/jobs/job_store_conformance.h"
+#include "tests/service/jobs/upload_conformance.h"
 #include "tests/support/temp_dir.h"
 
 namespace farhorizon {
@@ -32,6 +33,7 @@ std::unique_ptr<JobStorage> MakeSqliteStorage(const std::filesystem::path& folde
 INSTANTIATE_TEST_SUITE_P(Sqlite, JobStoreConformance, testing::Values(MakeSqliteStorage));
 INSTANTIATE_TEST_SUITE_P(Sqlite, Choice, testing::Values(MakeSqliteStorage));
 INSTANTIATE_TEST_SUITE_P(Sqlite, Expiry, testing::Values(MakeSqliteStorage));
+INSTANTIATE_TEST_SUITE_P(Sqlite, UploadConformance, testing::Values(MakeSqliteStorage));
 
 TEST(SqliteJobStore, RefusesAFileOfANewerVersion) {
   const TempDir folder;

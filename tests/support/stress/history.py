@@ -119,7 +119,8 @@ class History:
         database = sqlite3.connect(f"file:{service.data}/jobs.sqlite?mode=ro", uri=True)
         named = {row[0] for row in database.execute(
             "SELECT input_sha256 FROM jobs UNION SELECT sha256 FROM artifacts UNION "
-            "SELECT gzip_sha256 FROM artifacts WHERE gzip_sha256 IS NOT NULL")}
+            "SELECT gzip_sha256 FROM artifacts WHERE gzip_sha256 IS NOT NULL UNION SELECT sha256 FROM upload_parts "
+            "UNION SELECT sha256 FROM uploads WHERE sha256 IS NOT NULL")}
         database.close()
         there, left = set(), []
         for folder, _, files in os.walk(service.data):

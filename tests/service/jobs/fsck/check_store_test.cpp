@@ -256,5 +256,30 @@ TEST_F(CheckStoreTest, ACopyTellsOfADamagedObject) {
   EXPECT_EQ(sum->faults, 2);
 }
 
+TEST_F(CheckStoreTest, RemovesAnUploadThatLacksBytesAndKeepsTheOthers) {
+  std::vector<std::string> ids;
+  {
+    const auto service = OpenService(data_);
+    for (const char* text : {"abc", "def"}) {
+      Upload upload;
+      upload.bytes = 6;
+      upload = *service->Uploads().Create(upload);
+      ids.push_back(upload.id);
+      auto writer = *service->Uploads().Write(upload, false);
+      ASSERT_TRUE(writer->Write(text));
+      ASSERT_TRUE(writer->Store());
+    }
+  }
+  EXPECT_EQ(Check().faults, 0) << testing::PrintToString(lines_);
+  ASSERT_TRUE(BackUpStore({data_, false, [](const std::string&) {}}, folder_ / "backup"));
+  Damage(ObjectFile(Sha256Hex("abc")));
+  ExpectMended(2);  // the object, and the upload
+  const auto service = OpenService(data_);
+  EXPECT_EQ(service->Uploads().Find(ids[0]).error().kind, "no-such-upload");
+  EXPECT_EQ(service->Uploads().Find(ids[1])->offset, 3);
+  const auto copy = OpenService(folder_ / "backup");
+  EXPECT_EQ(copy->Uploads().Find(ids[0])->offset, 3) << "a backup has uploads, too";
+}
+
 }  // namespace
 }  // namespace farhorizon
