@@ -70,6 +70,13 @@ struct Registry {
       FamilyIn(all, BuildCounter(), "farhorizon_worker_exits_total", "Worker processes that ended");
   prometheus::Counter& corrupt = CounterIn(all, "farhorizon_results_corrupt_total",
                                            "Artifacts that were not what had been stored");
+  prometheus::Family<prometheus::Counter>& fetches =
+      FamilyIn(all, BuildCounter(), "farhorizon_fetches_total", "Linked inputs, by outcome");
+  prometheus::Counter& fetched =
+      CounterIn(all, "farhorizon_fetched_bytes_total", "Bytes of linked inputs");
+  prometheus::Family<prometheus::Counter>& callbacks =
+      FamilyIn(all, BuildCounter(), "farhorizon_callbacks_total",
+               "Calls to subscribers, by event and outcome");
   prometheus::Family<prometheus::Gauge>& jobs =
       FamilyIn(all, BuildGauge(), "farhorizon_jobs", "Jobs that have not ended, by state");
   prometheus::Gauge& waiting = GaugeIn(all, "farhorizon_waiting_requests",
@@ -142,6 +149,15 @@ void CountWorkerEnd(const std::string& reason) {
 }
 
 void CountCorruptResult() { Registered().corrupt.Increment(); }
+
+void CountFetch(const std::string& outcome, std::int64_t bytes) {
+  Registered().fetches.Add({{"outcome", outcome}}).Increment();
+  Registered().fetched.Increment(static_cast<double>(bytes));
+}
+
+void CountCallback(const std::string& event, const std::string& outcome) {
+  Registered().callbacks.Add({{"event", event}, {"outcome", outcome}}).Increment();
+}
 
 std::string MetricsText(const Gauges& gauges) {
   Registry& registry = Registered();

@@ -25,6 +25,12 @@ void CountStages(const std::map<std::string, double>& seconds);
 void CountWorkerEnd(const std::string& reason);
 /// An artifact that is not the one that was stored.
 void CountCorruptResult();
+/// A fetch of a linked input. outcome: "done", or the kind of its error; bytes: that came.
+void CountFetch(const std::string& outcome, std::int64_t bytes);
+
+/// A call to a subscriber. event: as kCallbackEventNames has it; outcome: "delivered", "failed",
+/// which is tried again, or "given-up".
+void CountCallback(const std::string& event, const std::string& outcome);
 
 /// What is measured when Prometheus asks.
 struct Gauges {

@@ -51,6 +51,10 @@ int Run(const ServeArguments& arguments) {
     if (!proxies) return ReportError(proxies.error());
     const auto gate = OpenKeyGate(loaded->config, *address);
     if (!gate) return ReportError(gate.error());
+    const auto fetcher = Fetcher::Make(loaded->config.fetch);
+    if (!fetcher) return ReportError(fetcher.error());
+    const auto callbacks = CallbackRules::Make(loaded->config.callbacks);
+    if (!callbacks) return ReportError(callbacks.error());
   }
   if (!arguments.print_config && !arguments.check_config) {
     return ServeProcess(arguments.role, *loaded, load);

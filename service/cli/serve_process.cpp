@@ -14,6 +14,7 @@
 #include "service/cli/notify.h"
 #include "service/cli/signals.h"
 #include "service/config/config_keys.h"
+#include "service/handlers/callback_sender.h"
 #include "service/handlers/key_gate.h"
 #include "service/handlers/routes.h"
 #include "service/http/server.h"
@@ -100,6 +101,13 @@ Result<std::shared_ptr<const AssetFolder>> ReadCesium(const Config& config) {
   Result<AssetFolder> read = AssetFolder::Read(folder);
   if (!read) return std::move(read.error());
   return std::make_shared<const AssetFolder>(*std::move(read));
+}
+
+// Half of the threads that look into uploads, at least, are for uploads that come by themselves.
+Result<std::shared_ptr<Fetcher>> MakeFetcher(const Config& config) {
+  FetchOptions options = config.fetch;
+  options.at_once = std::min(options.at_once, std::max(1, config.http.upload_threads / 2));
+  return Fetcher::Make(options);
 }
 
 void LogStart(ServeRole role, const LoadedConfig& loaded, const std::string& base,
@@ -200,6 +208,12 @@ int ServeProcess(ServeRole role, const LoadedConfig& loaded,
   if (!cesium) return ReportError(cesium.error());
   const Result<std::shared_ptr<KeyGate>> gate = OpenKeyGate(config, *address);
   if (!gate) return ReportError(gate.error());
+  const Result<std::shared_ptr<Fetcher>> fetcher = MakeFetcher(config);
+  if (!fetcher) return ReportError(fetcher.error());
+  Result<std::shared_ptr<const CallbackRules>> callbacks =
+      role == ServeRole::kWork ? std::shared_ptr<const CallbackRules>()
+                               : CallbackRules::Make(config.callbacks);
+  if (!callbacks) return ReportError(callbacks.error());
   // The port first: a process that cannot bind it must not change the data.
   Result<std::unique_ptr<Server>> server = Server::Bind(HttpOptions(config, *address));
   if (!server) return ReportError(server.error());
@@ -209,12 +223,20 @@ int ServeProcess(ServeRole role, const LoadedConfig& loaded,
   if (!jobs) return ReportError(jobs.error());
   (*jobs)->MarkEnd();
   const std::string base = BaseUrl(config, *address, (*server)->port());
-  const HandlerContext context{
-      **jobs,      base, config.max_body_bytes, TermsOf(options), *std::move(cesium),
-      config.echo, *gate};
+  const HandlerContext context{**jobs,
+                               base,
+                               config.max_body_bytes,
+                               TermsOf(options),
+                               *std::move(cesium),
+                               config.echo,
+                               *gate,
+                               *fetcher,
+                               *callbacks};
   const Router router =
       role == ServeRole::kWork ? BuildHealthRouter(context) : BuildRouter(context);
   (*server)->Serve(router, **gate);
+  std::optional<CallbackSender> sender;
+  if (*callbacks) sender.emplace(context, config.callbacks);
   LogStart(role, loaded, base, (*server)->port());
   LogMemory((*jobs)->Memory());
   LogKeys(**gate, IsLoopback(address->host));
@@ -223,6 +245,8 @@ int ServeProcess(ServeRole role, const LoadedConfig& loaded,
   NotifyManager("STOPPING=1");
   Log(LogLevel::kInfo, "stopping", {{"signal", std::int64_t{signal}}});
   Drain(**jobs, config.drain_time);
+  if (*fetcher) (*fetcher)->Stop();
+  if (sender) sender->Stop();
   (*server)->Stop(kSendTimeout);
   (*jobs)->Stop();
   Log(LogLevel::kInfo, "stopped", {});

@@ -9,6 +9,8 @@
 #include "service/http/server.h"
 #include "service/jobs/job_service.h"
 #include "service/log.h"
+#include "service/outgoing/callback_rules.h"
+#include "service/outgoing/fetcher.h"
 
 namespace farhorizon {
 
@@ -19,6 +21,8 @@ struct Config {
   int workers = 0;  ///< 0: as many as there are cores; jobs.workers follows from this
   ServerOptions http;
   AuthOptions auth;
+  FetchOptions fetch;
+  CallbackOptions callbacks;
   std::int64_t max_body_bytes = std::int64_t{1} << 31U;
   JobServiceOptions jobs;
   // Docker kills 10 seconds after it has asked: running jobs are given back before.

@@ -133,6 +133,39 @@ std::vector<ConfigKey> AuthKeys() {
   };
 }
 
+std::vector<ConfigKey> FetchKeys() {
+  const auto fetch = [](auto field) { return Path(&Config::fetch, field); };
+  return {
+      Text("fetch.allow", fetch(&FetchOptions::allow),
+           "how URLs begin that an input may link to: a list with commas, such as "
+           "https://tiles.example.org/dem; empty: nothing is fetched"),
+      Text("fetch.allowPrivateAddresses", fetch(&FetchOptions::private_networks),
+           "networks of addresses that are none of the public internet's and that are connected to "
+           "nevertheless: a list with commas, such as 10.0.0.0/8"),
+      Number("fetch.seconds", fetch(&FetchOptions::time), 1, 600,
+             "time for a fetch, which the client waits for"),
+      Number("fetch.atOnce", fetch(&FetchOptions::at_once), 1, 256,
+             "fetches at once; more get 503; at most half of http.uploadThreads"),
+  };
+}
+
+std::vector<ConfigKey> CallbackKeys() {
+  const auto callbacks = [](auto field) { return Path(&Config::callbacks, field); };
+  return {
+      Text("callbacks.allow", callbacks(&CallbackOptions::allow),
+           "how URLs begin that a job's subscriber may be called by: a list with commas; empty: "
+           "nobody is called"),
+      Text("callbacks.allowPrivateAddresses", callbacks(&CallbackOptions::private_networks),
+           "as fetch.allowPrivateAddresses, for subscribers"),
+      Text("callbacks.secretFile", callbacks(&CallbackOptions::secret_file),
+           "the file of secrets that calls are signed with, whsec_BASE64, one a line"),
+      Number("callbacks.retrySeconds", callbacks(&CallbackOptions::retry_time), 1, 7 * kDay,
+             "time after which a subscriber that was not reached is given up"),
+      Number("callbacks.atOnce", callbacks(&CallbackOptions::at_once), 1, 64,
+             "calls to subscribers at once"),
+  };
+}
+
 std::vector<ConfigKey> JobKeys() {
   const auto jobs = [](auto... fields) { return Path(&Config::jobs, fields...); };
   const auto keep = [](auto field) {
@@ -265,8 +298,8 @@ std::vector<ConfigKey> AllKeys() {
       Number("workers", Path(&Config::workers), 0, 1024,
              "jobs at once; 0: as many as there are cores"),
   };
-  for (std::vector<ConfigKey> section :
-       {HttpKeys(), AuthKeys(), StoreKeys(), JobKeys(), UploadKeys(), WorkerKeys()}) {
+  for (std::vector<ConfigKey> section : {HttpKeys(), AuthKeys(), FetchKeys(), CallbackKeys(),
+                                         StoreKeys(), JobKeys(), UploadKeys(), WorkerKeys()}) {
     std::move(section.begin(), section.end(), std::back_inserter(keys));
   }
   keys.push_back(Choice("log.level", Path(&Config::log, &LogOptions::level), kLogLevelNames,

@@ -25,7 +25,7 @@ constexpr const char* kRelations = "http://www.opengis.net/def/rel/ogc/1.0/";
 constexpr std::int64_t kMostProcesses = 10000;
 constexpr std::int64_t kUsualProcesses = 10;
 
-// The classes of requirements that are kept, all of them.
+// The classes of requirements that are kept.
 constexpr const char* kConformsTo[] = {
     "http://www.opengis.net/spec/ogcapi-processes-1/1.0/conf/core",
     "http://www.opengis.net/spec/ogcapi-processes-1/1.0/conf/ogc-process-description",
@@ -39,9 +39,14 @@ HttpResponse BadQuery(const HttpRequest& request, const std::string& what) {
   return ProblemResponse(request, {"invalid-query-parameter-value", what});
 }
 
-HttpResponse ShowConformance(const HttpRequest& request) {
+// The class of those that are kept where somebody may be called.
+constexpr const char* kCallback =
+    "http://www.opengis.net/spec/ogcapi-processes-1/1.0/conf/callback";
+
+HttpResponse ShowConformance(const HandlerContext& context, const HttpRequest& request) {
   ordered_json classes = ordered_json::array();
   for (const char* kept : kConformsTo) classes.push_back(kept);
+  if (context.callbacks) classes.push_back(kCallback);
   return TaggedJsonResponse(request, {{"conformsTo", std::move(classes)}});
 }
 
@@ -121,7 +126,10 @@ ordered_json LandingDocument(const std::string& base) {
 std::vector<Route> CapabilityRoutes(const HandlerContext& context) {
   constexpr WaitsFor kNothing = WaitsFor::kNothing;
   return {
-      BodylessRoute("GET", "/conformance", ShowConformance, kNothing),
+      BodylessRoute(
+          "GET", "/conformance",
+          [context](const HttpRequest& request) { return ShowConformance(context, request); },
+          kNothing),
       BodylessRoute(
           "GET", "/api",
           [context](const HttpRequest& request) { return ShowApi(context, request); }, kNothing),

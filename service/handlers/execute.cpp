@@ -1,6 +1,6 @@
 // Execute requests of OGC API - Processes, in the order of checks of a submission: the head, then
-// the body to disk, then what it says. The DEM in base64 goes to its spool file as it comes in,
-// decoded; the rest of the JSON is small.
+// the body to disk, then what it says, then what it links to. The DEM in base64 goes to its spool
+// file as it comes in, decoded; the rest of the JSON is small.
 #include "service/handlers/execute.h"
 
 #include <algorithm>
@@ -18,6 +18,7 @@
 #include "service/handlers/input_link.h"
 #include "service/handlers/json_parameters.h"
 #include "service/handlers/json_sieve.h"
+#include "service/handlers/linked_input.h"
 #include "service/handlers/preferences.h"
 #include "service/handlers/problem.h"
 #include "service/handlers/processes.h"
@@ -109,6 +110,12 @@ Result<Parameters> ParametersOfInputs(const json& inputs) {
   return ParametersOf(values);
 }
 
+// Where the DEM comes from; neither where it is in the body.
+struct DemOrigin {
+  std::optional<Upload> upload;   // of this service
+  std::optional<InputLink> link;  // to elsewhere
+};
+
 class ExecuteExchange : public Exchange {
  public:
   ExecuteExchange(const HandlerContext& context, const HttpRequest& request, std::string process,
@@ -129,8 +136,7 @@ class ExecuteExchange : public Exchange {
 
  private:
   Result<Job> Submit();
-  /// The upload that the input `dem` links to; nullopt where the DEM is in the body.
-  Result<std::optional<Upload>> TakeDem(const json& inputs);
+  Result<DemOrigin> TakeDem(const json& inputs);
   Result<Job> SubmitTerrain(const ExecuteRequest& asked);
   Result<Job> SubmitEcho(const ExecuteRequest& asked);
   /// The job's results, once it has ended; nullopt if it takes too long.
@@ -144,24 +150,31 @@ class ExecuteExchange : public Exchange {
   ContentDigest digest_;
 };
 
-Result<std::optional<Upload>> ExecuteExchange::TakeDem(const json& inputs) {
+Result<DemOrigin> ExecuteExchange::TakeDem(const json& inputs) {
   if (!inputs.contains("dem")) return InvalidInput("the input dem is missing");
-  Result<std::optional<InputLink>> link = LinkOf("dem", inputs["dem"]);
+  Result<std::optional<InputLink>> link = ReadLink(inputs["dem"]);
   if (!link) return std::move(link.error());
   Status fits = *link ? CheckDemMedia((*link)->type) : CheckDemInput(inputs, body_);
   if (!fits) return std::move(fits.error());
-  if (!*link) return std::optional<Upload>();
-  Result<Upload> upload = LinkedUpload(context_, request_, **link);
+  DemOrigin origin;
+  if (!*link) return origin;
+  const std::optional<std::string> id = OwnUploadOf(context_, request_, (*link)->href);
+  if (!id) {
+    origin.link = **std::move(link);
+    return origin;
+  }
+  Result<Upload> upload = FindWholeUpload(context_, request_, *id);
   if (!upload) return std::move(upload.error());
-  return std::optional<Upload>(*std::move(upload));
+  origin.upload = *std::move(upload);
+  return origin;
 }
 
 Result<Job> ExecuteExchange::SubmitTerrain(const ExecuteRequest& asked) {
-  Result<std::optional<Upload>> linked = TakeDem(asked.inputs);
-  if (!linked) return std::move(linked.error());
+  Result<DemOrigin> origin = TakeDem(asked.inputs);
+  if (!origin) return std::move(origin.error());
   Result<Parameters> parameters = ParametersOfInputs(asked.inputs);
   if (!parameters) return std::move(parameters.error());
-  const std::optional<Upload>& upload = *linked;
+  const std::optional<Upload>& upload = origin->upload;
   std::string filename = upload ? upload->filename : "";
   if (const auto name = parameters->find("filename"); name != parameters->end()) {
     filename = name->second;
@@ -177,7 +190,11 @@ Result<Job> ExecuteExchange::SubmitTerrain(const ExecuteRequest& asked) {
                         .options = std::move(wishes->options),
                         .answer = WriteResultWishes(asked.wishes),
                         .owner = request_.caller.owner,
-                        .upload = upload ? upload->id : ""};
+                        .upload = upload ? upload->id : "",
+                        .subscriber = asked.subscriber};
+  if (origin->link) {
+    return SubmitLinked(context_, request_, *origin->link, body_.spool, std::move(submission));
+  }
   if (upload) {
     Status copied = context_.jobs.Uploads().CopyTo(*upload, body_.spool);
     if (!copied) return std::move(copied.error());
@@ -196,7 +213,8 @@ Result<Job> ExecuteExchange::SubmitEcho(const ExecuteRequest& asked) {
                                             .cost = kEchoCost,
                                             .process = kEchoProcess,
                                             .answer = WriteResultWishes(asked.wishes),
-                                            .owner = request_.caller.owner});
+                                            .owner = request_.caller.owner,
+                                            .subscriber = asked.subscriber});
 }
 
 Result<Job> ExecuteExchange::Submit() {

@@ -5,8 +5,8 @@
 #include <optional>
 #include <utility>
 
-#include "service/handlers/input_link.h"
 #include "service/handlers/processes.h"
+#include "service/handlers/subscriber.h"
 #include "service/strict_json.h"
 
 namespace farhorizon {
@@ -30,12 +30,13 @@ std::string TextOf(const json& object, const char* name) {
 }
 
 Status CheckMembers(const json& body) {
-  constexpr std::array<std::string_view, 4> kKnown = {"inputs", "outputs", "process", "response"};
+  constexpr std::array<std::string_view, 5> kKnown = {"inputs", "outputs", "process", "response",
+                                                      "subscriber"};
   if (!body.is_object()) return Invalid("an execute request is a JSON object");
   for (const auto& [name, value] : body.items()) {
     if (std::find(kKnown.begin(), kKnown.end(), name) != kKnown.end()) continue;
     return Invalid("an execute request has no member \"" + name.substr(0, 100) +
-                   "\"; known are inputs, outputs, response and process");
+                   "\"; known are inputs, outputs, response, process and subscriber");
   }
   if (body.contains("inputs") && body["inputs"].is_object()) return Ok{};
   return Invalid("an execute request has its inputs in an object, as {\"inputs\": {…}}");
@@ -118,7 +119,10 @@ Error NoSuchProcess(std::string_view process) {
 Result<GivenInput> ReadInput(const std::string& name, const json& given) {
   if (!given.is_object()) return GivenInput{given, "", ""};
   if (given.contains("href")) {
-    return HrefNotAllowed(name);
+    return Error{
+        ErrorCode::kInvalidArgument,
+        "the input " + name + " is a link, which only the DEM may be; send the value itself",
+        "href-not-allowed"};
   }
   if (!given.contains("value")) return GivenInput{given, "", ""};
   return GivenInput{given["value"], TextOf(given, "mediaType"), TextOf(given, "encoding")};
@@ -150,8 +154,11 @@ Result<ExecuteRequest> ReadExecuteRequest(const HandlerContext& context, const s
   if (!raw) return std::move(raw.error());
   Result<Asked> asked = AskedOutputs(*body, *named);
   if (!asked) return std::move(asked.error());
+  Result<Subscriber> subscriber = ReadSubscriber(context, *body);
+  if (!subscriber) return std::move(subscriber.error());
   ResultWishes wishes = WishesOf(*named, *raw, *std::move(asked));
-  return ExecuteRequest{*std::move(named), std::move((*body)["inputs"]), std::move(wishes)};
+  return ExecuteRequest{*std::move(named), std::move((*body)["inputs"]), std::move(wishes),
+                        *std::move(subscriber)};
 }
 
 }  // namespace farhorizon

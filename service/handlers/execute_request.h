@@ -8,6 +8,7 @@
 #include "core/base/result.h"
 #include "service/handlers/handler_context.h"
 #include "service/handlers/result_wishes.h"
+#include "service/jobs/callback.h"
 
 namespace farhorizon {
 
@@ -16,6 +17,7 @@ struct ExecuteRequest {
   std::string process;
   nlohmann::json inputs;  ///< an object
   ResultWishes wishes;
+  Subscriber subscriber = {};
 };
 
 /// Reads the body. process: whose execution was asked for; empty where the body may say, as its
@@ -24,7 +26,8 @@ struct ExecuteRequest {
 /// Without `response` the results of echo are raw; those of terrain-lod are where one output is
 /// asked for. Without `transmissionMode` an output of echo is sent as itself, one of terrain-lod
 /// where it is the raw result.
-/// Errors: kInvalidArgument "invalid-json", "invalid-parameter"; kNotFound "no-such-process".
+/// Errors: kInvalidArgument "invalid-json", "invalid-parameter", "callback-not-allowed"; kNotFound
+///   "no-such-process".
 Result<ExecuteRequest> ReadExecuteRequest(const HandlerContext& context, const std::string& text,
                                           const std::string& process);
 

@@ -10,6 +10,8 @@
 
 namespace farhorizon {
 
+class CallbackRules;
+class Fetcher;
 class KeyGate;
 
 /// What the handlers share.
@@ -21,6 +23,8 @@ struct HandlerContext {
   std::shared_ptr<const AssetFolder> cesium = nullptr;  ///< for the viewer; nullptr: not installed
   bool echo = false;                                    ///< whether the process echo is offered
   std::shared_ptr<KeyGate> gate = nullptr;              ///< nullptr: nobody asks for keys
+  std::shared_ptr<Fetcher> fetcher = nullptr;           ///< nullptr: nothing is fetched
+  std::shared_ptr<const CallbackRules> callbacks = nullptr;  ///< nullptr: nobody is called
 };
 
 }  // namespace farhorizon

@@ -1,5 +1,7 @@
 #include "service/handlers/input_link.h"
 
+#include <algorithm>
+#include <array>
 #include <string_view>
 #include <utility>
 
@@ -8,26 +10,26 @@
 
 namespace farhorizon {
 
-Error HrefNotAllowed(const std::string& input) {
-  return {
-      ErrorCode::kInvalidArgument,
-      "the input " + input +
-          " is a link to elsewhere, and this service fetches nothing; send the value itself, or "
-          "link to an upload of this service (POST /uploads)",
-      "href-not-allowed"};
-}
+namespace {
 
-Result<std::optional<InputLink>> LinkOf(const std::string& name, const nlohmann::json& given) {
+// Of the links of OGC API - Processes.
+constexpr std::array<std::string_view, 5> kMembers = {"href", "type", "rel", "title", "hreflang"};
+
+}  // namespace
+
+Result<std::optional<InputLink>> ReadLink(const nlohmann::json& given) {
   if (!given.is_object() || !given.contains("href")) return std::optional<InputLink>();
-  if (!given["href"].is_string() || given.contains("value")) {
+  for (const auto& [name, value] : given.items()) {
+    const bool known = std::find(kMembers.begin(), kMembers.end(), name) != kMembers.end();
+    if (known && value.is_string()) continue;
     return Error{ErrorCode::kInvalidArgument,
-                 "the input " + name + " must have either a value or an href, a URL",
+                 "the input dem is a link, which has texts as href, type, rel, title and "
+                 "hreflang, not " +
+                     name.substr(0, 100) + (known ? " of another kind" : ""),
                  "invalid-parameter"};
   }
-  InputLink link{given["href"].get<std::string>(), ""};
-  const auto type = given.find("type");
-  if (type != given.end() && type->is_string()) link.type = type->get<std::string>();
-  return std::optional<InputLink>(std::move(link));
+  return std::optional<InputLink>(
+      {given["href"].get<std::string>(), given.value("type", std::string())});
 }
 
 std::optional<std::string> OwnUploadOf(const HandlerContext& context, const HttpRequest& request,
@@ -45,11 +47,9 @@ std::optional<std::string> OwnUploadOf(const HandlerContext& context, const Http
   return std::nullopt;
 }
 
-Result<Upload> LinkedUpload(const HandlerContext& context, const HttpRequest& request,
-                            const InputLink& link) {
-  const std::optional<std::string> id = OwnUploadOf(context, request, link.href);
-  if (!id) return HrefNotAllowed("dem");
-  Result<Upload> upload = FindUpload(context, request, *id);
+Result<Upload> FindWholeUpload(const HandlerContext& context, const HttpRequest& request,
+                               const std::string& id) {
+  Result<Upload> upload = FindUpload(context, request, id);
   if (!upload || upload->IsComplete()) return upload;
   return Error{ErrorCode::kInvalidArgument,
                "of the upload " + std::to_string(upload->offset) + " bytes of " +

@@ -12,28 +12,24 @@
 
 namespace farhorizon {
 
-/// An input that is named by a URL, not sent.
+/// A DEM that an execute request names in place of its bytes: {"href": …, "type": …}.
 struct InputLink {
   std::string href;
-  std::string type;  ///< what the request says that it is; may be empty
+  std::string type;  ///< empty where the link has none
 };
 
-/// The link that the input is; nullopt where it is a value.
-/// Errors: kInvalidArgument "invalid-parameter" where `href` is no text, or stands beside a value.
-Result<std::optional<InputLink>> LinkOf(const std::string& name, const nlohmann::json& given);
+/// The link that the input `dem` is; nullopt where it is none.
+/// Errors: kInvalidArgument "invalid-parameter" for a link that is not one of OGC API - Processes.
+Result<std::optional<InputLink>> ReadLink(const nlohmann::json& given);
 
 /// The id of the upload of this service that the URL names: /uploads/ID, below the public URL,
 /// below the name that the request itself came by, or without either; nullopt for all other URLs.
 std::optional<std::string> OwnUploadOf(const HandlerContext& context, const HttpRequest& request,
                                        const std::string& href);
 
-/// The caller's upload that the link names, all of which is there.
-/// Errors: kInvalidArgument "href-not-allowed" for any other URL, "upload-incomplete"; kNotFound
-///   "no-such-upload"; those of the store.
-Result<Upload> LinkedUpload(const HandlerContext& context, const HttpRequest& request,
-                            const InputLink& link);
-
-/// "href-not-allowed".
-Error HrefNotAllowed(const std::string& input);
+/// The caller's upload, all of which is there.
+/// Errors: kNotFound "no-such-upload"; kInvalidArgument "upload-incomplete"; those of the store.
+Result<Upload> FindWholeUpload(const HandlerContext& context, const HttpRequest& request,
+                               const std::string& id);
 
 }  // namespace farhorizon

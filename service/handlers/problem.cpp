@@ -41,7 +41,8 @@ constexpr ErrorKind kKinds400[] = {
     "virtual-path",
 };
 constexpr ErrorKind kKinds401[] = {"invalid-key", "key-required"};
-constexpr ErrorKind kKinds403[] = {"href-not-allowed", "insufficient-scope", "origin-not-allowed"};
+constexpr ErrorKind kKinds403[] = {"callback-not-allowed", "href-not-allowed", "insufficient-scope",
+                                   "origin-not-allowed"};
 constexpr ErrorKind kKinds404[] = {
     "no-config",      "no-such-file",         "no-such-job",      "no-such-key",
     "no-such-output", "no-such-process",      "no-such-resource", "no-such-upload",
@@ -121,6 +122,7 @@ constexpr ErrorKind kKinds500[] = {
     "worker-stuck",
 };
 constexpr ErrorKind kKinds501[] = {"transfer-encoding-not-implemented"};
+constexpr ErrorKind kKinds502[] = {"href-failed"};
 constexpr ErrorKind kKinds503[] = {
     "cancelled",
     "draining",
@@ -130,6 +132,7 @@ constexpr ErrorKind kKinds503[] = {
     "uploads-full",
     "worker-not-started",
 };
+constexpr ErrorKind kKinds504[] = {"href-timeout"};
 constexpr ErrorKind kKinds505[] = {"version-not-supported"};
 constexpr ErrorKind kKinds507[] = {"no-space"};
 
@@ -144,8 +147,9 @@ constexpr std::array kStatuses = {
     StatusRow{414, kKinds414}, StatusRow{415, kKinds415}, StatusRow{416, kKinds416},
     StatusRow{417, kKinds417}, StatusRow{421, kKinds421}, StatusRow{422, kKinds422},
     StatusRow{429, kKinds429}, StatusRow{431, kKinds431}, StatusRow{460, kKinds460},
-    StatusRow{500, kKinds500}, StatusRow{501, kKinds501}, StatusRow{503, kKinds503},
-    StatusRow{505, kKinds505}, StatusRow{507, kKinds507},
+    StatusRow{500, kKinds500}, StatusRow{501, kKinds501}, StatusRow{502, kKinds502},
+    StatusRow{503, kKinds503}, StatusRow{504, kKinds504}, StatusRow{505, kKinds505},
+    StatusRow{507, kKinds507},
 };
 
 // 0 if the kind is in no row, or in several.

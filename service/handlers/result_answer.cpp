@@ -98,8 +98,8 @@ ordered_json ValueIn(const Output& output) {
           {"encoding", "base64"}};
 }
 
-HttpResponse Document(const HandlerContext& context, const HttpRequest& request, const Job& job,
-                      const std::vector<Output>& outputs) {
+ordered_json DocumentOf(const HandlerContext& context, const Job& job,
+                        const std::vector<Output>& outputs) {
   ordered_json document = ordered_json::object();
   for (const Output& output : outputs) {
     const Artifact& artifact = output.artifact;
@@ -113,7 +113,12 @@ HttpResponse Document(const HandlerContext& context, const HttpRequest& request,
                                {"length", artifact.bytes},
                                {"sha256", artifact.sha256}};
   }
-  return TaggedJsonResponse(request, document);
+  return document;
+}
+
+HttpResponse Document(const HandlerContext& context, const HttpRequest& request, const Job& job,
+                      const std::vector<Output>& outputs) {
+  return TaggedJsonResponse(request, DocumentOf(context, job, outputs));
 }
 
 HttpResponse Links(const HandlerContext& context, const Job& job,
@@ -194,6 +199,14 @@ HttpResponse AnswerResults(const HandlerContext& context, const HttpRequest& req
     return LostArtifact(request, job, read.error());
   }
   return Document(context, request, job, outputs);
+}
+
+Result<ordered_json> ResultLinks(const HandlerContext& context, const Job& job) {
+  Result<std::vector<Artifact>> artifacts = context.jobs.Artifacts(job.id);
+  if (!artifacts) return std::move(artifacts.error());
+  std::vector<Output> outputs = Selected(*std::move(artifacts), ReadResultWishes(job.answer));
+  for (Output& output : outputs) output.how = Transmission::kReference;
+  return DocumentOf(context, job, outputs);
 }
 
 }  // namespace farhorizon

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <nlohmann/json.hpp>
+
+#include "core/base/result.h"
 #include "service/handlers/handler_context.h"
 #include "service/handlers/http_message.h"
 
@@ -13,5 +16,9 @@ namespace farhorizon {
 /// would be more than a hundred fields Link, the document takes their place.
 HttpResponse AnswerResults(const HandlerContext& context, const HttpRequest& request,
                            const Job& job);
+
+/// The document with a link to each artifact that was asked for, none as a value.
+/// Errors: those of JobService.
+Result<nlohmann::ordered_json> ResultLinks(const HandlerContext& context, const Job& job);
 
 }  // namespace farhorizon

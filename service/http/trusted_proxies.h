@@ -1,11 +1,10 @@
 #pragma once
 
-#include <array>
 #include <string>
-#include <vector>
 
 #include "core/base/result.h"
 #include "service/handlers/http_message.h"
+#include "service/ip_networks.h"
 
 namespace farhorizon {
 
@@ -24,11 +23,7 @@ class TrustedProxies {
   [[nodiscard]] std::string ClientOf(const HttpRequest& request, const std::string& peer) const;
 
  private:
-  struct Network {
-    std::array<unsigned char, 16> bytes;  // an IPv4 address as ::ffff:a.b.c.d
-    unsigned bits;
-  };
-  std::vector<Network> networks_;
+  IpNetworks networks_;
 };
 
 }  // namespace farhorizon

@@ -93,6 +93,7 @@ struct Job {
   std::string process = kTerrainProcess;
   std::string answer;  ///< how its results are to be answered, for the handlers; empty: as always
   std::string owner;   ///< whose key it came with; empty: no key was asked for
+  std::string source;  ///< as NewJob has it
 };
 
 /// One output file of a job.

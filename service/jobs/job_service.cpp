@@ -22,6 +22,14 @@ Error Draining() {
           "draining"};
 }
 
+NewJob NewJobOf(const Submission& submission, const StoredObject& input) {
+  return {submission.filename, submission.parameters,      input.sha256,
+          input.bytes,         submission.idempotency_key, submission.assumptions,
+          submission.client,   submission.terms,           submission.cost,
+          submission.process,  submission.answer,          submission.owner,
+          submission.source,   submission.subscriber};
+}
+
 MemoryWishes WishesOf(const JobServiceOptions& options) {
   return {MachineMemoryBytes(),       options.memory_bytes, options.runner.limits.memory_bytes,
           options.probe.memory_bytes, options.workers,      options.probe.at_once};
@@ -117,6 +125,19 @@ void JobService::MarkEnd() {
   BeforeSyncEnd([lock = directory_.lock.get()] { MarkOrderly(lock); });
 }
 
+Result<std::optional<Job>> JobService::FindEarlier(const Submission& submission) {
+  return jobs_->FindEarlier(NewJobOf(submission, {}), NowMs());
+}
+
+Result<std::optional<DueCallback>> JobService::ClaimCallback(std::chrono::milliseconds lease) {
+  return jobs_->ClaimCallback(lease, NowMs());
+}
+
+Result<bool> JobService::RetryCallback(const DueCallback& callback,
+                                       std::chrono::milliseconds delay) {
+  return jobs_->RetryCallback(callback, delay, NowMs());
+}
+
 QueueBounds JobService::Bounds() const {
   const std::int64_t all = options_.max_waiting;
   const std::int64_t own = options_.max_waiting_per_client;
@@ -170,11 +191,7 @@ Result<Job> JobService::Submit(const SpoolFile& upload, const Submission& submis
   if (!pin) return std::move(pin.error());
   Result<StoredObject> stored = objects_->PutFile(upload.path());
   if (!stored) return std::move(stored.error());
-  Result<Job> inserted = jobs_->Insert(
-      {submission.filename, submission.parameters, stored->sha256, stored->bytes,
-       submission.idempotency_key, submission.assumptions, submission.client, submission.terms,
-       submission.cost, submission.process, submission.answer, submission.owner},
-      Bounds(), NowMs());
+  Result<Job> inserted = jobs_->Insert(NewJobOf(submission, *stored), Bounds(), NowMs());
   if (inserted) objects_->Keep({stored->sha256});
   if (inserted && !submission.upload.empty()) {
     const Status settled = uploads_.Settle(submission.upload, *stored);

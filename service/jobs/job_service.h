@@ -62,6 +62,8 @@ struct Submission {
   std::string answer = {};  ///< as Job has it
   std::string owner = {};   ///< whose key it comes with; empty: no key was asked for
   std::string upload = {};  ///< the id of the Upload that its bytes are of; empty: of none
+  std::string source = {};  ///< as NewJob has it
+  Subscriber subscriber = {};
 };
 
 /// One thing that a service depends on.
@@ -109,6 +111,9 @@ class JobService {
   /// idempotency key has made one. Errors: those of the stores.
   Result<Job> Submit(const SpoolFile& upload, const Submission& submission);
 
+  /// As JobStore::FindEarlier has it.
+  Result<std::optional<Job>> FindEarlier(const Submission& submission);
+
   Result<Job> Find(const std::string& id);
   Result<JobPage> List(const JobQuery& query);
   /// For who waits for changes of the job: nullptr where as many do as may.
@@ -116,6 +121,12 @@ class JobService {
     return changes_->Add(id, client);
   }
   [[nodiscard]] std::int64_t CountWatches() const { return changes_->Count(); }
+  /// As the calls of these names of JobStore have it.
+  Result<std::optional<DueCallback>> ClaimCallback(std::chrono::milliseconds lease);
+  Result<bool> EndCallback(const DueCallback& callback, CallbackEnd end) {
+    return jobs_->EndCallback(callback, end);
+  }
+  Result<bool> RetryCallback(const DueCallback& callback, std::chrono::milliseconds delay);
   Result<std::vector<Artifact>> Artifacts(const std::string& id) { return jobs_->Artifacts(id); }
   /// coding: in which the artifact is wanted; it is given as it is where there is no such copy.
   /// Errors: kNotFound; kIo "result-corrupt" where the object is missing or damaged.

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/base/result.h"
+#include "service/jobs/callback.h"
 #include "service/jobs/job.h"
 
 namespace farhorizon {
@@ -33,6 +34,9 @@ struct NewJob {
   std::string process = kTerrainProcess;
   std::string answer = {};  ///< as Job has it
   std::string owner = {};   ///< whose key it comes with; empty: no key was asked for
+  /// The SHA-256 of the link that the input was fetched by; empty: it was sent.
+  std::string source = {};
+  Subscriber subscriber = {};
 };
 
 /// How many jobs have not ended.
@@ -153,9 +157,14 @@ class JobStore {
 
   /// Stores an accepted job and returns it. If the store knows the idempotency key of the owner,
   /// stores nothing and returns the key's job.
-  /// Errors: kInvalidArgument "idempotency-key-reused" where the key's job has another input, name
-  ///   or process, or other parameters; as CheckQueue, in the same transaction.
+  /// An input that was fetched is the same where its link is, whatever came of that.
+  /// Errors: kInvalidArgument "idempotency-key-reused" where the key's job has another input, name,
+  ///   process or subscriber, or other parameters; as CheckQueue, in the same transaction.
   virtual Result<Job> Insert(const NewJob& job, const QueueBounds& bounds, std::int64_t now_ms) = 0;
+
+  /// The job that Insert would return without storing one; nullopt where it would store one. `job`
+  /// need not have its input yet where it has its source. Errors: "idempotency-key-reused".
+  virtual Result<std::optional<Job>> FindEarlier(const NewJob& job, std::int64_t now_ms) = 0;
 
   /// Succeeds if another job of `client` may wait. Errors: kResourceExhausted "too-many-jobs"
   ///   where as many of the client's do as may, "queue-full" where as many of all do.
@@ -208,6 +217,18 @@ class JobStore {
   /// that ran in this one, by the folder that is its own. Requires: none of these runs, as at the
   /// start.
   virtual Result<std::int64_t> RecoverRunning(PreviousEnd end, std::int64_t now_ms) = 0;
+
+  /// A call to a subscriber that is due: the one that has been for the longest time, for no other
+  /// call before the lease ends, which is by the store's clock; nullopt where none is. An event is
+  /// due from the change on that it tells of, in the same transaction; the start of a run is told
+  /// of once, and no more after the job's end.
+  virtual Result<std::optional<DueCallback>> ClaimCallback(std::chrono::milliseconds lease,
+                                                           std::int64_t now_ms) = 0;
+  /// Ends a claim: for good, or until `delay` is over. False where the claim was over: the job was
+  /// removed, its end has overtaken the event, or another claim has followed.
+  virtual Result<bool> EndCallback(const DueCallback& callback, CallbackEnd end) = 0;
+  virtual Result<bool> RetryCallback(const DueCallback& callback, std::chrono::milliseconds delay,
+                                     std::int64_t now_ms) = 0;
 
   /// The job's artifacts in the order of their names. Empty unless the job is successful.
   virtual Result<std::vector<Artifact>> Artifacts(const std::string& id) = 0;

@@ -15,6 +15,7 @@
 #include "service/jobs/postgres_pins.h"
 #include "service/jobs/postgres_pool.h"
 #include "service/jobs/postgres_schema.h"
+#include "service/jobs/sql_callbacks.h"
 #include "service/jobs/sql_claim.h"
 #include "service/jobs/sql_queue.h"
 #include "service/jobs/sql_removal.h"
@@ -48,6 +49,7 @@ SqlDialect DialectOf(const PostgresStoreOptions& options) {
   dialect.serve_client =
       "INSERT INTO turns (client, turn) VALUES (?, nextval('turn')) "
       "ON CONFLICT (client) DO UPDATE SET turn = excluded.turn";
+  dialect.clock_ms = "CAST(extract(epoch FROM clock_timestamp()) * 1000 AS BIGINT)";
   return dialect;
 }
 
@@ -57,6 +59,7 @@ class PostgresJobStore : public JobStore {
   Status Open();
 
   Result<Job> Insert(const NewJob& job, const QueueBounds& bounds, std::int64_t now_ms) override;
+  Result<std::optional<Job>> FindEarlier(const NewJob& job, std::int64_t now_ms) override;
   Status CheckQueue(const std::string& client, const QueueBounds& bounds) override;
   Result<Job> Find(const std::string& id) override;
   Result<JobPage> List(const JobQuery& query) override;
@@ -81,6 +84,11 @@ class PostgresJobStore : public JobStore {
   Result<Job> Dismiss(const std::string& id, std::int64_t now_ms) override;
   Result<std::int64_t> RemoveExpired(const Retention& retention, std::int64_t now_ms) override;
   Result<std::int64_t> RecoverRunning(PreviousEnd end, std::int64_t now_ms) override;
+  Result<std::optional<DueCallback>> ClaimCallback(std::chrono::milliseconds lease,
+                                                   std::int64_t now_ms) override;
+  Result<bool> EndCallback(const DueCallback& callback, CallbackEnd end) override;
+  Result<bool> RetryCallback(const DueCallback& callback, std::chrono::milliseconds delay,
+                             std::int64_t now_ms) override;
   Result<std::vector<Artifact>> Artifacts(const std::string& id) override;
   Result<bool> IsReferenced(const std::string& sha256) override;
   Result<std::vector<std::string>> Garbage() override;
@@ -184,6 +192,12 @@ Result<Job> PostgresJobStore::Insert(const NewJob& job, const QueueBounds& bound
     Tell(database, kNewsJobWaits);
     transaction.Commit();
     return stored;
+  });
+}
+
+Result<std::optional<Job>> PostgresJobStore::FindEarlier(const NewJob& job, std::int64_t now_ms) {
+  return Guarded([&](PostgresDatabase& database) -> Result<std::optional<Job>> {
+    return FindEarlierJob(database, job, now_ms);
   });
 }
 
@@ -303,6 +317,25 @@ Result<std::int64_t> PostgresJobStore::RemoveExpired(const Retention& retention,
 Result<std::int64_t> PostgresJobStore::RecoverRunning(PreviousEnd end, std::int64_t now_ms) {
   return Call([&](PostgresDatabase& database) {
     return RecoverJobs(database, end, Later(database, now_ms));
+  });
+}
+
+Result<std::optional<DueCallback>> PostgresJobStore::ClaimCallback(milliseconds lease,
+                                                                   std::int64_t now_ms) {
+  return Call([&](PostgresDatabase& database) {
+    return farhorizon::ClaimCallback(database, lease, now_ms);
+  });
+}
+
+Result<bool> PostgresJobStore::EndCallback(const DueCallback& callback, CallbackEnd end) {
+  return Write(
+      [&](PostgresDatabase& database) { return farhorizon::EndCallback(database, callback, end); });
+}
+
+Result<bool> PostgresJobStore::RetryCallback(const DueCallback& callback, milliseconds delay,
+                                             std::int64_t now_ms) {
+  return Write([&](PostgresDatabase& database) {
+    return farhorizon::RetryCallback(database, callback, delay, now_ms);
   });
 }
 

@@ -136,7 +136,39 @@ CREATE TABLE upload_parts (
 );
 CREATE INDEX upload_parts_by_object ON upload_parts (sha256);
 )";
-constexpr std::array kVersions = {kVersion1, kVersion2};
+// The outbox of calls to subscribers (sql_callbacks.h). The trigger is how no change of a state can
+// forget them; its times are the server's.
+constexpr const char* kVersion3 = R"(
+ALTER TABLE jobs ADD COLUMN source TEXT NOT NULL DEFAULT '';
+CREATE TABLE callbacks (
+  job_id TEXT COLLATE "C" NOT NULL REFERENCES jobs (id) ON DELETE CASCADE,
+  event TEXT NOT NULL CHECK (event IN ('in-progress','success','failure')),
+  url TEXT NOT NULL,
+  state TEXT NOT NULL DEFAULT 'armed'
+    CHECK (state IN ('armed','due','delivered','given-up','dropped')),
+  attempts BIGINT NOT NULL DEFAULT 0,
+  since_ms BIGINT NOT NULL DEFAULT 0,
+  due_ms BIGINT NOT NULL DEFAULT 0,
+  PRIMARY KEY (job_id, event)
+);
+CREATE INDEX callbacks_by_time ON callbacks (due_ms) WHERE state = 'due';
+CREATE FUNCTION call_subscribers() RETURNS trigger LANGUAGE plpgsql AS $$
+DECLARE
+  now_ms BIGINT := extract(epoch FROM clock_timestamp()) * 1000;
+BEGIN
+  UPDATE farhorizon.callbacks SET state = 'due', since_ms = now_ms, due_ms = now_ms
+  WHERE job_id = NEW.id AND state = 'armed' AND event = CASE NEW.state
+    WHEN 'running' THEN 'in-progress' WHEN 'successful' THEN 'success' ELSE 'failure' END;
+  UPDATE farhorizon.callbacks SET state = 'dropped'
+  WHERE job_id = NEW.id AND NEW.finished_ms IS NOT NULL
+    AND (state = 'armed' OR (state = 'due' AND event = 'in-progress'));
+  RETURN NULL;
+END $$;
+CREATE TRIGGER subscribers_are_called AFTER UPDATE OF state ON jobs
+  FOR EACH ROW WHEN (NEW.state <> OLD.state AND NEW.state <> 'accepted')
+  EXECUTE FUNCTION call_subscribers();
+)";
+constexpr std::array kVersions = {kVersion1, kVersion2, kVersion3};
 constexpr auto kLatest = static_cast<std::int64_t>(kVersions.size());
 
 std::int64_t VersionOf(const PostgresDatabase& database) {

@@ -46,6 +46,7 @@ struct SqlDialect {
   std::string claim = {};         ///< what else the start of a run sets
   std::string turn_of = {};       ///< when the client `waiting.client` was served; empty: in memory
   std::string serve_client = {};  ///< a statement with the client: it is served now
+  std::string clock_ms = {};      ///< the database's own time; empty: the process' is as good
 };
 
 /// One connection to a database of jobs.

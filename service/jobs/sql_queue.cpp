@@ -2,6 +2,7 @@
 // to those that ran when a process ended.
 #include "service/jobs/sql_queue.h"
 
+#include "service/jobs/sql_callbacks.h"
 #include "service/jobs/sql_rows.h"
 
 namespace farhorizon {
@@ -23,12 +24,18 @@ bool HasTerms(const Job& job, const JobTerms& terms) {
          deadline == terms.deadline_seconds * 1000;
 }
 
+bool HasInput(const Job& earlier, const NewJob& job) {
+  return earlier.source == job.source &&
+         (!job.source.empty() || earlier.input_sha256 == job.input_sha256);
+}
+
 // The job `id`, which an earlier submission with the idempotency key of `job` has made.
 Result<Job> EarlierJob(const SqlDatabase& database, const std::string& id, const NewJob& job) {
   const std::optional<Job> earlier = SelectJob(database, id);
-  if (earlier && earlier->input_sha256 == job.input_sha256 && earlier->filename == job.filename &&
+  if (earlier && HasInput(*earlier, job) && earlier->filename == job.filename &&
       earlier->parameters == job.parameters && HasTerms(*earlier, job.terms) &&
-      earlier->process == job.process && earlier->answer == job.answer) {
+      earlier->process == job.process && earlier->answer == job.answer &&
+      SelectSubscriber(database, id) == job.subscriber) {
     return *earlier;
   }
   return Error{ErrorCode::kInvalidArgument,
@@ -59,19 +66,33 @@ Status CheckQueue(const SqlDatabase& database, const std::string& client,
   return Ok{};
 }
 
+Result<std::optional<Job>> FindEarlierJob(const SqlDatabase& database, const NewJob& job,
+                                          std::int64_t now_ms) {
+  if (!job.idempotency_key) return std::optional<Job>();
+  Statement known(database,
+                  "SELECT job_id FROM idempotency_keys WHERE owner = ? AND key = ? AND "
+                  "created_ms >= ?");
+  known.Bind(job.owner).Bind(*job.idempotency_key).Bind(now_ms - kIdempotencyKeepMs);
+  if (!known.Step()) return std::optional<Job>();
+  Result<Job> earlier = EarlierJob(database, known.Text(0), job);
+  if (!earlier) return std::move(earlier.error());
+  return std::optional<Job>(*std::move(earlier));
+}
+
 Result<Job> InsertInQueue(const SqlDatabase& database, const NewJob& job, const QueueBounds& bounds,
                           std::int64_t now_ms) {
   if (job.idempotency_key) {
     Statement(database, "DELETE FROM idempotency_keys WHERE created_ms < ?")
         .Bind(now_ms - kIdempotencyKeepMs)
         .Run();
-    Statement known(database, "SELECT job_id FROM idempotency_keys WHERE owner = ? AND key = ?");
-    if (known.Bind(job.owner).Bind(*job.idempotency_key).Step())
-      return EarlierJob(database, known.Text(0), job);
   }
+  Result<std::optional<Job>> earlier = FindEarlierJob(database, job, now_ms);
+  if (!earlier) return std::move(earlier.error());
+  if (*earlier) return **std::move(earlier);
   Status room = CheckQueue(database, job.client, bounds);
   if (!room) return std::move(room.error());
   const std::string id = InsertJob(database, job, now_ms);
+  InsertSubscriber(database, id, job.subscriber);
   if (job.idempotency_key) {
     Statement key(database,
                   "INSERT INTO idempotency_keys (owner, key, job_id, created_ms) "

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,9 @@ namespace farhorizon {
 /// As JobStore::CheckQueue has it.
 Status CheckQueue(const SqlDatabase& database, const std::string& client,
                   const QueueBounds& bounds);
+/// As JobStore::FindEarlier has it.
+Result<std::optional<Job>> FindEarlierJob(const SqlDatabase& database, const NewJob& job,
+                                          std::int64_t now_ms);
 /// As JobStore::Insert has it. Requires: within a transaction.
 Result<Job> InsertInQueue(const SqlDatabase& database, const NewJob& job, const QueueBounds& bounds,
                           std::int64_t now_ms);

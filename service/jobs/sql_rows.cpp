@@ -123,6 +123,7 @@ Job ReadJob(const Statement& row) {
   job.process = row.Text(27);
   job.answer = row.Text(28);
   job.owner = row.Text(29);
+  job.source = row.Text(30);
   const bool unclear = !parameters && !IsTerminal(job.state);
   if (unclear || (job.state == JobState::kFailed && !job.failure)) {
     job.failure =
@@ -190,16 +191,16 @@ std::string InsertJob(const SqlDatabase& database, const NewJob& job, std::int64
                    "INSERT INTO jobs (id, state, filename, parameters, input_sha256, "
                    "input_bytes, created_ms, updated_ms, assumptions, client, message, priority, "
                    "timeout_seconds, cost_memory_bytes, cost_seconds, process, answer, owner, "
-                   "deadline_ms) "
+                   "source, deadline_ms) "
                    "VALUES (?, 'accepted', ?, ?, ?, ?, ?, ?, ?, ?, 'waiting', ?, ?, ?, ?, ?, ?, ?, "
-                   "nullif(CAST(? AS BIGINT), 0))");
+                   "?, nullif(CAST(? AS BIGINT), 0))");
   insert.Bind(id).Bind(job.filename).Bind(EncodeQuery(job.parameters));
   insert.Bind(job.input_sha256).Bind(job.input_bytes).Bind(now_ms).Bind(now_ms);
   insert.Bind(AssumptionsColumn(job.assumptions)).Bind(job.client);
   const JobTerms& terms = job.terms;
   insert.Bind(static_cast<std::int64_t>(terms.priority)).Bind(terms.timeout_seconds);
   insert.Bind(job.cost.memory_bytes).Bind(job.cost.seconds);
-  insert.Bind(job.process).Bind(job.answer).Bind(job.owner);
+  insert.Bind(job.process).Bind(job.answer).Bind(job.owner).Bind(job.source);
   insert.Bind(terms.deadline_seconds > 0 ? now_ms + terms.deadline_seconds * 1000 : 0).Run();
   return id;
 }

@@ -17,7 +17,7 @@ inline constexpr const char* kJobColumns =
     "id, state, filename, parameters, input_sha256, input_bytes, progress, message, created_ms, "
     "started_ms, finished_ms, updated_ms, attempt, crash_count, failure_code, failure_kind, "
     "failure_message, timings, assumptions, client, run, retries, priority, deadline_ms, "
-    "timeout_seconds, cost_memory_bytes, cost_seconds, process, answer, owner";
+    "timeout_seconds, cost_memory_bytes, cost_seconds, process, answer, owner, source";
 
 /// Assumptions as the column has them: a JSON array of objects with a code and a text.
 std::string AssumptionsColumn(const Assumptions& assumptions);

@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "service/jobs/sql_callbacks.h"
 #include "service/jobs/sql_claim.h"
 #include "service/jobs/sql_queue.h"
 #include "service/jobs/sql_removal.h"
@@ -27,6 +28,7 @@ class SqliteJobStore : public JobStore {
   Status Open(const std::filesystem::path& path);
 
   Result<Job> Insert(const NewJob& job, const QueueBounds& bounds, std::int64_t now_ms) override;
+  Result<std::optional<Job>> FindEarlier(const NewJob& job, std::int64_t now_ms) override;
   Status CheckQueue(const std::string& client, const QueueBounds& bounds) override;
   Result<Job> Find(const std::string& id) override;
   Result<JobPage> List(const JobQuery& query) override;
@@ -51,6 +53,11 @@ class SqliteJobStore : public JobStore {
   Result<Job> Dismiss(const std::string& id, std::int64_t now_ms) override;
   Result<std::int64_t> RemoveExpired(const Retention& retention, std::int64_t now_ms) override;
   Result<std::int64_t> RecoverRunning(PreviousEnd end, std::int64_t now_ms) override;
+  Result<std::optional<DueCallback>> ClaimCallback(std::chrono::milliseconds lease,
+                                                   std::int64_t now_ms) override;
+  Result<bool> EndCallback(const DueCallback& callback, CallbackEnd end) override;
+  Result<bool> RetryCallback(const DueCallback& callback, std::chrono::milliseconds delay,
+                             std::int64_t now_ms) override;
   Result<std::vector<Artifact>> Artifacts(const std::string& id) override;
   Result<bool> IsReferenced(const std::string& sha256) override;
   Result<std::vector<std::string>> Garbage() override;
@@ -142,6 +149,12 @@ Result<Job> SqliteJobStore::Insert(const NewJob& job, const QueueBounds& bounds,
     Result<Job> stored = InsertInQueue(database_, job, bounds, Later(now_ms));
     if (stored) transaction.Commit();
     return stored;
+  });
+}
+
+Result<std::optional<Job>> SqliteJobStore::FindEarlier(const NewJob& job, std::int64_t now_ms) {
+  return Read([&](const Database& database) -> Result<std::optional<Job>> {
+    return FindEarlierJob(database, job, now_ms);
   });
 }
 
@@ -244,6 +257,20 @@ Result<std::int64_t> SqliteJobStore::RemoveExpired(const Retention& retention,
 
 Result<std::int64_t> SqliteJobStore::RecoverRunning(PreviousEnd end, std::int64_t now_ms) {
   return ChangeSome([&] { return RecoverJobs(database_, end, Later(now_ms)); });
+}
+
+Result<std::optional<DueCallback>> SqliteJobStore::ClaimCallback(std::chrono::milliseconds lease,
+                                                                 std::int64_t now_ms) {
+  return Call([&] { return farhorizon::ClaimCallback(database_, lease, now_ms); });
+}
+
+Result<bool> SqliteJobStore::EndCallback(const DueCallback& callback, CallbackEnd end) {
+  return Call([&] { return farhorizon::EndCallback(database_, callback, end); });
+}
+
+Result<bool> SqliteJobStore::RetryCallback(const DueCallback& callback,
+                                           std::chrono::milliseconds delay, std::int64_t now_ms) {
+  return Call([&] { return farhorizon::RetryCallback(database_, callback, delay, now_ms); });
 }
 
 Result<std::vector<Artifact>> SqliteJobStore::Artifacts(const std::string& id) {

@@ -139,8 +139,35 @@ CREATE TABLE upload_parts (
 ) STRICT, WITHOUT ROWID;
 CREATE INDEX upload_parts_by_object ON upload_parts (sha256);
 )";
-constexpr std::array kVersions = {kVersion1, kVersion2, kVersion3, kVersion4,
-                                  kVersion5, kVersion6, kVersion7, kVersion8};
+// The outbox of calls to subscribers (sql_callbacks.h). The trigger is how no change of a state can
+// forget them.
+constexpr const char* kVersion9 = R"(
+ALTER TABLE jobs ADD COLUMN source TEXT NOT NULL DEFAULT '';
+CREATE TABLE callbacks (
+  job_id TEXT NOT NULL REFERENCES jobs (id) ON DELETE CASCADE,
+  event TEXT NOT NULL CHECK (event IN ('in-progress','success','failure')),
+  url TEXT NOT NULL,
+  state TEXT NOT NULL DEFAULT 'armed'
+    CHECK (state IN ('armed','due','delivered','given-up','dropped')),
+  attempts INTEGER NOT NULL DEFAULT 0,
+  since_ms INTEGER NOT NULL DEFAULT 0,
+  due_ms INTEGER NOT NULL DEFAULT 0,
+  PRIMARY KEY (job_id, event)
+) STRICT, WITHOUT ROWID;
+CREATE INDEX callbacks_by_time ON callbacks (due_ms) WHERE state = 'due';
+CREATE TRIGGER subscribers_are_called AFTER UPDATE OF state ON jobs
+WHEN NEW.state <> OLD.state AND NEW.state <> 'accepted'
+BEGIN
+  UPDATE callbacks SET state = 'due', since_ms = NEW.updated_ms, due_ms = NEW.updated_ms
+  WHERE job_id = NEW.id AND state = 'armed' AND event = CASE NEW.state
+    WHEN 'running' THEN 'in-progress' WHEN 'successful' THEN 'success' ELSE 'failure' END;
+  UPDATE callbacks SET state = 'dropped'
+  WHERE job_id = NEW.id AND NEW.finished_ms IS NOT NULL
+    AND (state = 'armed' OR (state = 'due' AND event = 'in-progress'));
+END;
+)";
+constexpr std::array kVersions = {kVersion1, kVersion2, kVersion3, kVersion4, kVersion5,
+                                  kVersion6, kVersion7, kVersion8, kVersion9};
 
 std::int64_t CountOfTables(Database& database) {
   Statement count(database, "SELECT count(*) FROM sqlite_schema");

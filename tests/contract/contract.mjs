@@ -3,6 +3,7 @@
 import { createRequire } from 'node:module';
 import { join } from 'node:path';
 
+import { checkCallbacks, startReceiver } from './callbacks.mjs';
 import { checkClients } from './clients.mjs';
 import { checkDocument, documentOf } from './document.mjs';
 import { checkEts } from './ets.mjs';
@@ -16,7 +17,8 @@ const [, , cache, program, root, port] = process.argv;
 // What npm installed lies in the cache, not beside these files.
 const packages = createRequire(join(cache, 'package.json'));
 
-const service = await startService(program, port);
+const receiver = await startReceiver();
+const service = await startService(program, port, { env: receiver.env });
 try {
   const run = { base: service.base, cache, root, packages, program };
   await checkDocument(run);
@@ -25,8 +27,10 @@ try {
   await checkInputs(run);
   await checkJobs(run);
   await checkUploads(run);
+  await checkCallbacks(run, receiver);
   await checkClients(run);
 } finally {
   await service.stop();
+  receiver.stop();
 }
 process.exit(finish());

@@ -46,7 +46,7 @@ export const ended = async (location) => {
 };
 
 // In `folder`, which stays, or in one of its own.
-export const startService = async (program, port, kept) => {
+export const startService = async (program, port, { kept, env = {} } = {}) => {
   const folder = kept ?? mkdtempSync(join(tmpdir(), 'contract-'));
   const log = join(folder, 'log');
   const out = openSync(log, 'w');
@@ -55,7 +55,9 @@ export const startService = async (program, port, kept) => {
     ['serve', '--listen', `127.0.0.1:${port}`, '--data', join(folder, 'data'), '--workers', '2'],
     {
       stdio: ['ignore', out, out],
-      env: { ...process.env, FARHORIZON_CONFORMANCE_ECHO: 'on', FARHORIZON_LOG_FORMAT: 'json' },
+      env: {
+        ...process.env, FARHORIZON_CONFORMANCE_ECHO: 'on', FARHORIZON_LOG_FORMAT: 'json', ...env,
+      },
     },
   );
   const ends = new Promise((done) => { child.on('exit', done); });

@@ -169,7 +169,7 @@ export const checkUploads = async (run) => {
   });
   await claim('uploads: killed in the midst of a PATCH, gone on with after a start', async () => {
     const folder = mkdtempSync(join(tmpdir(), 'contract-'));
-    let service = await startService(program, 0, folder);
+    let service = await startService(program, 0, { kept: folder });
     const { port } = new URL(service.base);
     try {
       let url;
@@ -182,7 +182,7 @@ export const checkUploads = async (run) => {
         },
       }).then(() => { throw new Error('it was not cut off'); }, () => {});
       await killed;
-      service = await startService(program, port, folder);
+      service = await startService(program, port, { kept: folder });
       const at = Number((await head(url)).headers['upload-offset']);
       await send(dem, { endpoint: `${service.base}/uploads`, uploadUrl: url });
       await sameJob(url, service.base);

@@ -72,6 +72,8 @@ declare -A may=(
   # What shuts a worker in, and what starts it so.
   [service/worker/sandbox]="core/base core/io"
   [service/worker/spawner]="core/base core/geo core/io service/worker service/worker/sandbox"
+  # Requests of this service to servers that clients name.
+  [service/outgoing]="core/base core/io service"
   # Keys: who sends a request, and what they may.
   [service/auth]="core/base core/io service"
   [service/jobs]="core/base core/io core/pipeline service service/worker service/worker/sandbox service/worker/spawner"
@@ -79,11 +81,11 @@ declare -A may=(
   [service/jobs/fsck]="core/base core/io service service/auth service/jobs"
   # What web pages consist of: their texts, and the files of CesiumJS.
   [service/pages]="core/base core/io core/pipeline/report_page service"
-  [service/handlers]="core/base core/io core/io/file_kind core/pipeline service service/auth service/jobs service/pages"
+  [service/handlers]="core/base core/io core/io/file_kind core/pipeline service service/auth service/jobs service/outgoing service/pages"
   [service/http]="core/base service service/handlers"
   # The configuration consists of the options of the parts, so it stands above them.
-  [service/config]="core/base service service/auth service/worker service/jobs service/http"
-  [service/cli]="core/base core/geo core/io core/pipeline core/pipeline/build service service/auth service/worker service/worker/sandbox service/worker/spawner service/jobs service/jobs/fsck service/handlers service/http service/pages core/pipeline/verify core/pipeline/compare core/horizon core/horizon/search service/config"
+  [service/config]="core/base service service/auth service/worker service/jobs service/outgoing service/http"
+  [service/cli]="core/base core/geo core/io core/pipeline core/pipeline/build service service/auth service/worker service/worker/sandbox service/worker/spawner service/jobs service/jobs/fsck service/outgoing service/handlers service/http service/pages core/pipeline/verify core/pipeline/compare core/horizon core/horizon/search service/config"
   [service/main.cpp]="core/base service service/cli"
 )
 
@@ -99,6 +101,7 @@ foreign=(
   'boost/ @ ^service/asio\.h$ ^service/(http|worker|cli)/'
   'sqlite3 @ ^service/jobs/[a-z_0-9]+\.cpp$'
   'pqxx/ @ ^service/jobs/[a-z_0-9]+\.cpp$'
+  'curl/ @ ^service/outgoing/outgoing_(client|url)\.cpp$'
   'nlohmann/ @ ^core/(io|pipeline)/((compare|quantized_mesh)/)?[^/]+\.cpp$ ^core/io/mesh_files/(gltf_json\.h|[^/]+\.cpp)$ ^service/[a-z_0-9]+\.(h|cpp)$ ^service/(auth|handlers|jobs|worker|config|cli)/'
   'openssl/ @ ^core/io/[^/]+\.cpp$'
   'CLI/ @ ^service/cli/(command_line|run)\.cpp$'

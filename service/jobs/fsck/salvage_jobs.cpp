@@ -103,7 +103,7 @@ Result<std::int64_t> SalvageJobs(const std::filesystem::path& damaged,
                               id);
       if (!whole) continue;
       ++copied;
-      for (const char* table : {"artifacts", "idempotency_keys"}) {
+      for (const char* table : {"artifacts", "idempotency_keys", "callbacks"}) {
         const std::string both = Columns(database, table);
         Copy(database,
              std::string("INSERT OR IGNORE INTO fresh.") + table + " (" + both + ") SELECT " +

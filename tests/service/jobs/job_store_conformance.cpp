@@ -16,6 +16,8 @@
 namespace farhorizon {
 namespace {
 
+using std::chrono::milliseconds;
+
 TEST_P(JobStoreConformance, KeepsAJobOverAReopen) {
   const Job job = Insert();
   Reopen();
@@ -666,6 +668,200 @@ TEST_P(Expiry, IsByBytesOldestFirst) {
   EXPECT_EQ(Remove({0, 0, 250}), 2);
   EXPECT_EQ(Left(), (std::vector<std::string>{jobs[2], jobs[3]}));
   EXPECT_EQ(Remove({0, 0, 250}), 0);
+}
+
+// The outbox of calls to subscribers.
+
+const Subscriber kWhom = {"http://a/done", "http://a/begun", "http://a/failed"};
+
+TEST_P(Outbox, TellsOfTheStartOnceAndOfTheEnd) {
+  EXPECT_EQ(Due(), "");
+  InsertFor(kWhom);
+  EXPECT_EQ(Due(), "") << "nothing has happened";
+  Job job = Claim();
+  EXPECT_EQ(Due(), "in-progress http://a/begun 1");
+  EXPECT_EQ(Due(), "") << "it is claimed";
+  ASSERT_TRUE(*store_->EndCallback(*last_, CallbackEnd::kDelivered));
+  ASSERT_TRUE(*store_->Requeue(job.id, job.run, RequeueReason::kServiceStopped, ++time_));
+  EXPECT_EQ(Due(), "");
+  job = Claim();
+  EXPECT_EQ(Due(), "") << "it was told of";
+  Succeed(job);
+  EXPECT_EQ(Due(), "success http://a/done 1");
+  EXPECT_EQ(last_->job_id, job.id);
+  ASSERT_TRUE(*store_->EndCallback(*last_, CallbackEnd::kDelivered));
+  EXPECT_FALSE(*store_->EndCallback(*last_, CallbackEnd::kDelivered)) << "for good";
+  EXPECT_EQ(Due(), "");
+}
+
+TEST_P(Outbox, DropsTheStartOnceTheJobHasEnded) {
+  InsertFor(kWhom);
+  const Job job = Claim();
+  Succeed(job);
+  EXPECT_EQ(Due(), "success http://a/done 1");
+  EXPECT_EQ(Due(), "");
+}
+
+TEST_P(Outbox, AStartThatIsClaimedIsOvertakenByTheEnd) {
+  InsertFor(kWhom);
+  const Job job = Claim();
+  EXPECT_EQ(Due(), "in-progress http://a/begun 1");
+  const DueCallback begun = *last_;
+  Succeed(job);
+  EXPECT_FALSE(*store_->RetryCallback(begun, milliseconds(0), ++time_));
+  EXPECT_EQ(Due(), "success http://a/done 1");
+}
+
+TEST_P(Outbox, TellsOfEveryWayInWhichAJobFails) {
+  const std::string expected = "failure http://a/failed 1";
+  InsertFor(kWhom);
+  Job job = Claim();
+  ASSERT_TRUE(*store_->Fail(job.id, job.run, {ErrorCode::kIo, "x", "internal-error"}, ++time_));
+  EXPECT_EQ(Due(), expected) << "failed";
+  job = InsertFor(kWhom);
+  ASSERT_TRUE(store_->Dismiss(job.id, ++time_));
+  EXPECT_EQ(Due(), expected) << "dismissed while it waited";
+  InsertFor(kWhom);
+  job = Claim();
+  ASSERT_TRUE(store_->Dismiss(job.id, ++time_));
+  EXPECT_EQ(Due(), expected) << "dismissed while it ran";
+  InsertFor(kWhom, {.deadline_seconds = 1});
+  time_ += 2000;
+  ASSERT_EQ(store_->FailOverdue(time_)->size(), 1U);
+  EXPECT_EQ(Due(), expected) << "past its deadline";
+  InsertFor(kWhom);
+  for (int i = 0; i < 3; ++i) {
+    Claim();
+    ASSERT_EQ(*store_->RecoverRunning(PreviousEnd::kCrashed, ++time_), i < 2 ? 1 : 0);
+  }
+  EXPECT_EQ(Due(), expected) << "poison";
+  EXPECT_EQ(Due(), "");
+}
+
+TEST_P(Outbox, CallsNobodyWhoDidNotAsk) {
+  InsertFor({});
+  Succeed(Claim());
+  InsertFor({"http://a/done", "", ""});
+  const Job job = Claim();
+  ASSERT_TRUE(*store_->Fail(job.id, job.run, {ErrorCode::kIo, "x", "internal-error"}, ++time_));
+  EXPECT_EQ(Due(), "");
+}
+
+TEST_P(Outbox, AClaimEndsWithItsLease) {
+  InsertFor(kWhom);
+  Succeed(Claim());
+  EXPECT_EQ(Due(milliseconds(1000)), "success http://a/done 1");
+  const DueCallback first = *last_;
+  EXPECT_EQ(Due(), "");
+  std::this_thread::sleep_for(milliseconds(1100));
+  time_ += 1100;
+  EXPECT_EQ(Due(), "success http://a/done 2");
+  EXPECT_FALSE(*store_->EndCallback(first, CallbackEnd::kDelivered)) << "another one has it";
+  EXPECT_FALSE(*store_->RetryCallback(first, milliseconds(0), ++time_));
+  EXPECT_GE(last_->age, milliseconds(1000));
+  ASSERT_TRUE(*store_->EndCallback(*last_, CallbackEnd::kGivenUp));
+  time_ += 100'000;
+  EXPECT_EQ(Due(), "");
+}
+
+TEST_P(Outbox, IsTriedAgainAfterItsDelay) {
+  InsertFor(kWhom);
+  Succeed(Claim());
+  EXPECT_EQ(Due(), "success http://a/done 1");
+  ASSERT_TRUE(*store_->RetryCallback(*last_, milliseconds(1000), ++time_));
+  EXPECT_EQ(Due(), "");
+  std::this_thread::sleep_for(milliseconds(1100));
+  time_ += 1100;
+  EXPECT_EQ(Due(), "success http://a/done 2");
+  Reopen();
+  EXPECT_EQ(Due(), "") << "a lease outlives the process";
+  ASSERT_TRUE(*store_->RetryCallback(*last_, milliseconds(0), time_));
+  ++time_;
+  EXPECT_EQ(Due(), "success http://a/done 3");
+}
+
+TEST_P(Outbox, IsNoMoreWhereTheJobIsRemoved) {
+  InsertFor(kWhom);
+  const Job job = Claim();
+  Succeed(job);
+  ASSERT_TRUE(store_->Dismiss(job.id, ++time_));
+  EXPECT_EQ(Due(), "");
+  InsertFor(kWhom);
+  Succeed(Claim());
+  ASSERT_EQ(*store_->RemoveExpired({1, 0, 0}, time_ + 10'000), 1);
+  EXPECT_EQ(Due(), "");
+}
+
+TEST_P(Outbox, GivesEachCallToOneThread) {
+  constexpr int kJobs = 20;
+  for (int i = 0; i < kJobs; ++i) {
+    InsertFor(kWhom);
+    Succeed(Claim());
+  }
+  ++time_;
+  std::atomic<int> claimed{0};
+  std::vector<std::thread> threads;
+  for (int i = 0; i < 4; ++i) {
+    threads.emplace_back([&] {
+      while (claimed < kJobs) {
+        auto callback = store_->ClaimCallback(std::chrono::seconds(30), time_);
+        if (!callback || !*callback) return;
+        ++claimed;
+      }
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  while (!Due().empty()) ++claimed;
+  EXPECT_EQ(claimed, kJobs);
+}
+
+TEST_P(JobStoreConformance, KnowsAFetchedInputByItsLink) {
+  NewJob job{"dem.tif", {}, std::string(64, 'a'), 5, "key"};
+  job.source = std::string(64, '1');
+  EXPECT_FALSE(store_->FindEarlier(job, ++time_)->has_value());
+  const auto first = store_->Insert(job, {}, ++time_);
+  ASSERT_TRUE(first);
+  EXPECT_EQ(first->source, job.source);
+  job.input_sha256 = std::string(64, 'b');
+  EXPECT_EQ((*store_->FindEarlier(job, ++time_))->id, first->id) << "whatever is there by now";
+  EXPECT_EQ(store_->Insert(job, {}, ++time_)->id, first->id);
+  for (const NewJob& other : {[&] {
+                                NewJob one = job;
+                                one.source = std::string(64, '2');
+                                return one;
+                              }(),
+                              [&] {
+                                NewJob one = job;
+                                one.source = "";
+                                return one;
+                              }(),
+                              [&] {
+                                NewJob one = job;
+                                one.parameters = {{"levels", "2"}};
+                                return one;
+                              }(),
+                              [&] {
+                                NewJob one = job;
+                                one.subscriber = kWhom;
+                                return one;
+                              }()}) {
+    EXPECT_EQ(store_->FindEarlier(other, ++time_).error().kind, "idempotency-key-reused");
+    EXPECT_EQ(store_->Insert(other, {}, ++time_).error().kind, "idempotency-key-reused");
+  }
+  job.idempotency_key = "other";
+  EXPECT_FALSE(store_->FindEarlier(job, ++time_)->has_value());
+}
+
+TEST_P(JobStoreConformance, KnowsASubscriberByItsCallsThatWereMade) {
+  NewJob job{"dem.tif", {}, std::string(64, 'a'), 5, "key"};
+  job.subscriber = kWhom;
+  const auto first = store_->Insert(job, {}, ++time_);
+  Succeed(Claim());
+  const auto callback = store_->ClaimCallback(std::chrono::seconds(30), ++time_);
+  ASSERT_TRUE(*store_->EndCallback(**callback, CallbackEnd::kDelivered));
+  EXPECT_EQ(store_->Insert(job, {}, ++time_)->id, first->id);
+  job.subscriber.failed_uri = "http://b/";
+  EXPECT_EQ(store_->Insert(job, {}, ++time_).error().kind, "idempotency-key-reused");
 }
 
 }  // namespace

@@ -13,7 +13,7 @@
 namespace farhorizon {
 
 /// What a job store keeps its jobs in. A new implementation of JobStore makes one, and instantiates
-/// the suites JobStoreConformance, Choice and Expiry with it.
+/// the suites JobStoreConformance, Choice, Expiry and Outbox with it.
 class JobStorage {
  public:
   JobStorage() = default;
@@ -112,6 +112,29 @@ class Expiry : public JobStoreConformance {
     EXPECT_TRUE(removed);
     return *removed;
   }
+};
+
+class Outbox : public JobStoreConformance {
+ protected:
+  Job InsertFor(const Subscriber& whom, const JobTerms& terms = {}) {
+    NewJob job{"a", {}, std::string(64, 'a'), 5, {}};
+    job.terms = terms;
+    job.subscriber = whom;
+    auto inserted = store_->Insert(job, {}, ++time_);
+    EXPECT_TRUE(inserted) << inserted.error().message;
+    return *inserted;
+  }
+  // The next call, "EVENT URL ATTEMPT", which is claimed; "" for none.
+  std::string Due(std::chrono::milliseconds lease = std::chrono::seconds(30)) {
+    auto callback = store_->ClaimCallback(lease, ++time_);
+    EXPECT_TRUE(callback) << callback.error().message;
+    if (!*callback) return "";
+    last_ = **callback;
+    return std::string(kCallbackEventNames.at(static_cast<std::size_t>(last_->event))) + " " +
+           last_->url + " " + std::to_string(last_->attempt);
+  }
+
+  std::optional<DueCallback> last_;
 };
 
 }  // namespace farhorizon

@@ -75,6 +75,7 @@ INSTANTIATE_TEST_SUITE_P(Postgres, JobStoreConformance, testing::Values(MakePost
 INSTANTIATE_TEST_SUITE_P(Postgres, Choice, testing::Values(MakePostgresStorage));
 INSTANTIATE_TEST_SUITE_P(Postgres, Expiry, testing::Values(MakePostgresStorage));
 INSTANTIATE_TEST_SUITE_P(Postgres, UploadConformance, testing::Values(MakePostgresStorage));
+INSTANTIATE_TEST_SUITE_P(Postgres, Outbox, testing::Values(MakePostgresStorage));
 
 // Two processes on one store.
 class SharedStore : public testing::Test {
@@ -121,6 +122,23 @@ TEST_F(SharedStore, ALostLeaseMakesTheJobAnothersAndTheLateWriterStoresNothing) 
   EXPECT_FALSE(*ada_->Requeue(id, late.run, RequeueReason::kServiceStopped, ++time_));
   EXPECT_TRUE(*bob_->Publish(id, job.run, {}, {}, ++time_));
   EXPECT_TRUE(ada_->Artifacts(id)->empty());
+}
+
+TEST_F(SharedStore, ACallIsOfOneProcessForItsLease) {
+  NewJob asked{"dem.tif", {}, std::string(64, 'a'), 5, {}};
+  asked.subscriber = {"http://a/", "", ""};
+  ASSERT_TRUE(ada_->Insert(asked, {}, ++time_));
+  const Job job = **ada_->ClaimNext(++time_, {});
+  ASSERT_TRUE(*ada_->Publish(job.id, job.run, {}, {}, ++time_));
+  const auto frozen = **ada_->ClaimCallback(seconds(30), ++time_);
+  EXPECT_FALSE(bob_->ClaimCallback(seconds(30), time_ + 100'000)->has_value())
+      << "by the server's clock";
+  PostgresDatabase(storage_.url(), {}, {}).Execute("UPDATE callbacks SET due_ms = due_ms - 31000");
+  const auto again = **bob_->ClaimCallback(seconds(30), ++time_);
+  EXPECT_EQ(again.job_id, frozen.job_id);
+  EXPECT_EQ(again.attempt, 2);
+  EXPECT_FALSE(*ada_->EndCallback(frozen, CallbackEnd::kGivenUp)) << "it is bob's now";
+  EXPECT_TRUE(*bob_->EndCallback(again, CallbackEnd::kDelivered));
 }
 
 TEST_F(SharedStore, ALeaseThatIsRenewedLasts) {

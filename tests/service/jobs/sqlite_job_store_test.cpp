@@ -34,6 +34,7 @@ INSTANTIATE_TEST_SUITE_P(Sqlite, JobStoreConformance, testing::Values(MakeSqlite
 INSTANTIATE_TEST_SUITE_P(Sqlite, Choice, testing::Values(MakeSqliteStorage));
 INSTANTIATE_TEST_SUITE_P(Sqlite, Expiry, testing::Values(MakeSqliteStorage));
 INSTANTIATE_TEST_SUITE_P(Sqlite, UploadConformance, testing::Values(MakeSqliteStorage));
+INSTANTIATE_TEST_SUITE_P(Sqlite, Outbox, testing::Values(MakeSqliteStorage));
 
 TEST(SqliteJobStore, RefusesAFileOfANewerVersion) {
   const TempDir folder;
