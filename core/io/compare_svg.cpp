@@ -23,7 +23,7 @@ constexpr double kGap = 46;
 constexpr double kMapSide = 560;
 constexpr int kShades = 4;  // on either side of none
 
-constexpr const char* kStyle =
+constexpr const char* kCompareStyle =
     "<style>\n"
     "text{font:13px sans-serif;fill:#222}\n"
     ".title{font:600 17px sans-serif}\n"
@@ -228,8 +228,8 @@ std::string DrawComparisonSvg(const ComparisonPicture& picture) {
   }
   return "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + SvgNumber(kLeft + kWidth + 30) +
          "\" height=\"" + SvgNumber(y + 30) + "\">\n<title>" + SvgText(picture.title) +
-         "</title>\n" + kStyle + "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n" + body +
-         "</svg>\n";
+         "</title>\n" + kCompareStyle + "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n" +
+         body + "</svg>\n";
 }
 
 }  // namespace farhorizon

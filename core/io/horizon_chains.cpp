@@ -113,7 +113,7 @@ std::string FeatureText(const HorizonChain& chain, const ChainRounding& rounding
 
 using Json = nlohmann::json;
 
-std::vector<Geodetic> ReadLine(const Json& geometry) {
+std::vector<Geodetic> ReadChainLine(const Json& geometry) {
   const Json& coordinates = geometry.at("coordinates");
   const bool whole = geometry.at("type") == "LineString";
   std::vector<Geodetic> line;
@@ -130,7 +130,7 @@ std::vector<Geodetic> ReadLine(const Json& geometry) {
   return line;
 }
 
-Known KnownOf(const Json& properties, const char* name) {
+Known KnownOfChain(const Json& properties, const char* name) {
   const auto found = properties.find(name);
   if (found == properties.end()) return Known::kNotAsked;
   return found->is_null() ? Known::kNotAfforded : Known::kYes;
@@ -149,7 +149,7 @@ AzimuthMask ReadMask(const std::string& text) {
 HorizonChain ReadChain(const Json& feature) {
   const Json& properties = feature.at("properties");
   HorizonChain chain;
-  chain.line = ReadLine(feature.at("geometry"));
+  chain.line = ReadChainLine(feature.at("geometry"));
   if (chain.line.size() < 2) throw std::out_of_range("a line has two points");
   chain.level_kept.resize(chain.line.size() - 1);
   if (properties.contains("levels_kept")) {
@@ -166,8 +166,8 @@ HorizonChain ReadChain(const Json& feature) {
     chain.sights = chain.drop = Known::kNotAfforded;
     return chain;
   }
-  chain.sights = KnownOf(properties, "azimuths");
-  chain.drop = KnownOf(properties, "skyline_drop_m");
+  chain.sights = KnownOfChain(properties, "azimuths");
+  chain.drop = KnownOfChain(properties, "skyline_drop_m");
   if (chain.sights == Known::kYes) {
     chain.azimuths = ReadMask(properties.at("azimuths").get<std::string>());
     chain.line_measure_m = properties.at("line_measure_m").get<double>();

@@ -130,7 +130,7 @@ class Plot {
   Range heights_;
 };
 
-constexpr const char* kStyle =
+constexpr const char* kSkylineStyle =
     "<style>\n"
     "text{font:13px sans-serif;fill:#222}\n"
     ".tick{stroke:#666}\n"
@@ -156,7 +156,7 @@ std::string DrawSkyline(const SkylineOfDirection& skyline, const std::string& ti
                            Rounded(plot.Exaggeration(), 1) + " times as large";
   return "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + SvgNumber(kLeft + kWidth + kRight) +
          "\" height=\"" + SvgNumber(bottom) + "\">\n<title>" + SvgText(title) + "</title>\n" +
-         kStyle + "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n" +
+         kSkylineStyle + "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n" +
          plot.Ground(skyline.parts) + plot.Parts(skyline.parts) + plot.Axes() +
          Line(kLeft, kTop - 16, told) +
          Line(kLeft, bottom - 10,

@@ -55,7 +55,7 @@ class Drawing {
   double scale_;
 };
 
-constexpr const char* kStyle =
+constexpr const char* kSweepStyle =
     "<style>\n"
     "text{font:14px sans-serif;fill:#222}\n"
     ".terrain{fill:#f7f5f0;stroke:#999}\n"
@@ -126,7 +126,7 @@ std::string DrawSweep(const SweepTrace& trace, const std::string& title) {
   };
   return "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + SvgNumber(drawing.width()) +
          "\" height=\"" + SvgNumber(drawing.height()) + "\">\n<title>" + SvgText(title) +
-         "</title>\n" + kStyle + "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n" +
+         "</title>\n" + kSweepStyle + "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n" +
          drawing.Terrain() + Group("contours", Paths(contours)) + Group("hulls", Paths(hulls)) +
          Group("inactive", Paths({bitangents[0]})) + Group("active", Paths({bitangents[1]})) +
          Group("candidates", Paths({candidates})) + Group("seen", seen) +

@@ -37,7 +37,8 @@ int Run(const ServeArguments& arguments) {
   const Result<LoadedConfig> loaded = load();
   if (!loaded) return ReportError(loaded.error());
   const StoreOptions& store = loaded->config.jobs.store;
-  if (Status fit = CheckStoreOptions(store); !fit) return ReportError(fit.error());
+  const Status fit = CheckStoreOptions(store, loaded->config.jobs.data);
+  if (!fit) return ReportError(fit.error());
   if (arguments.role == ServeRole::kWork && store.jobs.empty()) {
     return ReportError({ErrorCode::kInvalidArgument,
                         "there are no jobs to work on but those that a service shares: give "
@@ -96,7 +97,8 @@ void AddRole(ServeRole role, const char* name, const char* help, Command& progra
   add("--listen", "listen", "HOST:PORT", "address to listen on (127.0.0.1:8080)");
   add("--data", "data", "DIR", "folder for jobs, uploads and artifacts (farhorizon-data)");
   add("--database", "store.jobs", "URL", "PostgreSQL database for jobs that services share");
-  add("--objects", "store.objects", "DIR", "folder for uploads and artifacts that they share");
+  add("--objects", "store.objects", "DIR|URL",
+      "folder, or s3://BUCKET/PREFIX, for uploads and artifacts that they share");
   add("--workers", "workers", "N", "jobs at once (as many as there are cores)");
   command.AddSwitch("--print-config", "print the configuration that would be used, and stop",
                     arguments->print_config);

@@ -122,7 +122,7 @@ void LogStart(ServeRole role, const LoadedConfig& loaded, const std::string& bas
        {"port", std::int64_t{port}},
        {"version", std::string(Version())},
        {"data", config.jobs.data.string()},
-       {"objects", config.jobs.store.objects.string()},
+       {"objects", config.jobs.store.objects},
        {"workers", std::int64_t{JobOptions(config).workers}},
        {"max_waiting", config.jobs.max_waiting},
        {"max_body_bytes", config.max_body_bytes},

@@ -226,15 +226,31 @@ std::vector<ConfigKey> UploadKeys() {
 }
 
 std::vector<ConfigKey> StoreKeys() {
-  const auto store = [](auto field) {
-    return Path(&Config::jobs, &JobServiceOptions::store, field);
+  const auto store = [](auto... fields) {
+    return Path(&Config::jobs, &JobServiceOptions::store, fields...);
   };
+  const auto s3 = [&](auto field) { return store(&StoreOptions::s3, field); };
   return {
       Text("store.jobs", store(&StoreOptions::jobs),
            "the URL of a PostgreSQL database that services share; empty: jobs.sqlite in the data "
            "folder"),
       Text("store.objects", store(&StoreOptions::objects),
-           "the folder of uploads and results that the services share; empty: in the data folder"),
+           "uploads and results that the services share: a folder, or s3://BUCKET or "
+           "s3://BUCKET/PREFIX; empty: in the data folder"),
+      Text("store.s3Endpoint", s3(&S3Options::endpoint),
+           "the address of S3-compatible storage, http(s)://HOST:PORT; empty: AWS_ENDPOINT_URL_S3, "
+           "AWS_ENDPOINT_URL, or Amazon's of the region"),
+      Text("store.s3Region", s3(&S3Options::region),
+           "its region; empty: AWS_REGION, AWS_DEFAULT_REGION, us-east-1"),
+      Choice("store.s3Addressing", s3(&S3Options::addressing), kS3AddressingNames,
+             "where a request names the bucket; auto: in the host's name at Amazon, else in the "
+             "path"),
+      Text("store.s3Credentials", s3(&S3Options::credentials),
+           "a file of keys as Amazon's programs have it, read again when it changes; empty: "
+           "AWS_ACCESS_KEY_ID, AWS_SECRET_ACCESS_KEY, AWS_SESSION_TOKEN, or "
+           "AWS_SHARED_CREDENTIALS_FILE"),
+      Number("store.cacheBytes", store(&StoreOptions::cache_bytes), 0, kTebibyte,
+             "copies of a bucket's objects in the data folder; less where its disk is short"),
       Number("store.leaseSeconds", store(&StoreOptions::lease_seconds), 2, 3600,
              "time after which a job of a service that does not answer runs elsewhere"),
       Number("store.connections", store(&StoreOptions::connections), 1, 1000,

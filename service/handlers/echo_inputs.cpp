@@ -18,7 +18,7 @@ using nlohmann::ordered_json;
 
 constexpr int kLongestPause = 60;
 
-Error Invalid(const std::string& name, const std::string& expected) {
+Error InvalidEchoInput(const std::string& name, const std::string& expected) {
   return {ErrorCode::kInvalidArgument, "the input " + name + " must be " + expected,
           "invalid-parameter"};
 }
@@ -29,7 +29,7 @@ using Echo = Result<EchoOutput> (*)(const std::string& name, const json& given);
 Result<EchoOutput> EchoText(const std::string& name, const json& given) {
   Result<GivenInput> input = ReadInput(name, given);
   if (!input) return std::move(input.error());
-  if (!input->value.is_string()) return Invalid(name, "a text");
+  if (!input->value.is_string()) return InvalidEchoInput(name, "a text");
   return EchoOutput{name, "text/plain", input->value.get<std::string>()};
 }
 
@@ -38,7 +38,7 @@ Result<EchoOutput> EchoNumbers(const std::string& name, const json& given) {
   if (!value) return std::move(value.error());
   const auto whole = [](const json& one) { return one.is_number_integer(); };
   if (!value->is_array() || !std::all_of(value->begin(), value->end(), whole)) {
-    return Invalid(name, "a list of whole numbers");
+    return InvalidEchoInput(name, "a list of whole numbers");
   }
   return EchoOutput{name, "application/json", value->dump()};
 }
@@ -47,7 +47,7 @@ Result<EchoOutput> EchoNumbers(const std::string& name, const json& given) {
 Result<EchoOutput> EchoObject(const std::string& name, const json& given) {
   Result<GivenInput> input = ReadInput(name, given);
   if (!input) return std::move(input.error());
-  if (!given.is_object()) return Invalid(name, "an object");
+  if (!given.is_object()) return InvalidEchoInput(name, "an object");
   return EchoOutput{name, "application/json",
                     (input->value.is_object() ? input->value : given).dump()};
 }
@@ -61,7 +61,8 @@ Result<EchoOutput> EchoBox(const std::string& name, const json& given) {
                      (box["bbox"].size() == 4 || box["bbox"].size() == 6) &&
                      std::all_of(box["bbox"].begin(), box["bbox"].end(), number) &&
                      box.value("crs", json("")).is_string();
-  if (!whole) return Invalid(name, "an object with a bbox of 4 or 6 numbers, and perhaps a crs");
+  if (!whole)
+    return InvalidEchoInput(name, "an object with a bbox of 4 or 6 numbers, and perhaps a crs");
   return EchoOutput{name, "application/json", box.dump()};
 }
 
@@ -74,7 +75,7 @@ Result<EchoOutput> EchoImage(const std::string& name, const json& given) {
   Base64Decoder decoder;
   if (!tiff || !base64 || !input->value.is_string() ||
       !decoder.Feed(input->value.get_ref<const std::string&>(), bytes) || !decoder.MayEnd()) {
-    return Invalid(name, "image/tiff in base64");
+    return InvalidEchoInput(name, "image/tiff in base64");
   }
   return EchoOutput{name, "image/tiff", input->value.get<std::string>(), true};
 }
@@ -123,7 +124,7 @@ Result<int> PauseOf(const json& given) {
   if (!input) return std::move(input.error());
   const json& value = input->value;
   if (!value.is_number_integer() || value < 0 || value > kLongestPause) {
-    return Invalid("pause", "a whole number from 0 to " + std::to_string(kLongestPause));
+    return InvalidEchoInput("pause", "a whole number from 0 to " + std::to_string(kLongestPause));
   }
   return value.get<int>();
 }

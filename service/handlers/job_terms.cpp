@@ -13,7 +13,7 @@ namespace {
 // A year: longer than any queue, and far from the end of the numbers.
 constexpr std::int64_t kLongestDeadline = std::int64_t{366} * 86400;
 
-Error Invalid(const std::string& name, const std::string& value, const std::string& expected) {
+Error InvalidTerm(const std::string& name, const std::string& value, const std::string& expected) {
   return {ErrorCode::kInvalidArgument, name + "=" + value + ": expected " + expected,
           "invalid-parameter"};
 }
@@ -32,7 +32,7 @@ Result<std::int64_t> TakeSeconds(Parameters& parameters, const char* name, std::
   if (!text) return std::int64_t{0};
   const std::optional<std::int64_t> seconds = WholeNumberIn(*text);
   if (seconds && *seconds >= 1 && *seconds <= most) return *seconds;
-  return Invalid(name, *text, "whole seconds from 1 to " + std::to_string(most));
+  return InvalidTerm(name, *text, "whole seconds from 1 to " + std::to_string(most));
 }
 
 }  // namespace
@@ -48,7 +48,7 @@ Result<JobTerms> TakeTerms(Parameters& parameters, const TermBounds& bounds) {
       for (const auto* one = kPriorityNames.begin(); one != end; ++one) {
         expected += (expected.empty() ? "" : " or ") + std::string(*one);
       }
-      return Invalid("priority", *name, expected);
+      return InvalidTerm("priority", *name, expected);
     }
     terms.priority = static_cast<Priority>(found - kPriorityNames.begin());
   }

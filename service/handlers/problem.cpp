@@ -118,19 +118,15 @@ constexpr ErrorKind kKinds500[] = {
     "input-corrupt",  "internal-error",     "io",
     "job-store",      "job-store-unusable", "poison-job",
     "reference-data", "result-corrupt",     "sandbox-missing",
-    "storage",        "worker-crashed",     "worker-program",
-    "worker-stuck",
+    "worker-crashed", "worker-program",     "worker-stuck",
 };
 constexpr ErrorKind kKinds501[] = {"transfer-encoding-not-implemented"};
 constexpr ErrorKind kKinds502[] = {"href-failed"};
 constexpr ErrorKind kKinds503[] = {
-    "cancelled",
-    "draining",
-    "queue-full",
-    "resource-exhausted",
-    "too-many-connections",
-    "uploads-full",
-    "worker-not-started",
+    "cancelled",    "draining",
+    "queue-full",   "resource-exhausted",
+    "storage",      "too-many-connections",
+    "uploads-full", "worker-not-started",
 };
 constexpr ErrorKind kKinds504[] = {"href-timeout"};
 constexpr ErrorKind kKinds505[] = {"version-not-supported"};
@@ -208,6 +204,10 @@ Problem ProblemOf(const Error& error) {
   const bool told = std::find(std::begin(kTold), std::end(kTold), code) != std::end(kTold);
   if (problem.status == 500 && !told) {
     problem.detail = "the service failed inside; its log says why";
+  }
+  if (code == "storage") {
+    problem.detail =
+        "uploads and results cannot be stored or read at the moment; its log says why; try again";
   }
   return problem;
 }

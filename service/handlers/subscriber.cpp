@@ -12,7 +12,7 @@ namespace {
 
 using nlohmann::json;
 
-Error Invalid(const std::string& what) {
+Error InvalidSubscriber(const std::string& what) {
   return {ErrorCode::kInvalidArgument, what, "invalid-parameter"};
 }
 
@@ -22,7 +22,7 @@ Result<Subscriber> ReadSubscriber(const HandlerContext& context, const json& req
   Subscriber whom;
   const auto given = request.find("subscriber");
   if (given == request.end()) return whom;
-  if (!given->is_object()) return Invalid("subscriber must be an object of URLs");
+  if (!given->is_object()) return InvalidSubscriber("subscriber must be an object of URLs");
   if (!context.callbacks) {
     return Error{ErrorCode::kInvalidArgument,
                  "this service calls no subscriber: ask for the job's status, or let "
@@ -37,7 +37,8 @@ Result<Subscriber> ReadSubscriber(const HandlerContext& context, const json& req
     if (!given->contains(name)) continue;
     ++found;
     const json& text = (*given)[name];
-    if (!text.is_string()) return Invalid(std::string(name) + " of subscriber must be a URL");
+    if (!text.is_string())
+      return InvalidSubscriber(std::string(name) + " of subscriber must be a URL");
     *uri = text.get<std::string>();
     const Result<OutgoingUrl> allowed = context.callbacks->Check(*uri);
     if (!allowed) {
@@ -46,11 +47,11 @@ Result<Subscriber> ReadSubscriber(const HandlerContext& context, const json& req
     }
   }
   if (found < given->size()) {
-    return Invalid(
+    return InvalidSubscriber(
         "subscriber has a member that is not known; known are successUri, "
         "inProgressUri and failedUri");
   }
-  if (whom.success_uri.empty()) return Invalid("subscriber must have a successUri");
+  if (whom.success_uri.empty()) return InvalidSubscriber("subscriber must have a successUri");
   return whom;
 }
 

@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t kSha1Bytes = 20;
 constexpr std::size_t kSha256Bytes = 32;
 
-Error Invalid(const std::string& why) {
+Error InvalidChecksum(const std::string& why) {
   return {ErrorCode::kInvalidArgument, why, "invalid-upload"};
 }
 
@@ -26,7 +26,7 @@ Result<UploadChecksum> UploadChecksum::Of(const HttpRequest& request) {
   const std::string name = field->substr(0, blank);
   checksum.sum_ = Checksum::Named(name);
   if (!checksum.sum_) {
-    return Invalid(std::string("Upload-Checksum must be of one of ") + kChecksumAlgorithms);
+    return InvalidChecksum(std::string("Upload-Checksum must be of one of ") + kChecksumAlgorithms);
   }
   Base64Decoder decoder;
   const bool read =
@@ -34,7 +34,7 @@ Result<UploadChecksum> UploadChecksum::Of(const HttpRequest& request) {
   if (read && checksum.expected_.size() == (name == "sha1" ? kSha1Bytes : kSha256Bytes)) {
     return checksum;
   }
-  return Invalid("Upload-Checksum must be the algorithm, a blank, and the sum in base64");
+  return InvalidChecksum("Upload-Checksum must be the algorithm, a blank, and the sum in base64");
 }
 
 void UploadChecksum::Add(std::string_view piece) {

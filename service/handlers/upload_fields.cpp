@@ -18,13 +18,13 @@ constexpr std::size_t kMostMetadata = 4096;
 constexpr std::int64_t kMostNumber = 1'000'000'000'000'000'000;
 constexpr std::size_t kNumberDigits = 18;
 
-Error Invalid(const std::string& why) {
+Error InvalidUpload(const std::string& why) {
   return {ErrorCode::kInvalidArgument, why, "invalid-upload"};
 }
 
 Result<std::int64_t> ReadNumber(const char* name, const std::string& text) {
   if (text.empty() || text.find_first_not_of("0123456789") != std::string::npos) {
-    return Invalid(std::string(name) + " must be a number of bytes, 0 or more");
+    return InvalidUpload(std::string(name) + " must be a number of bytes, 0 or more");
   }
   const std::string digits = text.substr(std::min(text.find_first_not_of('0'), text.size() - 1));
   if (digits.size() > kNumberDigits) return kMostNumber;
@@ -48,14 +48,14 @@ Result<std::pair<std::string, std::string>> ReadPair(std::string_view pair) {
   const std::size_t blank = std::min(pair.find(' '), pair.size());
   std::string key(pair.substr(0, blank));
   const std::string_view coded = Trimmed(pair.substr(blank));
-  if (key.empty()) return Invalid("a key of Upload-Metadata is empty");
+  if (key.empty()) return InvalidUpload("a key of Upload-Metadata is empty");
   std::string value;
   Base64Decoder decoder;
   if (coded.find_first_of(" \t") != std::string_view::npos || !decoder.Feed(coded, value) ||
       !decoder.MayEnd()) {
-    return Invalid("a value of Upload-Metadata is no base64; write KEY BASE64,KEY BASE64");
+    return InvalidUpload("a value of Upload-Metadata is no base64; write KEY BASE64,KEY BASE64");
   }
-  if (!IsPlain(value)) return Invalid("a value of Upload-Metadata has control characters");
+  if (!IsPlain(value)) return InvalidUpload("a value of Upload-Metadata has control characters");
   return std::pair(std::move(key), std::move(value));
 }
 
@@ -92,14 +92,14 @@ Result<std::optional<std::int64_t>> ReadNewUploadLength(const HttpRequest& reque
   Result<std::optional<std::int64_t>> length = ReadUploadLength(request);
   if (!length) return length;
   const std::string* defer = request.Header("upload-defer-length");
-  if (defer != nullptr && *defer != "1") return Invalid("Upload-Defer-Length must be 1");
+  if (defer != nullptr && *defer != "1") return InvalidUpload("Upload-Defer-Length must be 1");
   if ((defer != nullptr) != length->has_value()) return length;
-  return Invalid("say how long the upload is by Upload-Length, or Upload-Defer-Length: 1");
+  return InvalidUpload("say how long the upload is by Upload-Length, or Upload-Defer-Length: 1");
 }
 
 Result<std::int64_t> ReadUploadOffset(const HttpRequest& request) {
   const std::string* field = request.Header("upload-offset");
-  if (field == nullptr) return Invalid("say by Upload-Offset where the bytes begin");
+  if (field == nullptr) return InvalidUpload("say by Upload-Offset where the bytes begin");
   return ReadNumber("Upload-Offset", *field);
 }
 
@@ -108,7 +108,8 @@ Result<UploadMetadata> ReadUploadMetadata(const HttpRequest& request) {
   const std::string* field = request.Header("upload-metadata");
   if (field == nullptr) return metadata;
   if (field->size() > kMostMetadata) {
-    return Invalid("Upload-Metadata has more than " + std::to_string(kMostMetadata) + " bytes");
+    return InvalidUpload("Upload-Metadata has more than " + std::to_string(kMostMetadata) +
+                         " bytes");
   }
   metadata.text = *field;
   std::map<std::string, std::string> values;
@@ -117,7 +118,7 @@ Result<UploadMetadata> ReadUploadMetadata(const HttpRequest& request) {
     Result<std::pair<std::string, std::string>> pair = ReadPair(Trimmed(rest.substr(0, comma)));
     if (!pair) return std::move(pair.error());
     if (!values.insert(*std::move(pair)).second) {
-      return Invalid("a key of Upload-Metadata is there twice");
+      return InvalidUpload("a key of Upload-Metadata is there twice");
     }
     rest.remove_prefix(std::min(comma + 1, rest.size()));
   }

@@ -202,9 +202,12 @@ std::vector<Route> UploadRoutes(const HandlerContext& context) {
       OptionsRoute(context, "/uploads", "POST, OPTIONS"),
       OptionsRoute(context, "/uploads/{id}", "GET, HEAD, PATCH, DELETE, OPTIONS"),
       {"POST", "/uploads",
-       [context](const HttpRequest& request) { return MakeUpload(context, request); }},
+       [context](const HttpRequest& request) { return MakeUpload(context, request); },
+       WaitsFor::kProcess},
       {"PATCH", "/uploads/{id}",
-       [context](const HttpRequest& request) { return PatchUpload(context, request); }},
+       [context](const HttpRequest& request) { return PatchUpload(context, request); },
+       // A body with a checksum is stored as a whole: who asks for a status does not wait for it.
+       WaitsFor::kProcess},
       BodylessRoute("GET", "/uploads/{id}",
                     [context](const HttpRequest& request) { return ShowUpload(context, request); }),
       BodylessRoute("DELETE", "/uploads/{id}", [context](const HttpRequest& request) {

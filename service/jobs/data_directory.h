@@ -16,12 +16,10 @@ struct DataDirectory {
   UniqueFd folder;
   UniqueFd lock;
   PreviousEnd previous_end = PreviousEnd::kKilled;  ///< of the process that had the lock before
-  std::filesystem::path shared_objects = {};        ///< empty: the objects are in this folder
 
   [[nodiscard]] std::filesystem::path Jobs() const { return root / "jobs.sqlite"; }
-  [[nodiscard]] std::filesystem::path Objects() const {
-    return shared_objects.empty() ? root / "objects" : shared_objects;
-  }
+  [[nodiscard]] std::filesystem::path Objects() const { return root / "objects"; }
+  [[nodiscard]] std::filesystem::path Cache() const { return root / "cache"; }
   [[nodiscard]] std::filesystem::path Spool() const { return root / "spool"; }
   [[nodiscard]] std::filesystem::path Work() const { return root / "work"; }
   [[nodiscard]] std::filesystem::path Reserve() const { return root / "reserve"; }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <memory>
+#include <postgresql/libpq-fe.h>
 #include <regex>
 #include <string_view>
 
@@ -26,7 +28,34 @@ void ReplaceAll(std::string& text, const std::string& old, std::string_view now)
   }
 }
 
+// libpq looks at ports, one for each host, only when it connects.
+std::string FaultOfPort(const PQconninfoOption* options) {
+  for (const PQconninfoOption* option = options; option->keyword != nullptr; ++option) {
+    if (std::string_view(option->keyword) != "port" || option->val == nullptr) continue;
+    const std::string ports = option->val;
+    if (ports.find_first_not_of("0123456789,") != std::string::npos) {
+      return "its port is \"" + ports + "\"";
+    }
+  }
+  return "";
+}
+
 }  // namespace
+
+Status CheckDatabaseUrl(const std::string& url) {
+  char* words = nullptr;
+  const std::unique_ptr<PQconninfoOption, void (*)(PQconninfoOption*)> options(
+      ::PQconninfoParse(url.c_str(), &words), ::PQconninfoFree);
+  std::string why = words == nullptr ? "" : WithoutPassword(words, url);
+  ::PQfreemem(words);
+  if (options && why.empty()) why = FaultOfPort(options.get());
+  if (options && why.empty()) return Ok{};
+  while (!why.empty() && why.back() == '\n') why.pop_back();
+  return Error{ErrorCode::kInvalidArgument,
+               "store.jobs is no URL of a PostgreSQL database (" + why +
+                   "); give one such as postgresql://USER@HOST/NAME?passfile=FILE",
+               "invalid-config"};
+}
 
 std::string WithoutPassword(const std::string& url) {
   // Names may be escaped, too.

@@ -2,7 +2,13 @@
 
 #include <string>
 
+#include "core/base/result.h"
+
 namespace farhorizon {
+
+/// Succeeds for what libpq understands. Errors: kInvalidArgument "invalid-config", with its words,
+/// without a password.
+Status CheckDatabaseUrl(const std::string& url);
 
 /// A connection URI or string of libpq without what may be a password: for people to read. Of one
 /// that libpq would not understand it leaves out more, never less.

@@ -49,7 +49,7 @@ Result<std::unique_ptr<JobService>> JobService::Open(JobServiceOptions options) 
   if (!memory) return memory.error();
   Result<DataDirectory> directory = OpenDataDirectory(options.data);
   if (!directory) return std::move(directory.error());
-  Result<Stores> stores = OpenStores(*directory, options.store);
+  Result<Stores> stores = OpenStores(*directory, options.store, 2 * options.min_free_bytes);
   if (!stores) return std::move(stores.error());
   std::unique_ptr<JobService> service(
       new JobService(std::move(options), *memory, *std::move(directory), *std::move(stores)));
@@ -68,7 +68,7 @@ JobService::JobService(JobServiceOptions options, const MemoryPlan& memory, Data
       jobs_(std::move(stores.jobs)),
       objects_(std::move(stores.objects)),
       collector_(*jobs_, *objects_),
-      health_(directory_, *jobs_, options_.min_free_bytes),
+      health_(directory_, *jobs_, *objects_, options_.min_free_bytes),
       reserve_(directory_.Reserve()),
       uploads_({*jobs_, *objects_, collector_, directory_.Spool()}, options_.uploads),
       probe_(directory_.Work(), options_.probe, options_.runner),
@@ -162,10 +162,10 @@ std::vector<ReadinessCheck> JobService::CheckReady() {
 
 Result<std::int64_t> JobService::FreeBytes() const {
   Result<std::int64_t> own = farhorizon::FreeBytes(directory_.root);
-  if (!own || directory_.shared_objects.empty()) return own;
-  Result<std::int64_t> shared = farhorizon::FreeBytes(directory_.shared_objects);
-  if (!shared) return shared;
-  return std::min(*own, *shared);
+  if (!own) return own;
+  Result<DiskRoom> room = objects_->Room();
+  if (!room) return std::move(room.error());
+  return std::min(*own, room->bytes);
 }
 
 void JobService::SetExpiry(Job& job) const {
@@ -207,11 +207,19 @@ Result<Job> JobService::Submit(const SpoolFile& upload, const Submission& submis
   return inserted;
 }
 
-std::shared_ptr<VerifiedObject> JobService::OpenSound(const StoredObject& stored) {
-  Result<OpenObject> object = objects_->Open(stored.sha256);
-  if (!object || object->bytes != stored.bytes) return nullptr;
-  auto verified = verifier_.Open(*std::move(object), stored.sha256);
-  return verified ? *std::move(verified) : nullptr;
+Result<std::shared_ptr<VerifiedObject>> JobService::OpenSound(const StoredObject& stored) {
+  // Twice, for a copy of it on this machine may be damaged, and the object not.
+  for (int tries = 0; tries < 2; ++tries) {
+    Result<OpenObject> object = objects_->Open(stored.sha256);
+    if (!object && IsMachineFault(object.error())) return std::move(object.error());
+    if (!object) break;
+    if (object->bytes == stored.bytes) {
+      auto verified = verifier_.Open(*std::move(object), stored.sha256);
+      if (verified) return verified;
+    }
+    objects_->Distrust(stored.sha256);
+  }
+  return std::shared_ptr<VerifiedObject>();
 }
 
 Result<OpenArtifact> JobService::Open(const std::string& id, const std::string& name,
@@ -223,13 +231,17 @@ Result<OpenArtifact> JobService::Open(const std::string& id, const std::string& 
     // A lost copy is no lost result.
     if (coding == Coding::kGzip && artifact.gzip) {
       const StoredObject copy = *artifact.gzip;
-      if (auto object = OpenSound(copy)) {
-        return OpenArtifact{std::move(artifact), Coding::kGzip, copy, std::move(object)};
+      auto object = OpenSound(copy);
+      if (!object) return std::move(object.error());
+      if (*object) {
+        return OpenArtifact{std::move(artifact), Coding::kGzip, copy, *std::move(object)};
       }
     }
     const StoredObject own{artifact.sha256, artifact.bytes};
-    if (auto object = OpenSound(own)) {
-      return OpenArtifact{std::move(artifact), Coding::kIdentity, own, std::move(object)};
+    auto object = OpenSound(own);
+    if (!object) return std::move(object.error());
+    if (*object) {
+      return OpenArtifact{std::move(artifact), Coding::kIdentity, own, *std::move(object)};
     }
     // If the job is gone by now, it was dismissed between the two calls. If not, the object is
     // lost.

@@ -129,7 +129,7 @@ class JobService {
   Result<bool> RetryCallback(const DueCallback& callback, std::chrono::milliseconds delay);
   Result<std::vector<Artifact>> Artifacts(const std::string& id) { return jobs_->Artifacts(id); }
   /// coding: in which the artifact is wanted; it is given as it is where there is no such copy.
-  /// Errors: kNotFound; kIo "result-corrupt" where the object is missing or damaged.
+  /// Errors: kNotFound; kIo "result-corrupt" where the object is missing or damaged; "storage".
   Result<OpenArtifact> Open(const std::string& id, const std::string& name, Coding coding);
   /// Dismisses the job, stops its worker and removes its objects: soon, where results of another
   /// are just being stored. Errors: kNotFound.
@@ -161,8 +161,8 @@ class JobService {
   JobService(JobServiceOptions options, const MemoryPlan& memory, DataDirectory directory,
              Stores stores);
   [[nodiscard]] QueueBounds Bounds() const;
-  /// nullptr where it is missing or damaged.
-  std::shared_ptr<VerifiedObject> OpenSound(const StoredObject& stored);
+  /// nullptr where it is missing or damaged. Errors: of the storage, which may have it.
+  Result<std::shared_ptr<VerifiedObject>> OpenSound(const StoredObject& stored);
   Status SortOut();
   void Begin();
   void SetExpiry(Job& job) const;

@@ -13,8 +13,8 @@
 #include <utility>
 
 #include "core/base/hex.h"
+#include "core/io/file.h"
 #include "core/io/posix_file.h"
-#include "core/io/sha256.h"
 #include "service/jobs/storage_file.h"
 #include "service/random.h"
 
@@ -25,21 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kFolderDigits = 2;
-
-// Copies all bytes of `from` to `to`; their SHA-256 and number.
-Result<StoredObject> CopyAndHash(int from, int to) {
-  Sha256 hash;
-  StoredObject object;
-  Status copied = ForEachPiece(from, "read", [&](std::string_view piece) -> Status {
-    hash.Add(piece);
-    object.bytes += static_cast<std::int64_t>(piece.size());
-    if (!WriteAll(to, piece)) return StorageError("write");
-    return Ok{};
-  });
-  if (!copied) return std::move(copied.error());
-  object.sha256 = hash.Finish().Hex();
-  return object;
-}
+constexpr std::uintmax_t kLargestLabel = 4096;
 
 // Adds the names of the objects that stand in `folder`.
 Status AddNames(const fs::path& folder, std::vector<std::string>& names) {
@@ -67,7 +53,7 @@ void RemoveOld(const fs::path& folder) {
 
 class LocalObjectStore : public ObjectStore {
  public:
-  explicit LocalObjectStore(fs::path root) : root_(std::move(root)) {}
+  LocalObjectStore(fs::path root, Sharing sharing) : root_(std::move(root)), sharing_(sharing) {}
 
   Result<StoredObject> PutFile(const fs::path& file) override;
   void Keep(const std::vector<std::string>& names) override;
@@ -77,6 +63,11 @@ class LocalObjectStore : public ObjectStore {
   Status SetAside(const std::string& sha256) override;
   Status TakeBack(const std::string& sha256) override;
   Result<std::vector<std::string>> List(ObjectList which) override;
+  Result<std::string> Label() override { return ReadFile(LabelFile(), kLargestLabel); }
+  Status SetLabel(const std::string& label) override;
+  Result<std::string> ClaimLabel(const std::string& label) override;
+  Status CheckWrites() override;
+  Result<DiskRoom> Room() override { return RoomOf(root_); }
 
  private:
   [[nodiscard]] fs::path PathOf(const std::string& sha256) const {
@@ -85,10 +76,14 @@ class LocalObjectStore : public ObjectStore {
   [[nodiscard]] fs::path IncomingName(const std::string& sha256) const {
     return root_ / "incoming" / sha256;
   }
+  [[nodiscard]] fs::path LabelFile() const { return root_ / "identity"; }
+  // The error for an object that is not there: of the object, or of all where the folder is gone.
+  [[nodiscard]] Error Missing() const;
   Status Place(const fs::path& temp, const std::string& sha256);
   Status Move(const fs::path& from, const fs::path& to);
 
   fs::path root_;
+  Sharing sharing_;
   // What other processes name theirs otherwise by.
   const std::string temp_prefix_ = ToHex(RandomBytes()) + "-";
   std::atomic<std::int64_t> next_temp_{0};
@@ -128,10 +123,19 @@ void LocalObjectStore::Keep(const std::vector<std::string>& names) {
 Result<OpenObject> LocalObjectStore::Open(const std::string& sha256) {
   if (!IsSha256(sha256)) return Error{ErrorCode::kNotFound, "no such object"};
   Result<UniqueFd> fd = OpenForReading(PathOf(sha256));
+  if (!fd && fd.error().code == ErrorCode::kNotFound) return Missing();
   if (!fd) return std::move(fd.error());
   struct stat info {};
   if (::fstat(fd->get(), &info) != 0) return StorageError("look at an object");
   return OpenObject{*std::move(fd), info.st_size};
+}
+
+Error LocalObjectStore::Missing() const {
+  if (::access((root_ / "incoming").c_str(), F_OK) == 0) {
+    return Error{ErrorCode::kNotFound, "no such object"};
+  }
+  return Error{ErrorCode::kIo,
+               "the folder of objects " + root_.string() + " is gone; mount it again", "storage"};
 }
 
 Status LocalObjectStore::CopyTo(const std::string& sha256, const fs::path& target) {
@@ -182,6 +186,33 @@ Result<std::vector<std::string>> LocalObjectStore::List(ObjectList which) {
   return names;
 }
 
+Status LocalObjectStore::SetLabel(const std::string& label) {
+  Status written = WriteFile(LabelFile(), label);
+  std::error_code ignored;  // the folder is for its owner alone, too
+  fs::permissions(LabelFile(), fs::perms::owner_read | fs::perms::owner_write, ignored);
+  return written;
+}
+
+Result<std::string> LocalObjectStore::ClaimLabel(const std::string& label) {
+  const fs::path own = root_ / "temp" / (temp_prefix_ + "label");
+  Status written = WriteFile(own, label);
+  if (!written) return std::move(written.error());
+  const bool claimed = ::link(own.c_str(), LabelFile().c_str()) == 0 || errno == EEXIST;
+  const Error failed = StorageError("name the objects' owner");
+  ::unlink(own.c_str());
+  if (!claimed) return failed;
+  Status synced = SyncFolder(root_);
+  if (!synced) return std::move(synced.error());
+  return Label();
+}
+
+// Of a folder that is this process's own, the data directory's probe says as much.
+Status LocalObjectStore::CheckWrites() {
+  if (sharing_ == Sharing::kOneProcess) return Ok{};
+  // In temp, what is left goes after a day.
+  return ProbeFolder(root_ / "temp", "-" + temp_prefix_);
+}
+
 Status LocalObjectStore::Move(const fs::path& from, const fs::path& to) {
   if (::mkdir(to.parent_path().c_str(), 0700) == 0) {
     Status synced = SyncFolder(root_);
@@ -216,7 +247,7 @@ Result<std::unique_ptr<ObjectStore>> OpenLocalObjectStore(const fs::path& root, 
     Status synced = SyncFolder(folder);
     if (!synced) return std::move(synced.error());
   }
-  return std::unique_ptr<ObjectStore>(std::make_unique<LocalObjectStore>(root));
+  return std::unique_ptr<ObjectStore>(std::make_unique<LocalObjectStore>(root, sharing));
 }
 
 }  // namespace farhorizon

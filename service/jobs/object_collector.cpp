@@ -17,14 +17,13 @@ Status ObjectCollector::RemoveUnder(const Result<std::unique_ptr<ObjectLock>>& h
 }
 
 Status ObjectCollector::RemoveEach(const std::vector<std::string>& names) {
+  std::vector<std::string> unreferenced;
   for (const std::string& name : names) {
     Result<bool> referenced = jobs_.IsReferenced(name);
     if (!referenced) return std::move(referenced.error());
-    if (*referenced) continue;
-    Status removed = objects_.Remove(name);
-    if (!removed) return removed;
+    if (!*referenced) unreferenced.push_back(name);
   }
-  return Ok{};
+  return objects_.RemoveAll(unreferenced);
 }
 
 Status ObjectCollector::RemoveUnacknowledged() {
@@ -40,11 +39,7 @@ Status ObjectCollector::RemoveUnacknowledged() {
   Result<std::vector<std::string>> unnamed = Select(ObjectList::kIncoming, false);
   if (!unnamed) return std::move(unnamed.error());
   objects_.Keep(*named);
-  for (const std::string& name : *unnamed) {
-    Status removed = objects_.Remove(name);
-    if (!removed) return removed;
-  }
-  return Ok{};
+  return objects_.RemoveAll(*unnamed);
 }
 
 Status ObjectCollector::RemoveGarbage() {

@@ -7,6 +7,7 @@
 
 #include "core/base/result.h"
 #include "core/io/unique_fd.h"
+#include "service/jobs/storage_file.h"
 
 namespace farhorizon {
 
@@ -59,12 +60,33 @@ class ObjectStore {
 
   /// Removes the object if the store has it.
   virtual Status Remove(const std::string& sha256) = 0;
+  /// The same for many: all but some are gone where it fails.
+  virtual Status RemoveAll(const std::vector<std::string>& names);
   /// Makes the object a stray.
   virtual Status SetAside(const std::string& sha256) = 0;
   /// Makes a stray an object again.
   virtual Status TakeBack(const std::string& sha256) = 0;
   virtual Result<std::vector<std::string>> List(ObjectList which) = 0;
+
+  /// Says that the bytes that Open gave are not those of the name: a store that keeps copies gets
+  /// the object anew the next time.
+  virtual void Distrust(const std::string& /*sha256*/) {}
+
+  /// A line of text beside the objects, which says whose they are. Errors: kNotFound.
+  virtual Result<std::string> Label() = 0;
+  virtual Status SetLabel(const std::string& label) = 0;
+  /// Sets the label where there is none. Returns the one that is there afterwards: of several that
+  /// call this at once, all get the same.
+  virtual Result<std::string> ClaimLabel(const std::string& label) = 0;
+
+  /// Succeeds if an object can be stored now, or could some seconds ago. Errors: those of PutFile.
+  virtual Status CheckWrites() = 0;
+  /// What the storage has left. Cost: no write.
+  virtual Result<DiskRoom> Room() = 0;
 };
+
+/// Copies all bytes of `from` to `to`; their SHA-256 and number. Errors: those of StorageError.
+Result<StoredObject> CopyAndHash(int from, int to);
 
 /// True for a SHA-256 in lower-case hexadecimal.
 bool IsSha256(const std::string& text);

@@ -19,14 +19,14 @@ constexpr std::int64_t kMaxRestarts = 1;
 // Full jitter (a delay from 0 to a bound that doubles): what a fault has stopped at one time does
 // not come back at one time. Half a minute is soon enough for a disk that an operator has cleared.
 constexpr std::int64_t kFirstDelayMs = 1000;
-constexpr std::int64_t kLongestDelayMs = 30'000;
+constexpr std::int64_t kLongestRetryDelayMs = 30'000;
 // Of a fault that only the worker has seen. It may be true (a file system that is full for a
 // moment) or a lie of a worker that a file has taken over.
 constexpr std::int64_t kMostBelieved = 8;
 
 std::int64_t DelayMs(std::int64_t retries) {
   const std::int64_t doublings = std::min<std::int64_t>(retries, 10);
-  const std::int64_t most = std::min(kLongestDelayMs, kFirstDelayMs << doublings);
+  const std::int64_t most = std::min(kLongestRetryDelayMs, kFirstDelayMs << doublings);
   const auto bytes = RandomBytes();
   return (bytes[0] + 256 * bytes[1]) * most / 65536;
 }

@@ -23,6 +23,8 @@ class SpoolFile {
   /// Appends `bytes`. Errors: as Create.
   Status Write(std::string_view bytes);
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  /// For those who write without Write; bytes() and beginning() do not count that.
+  [[nodiscard]] int fd() const { return fd_.get(); }
   [[nodiscard]] std::int64_t bytes() const { return bytes_; }
   /// The first bytes, at most 4096: enough to recognise a raster format.
   [[nodiscard]] const std::string& beginning() const { return beginning_; }

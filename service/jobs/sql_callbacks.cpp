@@ -9,7 +9,7 @@ namespace farhorizon {
 namespace {
 
 // No call is put off for longer: a later time was written before the clock went back.
-constexpr std::int64_t kLongestDelayMs = std::int64_t{2} * 3600 * 1000;
+constexpr std::int64_t kLongestCallDelayMs = std::int64_t{2} * 3600 * 1000;
 
 constexpr const char* kThisClaim =
     " WHERE job_id = ? AND event = ? AND state = 'due' AND attempts = ?";
@@ -60,7 +60,7 @@ std::optional<DueCallback> ClaimCallback(SqlDatabase& database, std::chrono::mil
                                          std::int64_t now_ms) {
   const std::string now = Now(database, now_ms);
   const std::string due = " FROM callbacks WHERE state = 'due' AND (due_ms <= " + now +
-                          " OR due_ms > " + now + " + " + std::to_string(kLongestDelayMs) +
+                          " OR due_ms > " + now + " + " + std::to_string(kLongestCallDelayMs) +
                           ") ORDER BY due_ms LIMIT 1";
   // Without a transaction where there is nothing to do, as nearly always.
   if (!Statement(database, "SELECT 1" + due).Step()) return std::nullopt;

@@ -14,7 +14,7 @@ namespace farhorizon {
 namespace {
 
 // No job is postponed for longer: a later time was written before the clock went back.
-constexpr std::int64_t kLongestDelayMs = std::int64_t{3600} * 1000;
+constexpr std::int64_t kLongestClaimDelayMs = std::int64_t{3600} * 1000;
 // So long a job that must run alone, or that there is no memory for, lets others pass. Any value is
 // sound; this one is a small part of the longest job's time.
 constexpr std::int64_t kLongestPatienceMs = std::int64_t{600} * 1000;
@@ -119,7 +119,7 @@ class Claim {
       oldest.Bind(room_.most_bytes).Bind(room_.most_bytes).Bind(room_.free_bytes);
     };
     bind_fits();
-    oldest.Bind(client).Bind(now_ms_).Bind(now_ms_ + kLongestDelayMs);
+    oldest.Bind(client).Bind(now_ms_).Bind(now_ms_ + kLongestClaimDelayMs);
     oldest.Bind(now_ms_).Bind(now_ms_ - kLongestPatienceMs);
     bind_fits();
     if (!oldest.Step()) return std::nullopt;

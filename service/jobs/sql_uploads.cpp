@@ -7,7 +7,7 @@ namespace farhorizon {
 
 namespace {
 
-constexpr std::int64_t kMostRemoved = 100;
+constexpr std::int64_t kMostUploadsRemoved = 100;
 
 constexpr const char* kColumns =
     "id, owner, client, filename, media_type, metadata, bytes, offset_bytes, turn, sha256, "
@@ -170,7 +170,7 @@ std::int64_t RemoveExpiredUploads(const SqlDatabase& database, std::int64_t now_
   {
     Statement rows(database, "SELECT id FROM uploads WHERE expires_ms <= ? LIMIT ?" +
                                  database.dialect().lock_free);
-    rows.Bind(now_ms).Bind(kMostRemoved);
+    rows.Bind(now_ms).Bind(kMostUploadsRemoved);
     while (rows.Step()) ids.push_back(rows.Text(0));
   }
   for (const std::string& id : ids) RemoveUpload(database, id);

@@ -17,6 +17,7 @@ namespace farhorizon {
 namespace {
 
 constexpr std::size_t kCopiedAtOnce = std::size_t{1} << 18U;
+constexpr std::size_t kProbeBytes = 4096;
 
 }  // namespace
 
@@ -70,18 +71,35 @@ bool IsMachineFault(const Error& error) {
          error.kind == "worker-not-started" || error.kind == "data-directory";
 }
 
-Result<std::int64_t> FreeBytes(const std::filesystem::path& path) {
+Result<DiskRoom> RoomOf(const std::filesystem::path& path) {
   struct statvfs info {};
   if (::statvfs(path.c_str(), &info) != 0) return StorageError("look at the disk");
-  const auto most = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
-  return static_cast<std::int64_t>(std::min<std::uint64_t>(info.f_bavail * info.f_frsize, most));
+  constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
+  const auto bytes = std::min<std::uint64_t>(info.f_bavail * info.f_frsize, kMost);
+  return DiskRoom{static_cast<std::int64_t>(bytes),
+                  info.f_files == 0 ? kMost : static_cast<std::int64_t>(info.f_favail)};
 }
 
-Result<std::int64_t> FreeFiles(const std::filesystem::path& path) {
-  struct statvfs info {};
-  if (::statvfs(path.c_str(), &info) != 0) return StorageError("look at the disk");
-  if (info.f_files == 0) return std::numeric_limits<std::int64_t>::max();
-  return static_cast<std::int64_t>(info.f_favail);
+Result<std::int64_t> FreeBytes(const std::filesystem::path& path) {
+  Result<DiskRoom> room = RoomOf(path);
+  if (!room) return std::move(room.error());
+  return room->bytes;
+}
+
+Status ProbeFolder(const std::filesystem::path& folder, const std::string& name) {
+  const std::filesystem::path probe = folder / ("probe" + name);
+  const std::filesystem::path renamed = folder / ("probed" + name);
+  const UniqueFd file(::open(probe.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600));
+  if (!file) return StorageError("make a file");
+  Status written = Ok{};
+  if (!WriteAll(file.get(), std::string(kProbeBytes, 'x'))) {
+    written = StorageError("write");
+  } else if (written = SyncFile(file.get(), "sync a file"); written) {
+    if (::rename(probe.c_str(), renamed.c_str()) != 0) written = StorageError("rename a file");
+  }
+  ::unlink(probe.c_str());
+  ::unlink(renamed.c_str());
+  return written;
 }
 
 }  // namespace farhorizon

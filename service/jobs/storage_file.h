@@ -33,9 +33,18 @@ Status SyncFolder(const std::filesystem::path& folder);
 /// memory, no descriptor, no process. The work may succeed later as it is.
 bool IsMachineFault(const Error& error);
 
+/// What an ordinary user may still write on a file system.
+struct DiskRoom {
+  std::int64_t bytes = 0;
+  std::int64_t files = 0;  ///< a great number where the file system has no such bound
+};
+/// The room on the file system of `path`.
+Result<DiskRoom> RoomOf(const std::filesystem::path& path);
 /// Bytes that an ordinary user may still write on the file system of `path`.
 Result<std::int64_t> FreeBytes(const std::filesystem::path& path);
-/// Files that may still be made there; a great number where the file system has no such bound.
-Result<std::int64_t> FreeFiles(const std::filesystem::path& path);
+
+/// Succeeds if a file of the folder can be written, made durable and renamed. Leaves none, but
+/// where the process is killed: its name starts with "probe". Errors: those of StorageError.
+Status ProbeFolder(const std::filesystem::path& folder, const std::string& name = "");
 
 }  // namespace farhorizon

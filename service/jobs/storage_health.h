@@ -7,41 +7,38 @@
 #include <optional>
 #include <string>
 
-#include "core/base/hex.h"
 #include "core/base/result.h"
 #include "service/jobs/data_directory.h"
 #include "service/jobs/job_store.h"
-#include "service/random.h"
+#include "service/jobs/object_store.h"
 
 namespace farhorizon {
 
-/// Whether the disk under the data directory, and that under objects which are elsewhere, keeps
-/// what is written, and has room.
+/// Whether the disk under the data directory, and the storage of objects, keep what is written, and
+/// have room.
 /// Threads: safe.
 class StorageHealth {
  public:
-  /// min_free_bytes: room that uploads leave. Requires: directory and store outlive this object.
-  StorageHealth(const DataDirectory& directory, JobStore& jobs, std::int64_t min_free_bytes)
-      : directory_(directory),
-        jobs_(jobs),
-        min_free_bytes_(min_free_bytes),
-        name_(directory.shared_objects.empty() ? "" : "-" + ToHex(RandomBytes())) {}
+  /// min_free_bytes: room that uploads leave. Requires: directory and stores outlive this object.
+  StorageHealth(const DataDirectory& directory, JobStore& jobs, ObjectStore& objects,
+                std::int64_t min_free_bytes)
+      : directory_(directory), jobs_(jobs), objects_(objects), min_free_bytes_(min_free_bytes) {}
 
   /// Succeeds if there is room for one more job. Cost: no write.
-  /// Errors: kResourceExhausted "no-space"; kIo "data-directory" where the lock went.
+  /// Errors: kResourceExhausted "no-space"; kIo "data-directory" where the lock went, "storage".
   Status CheckRoom() const;
-  /// Succeeds if a file of the data directory and a row of the job store can be written durably,
-  /// now or within the last half second. Errors: those of the storage, with the reason.
+  /// Succeeds if a file of the data directory, an object, and a row of the job store can be written
+  /// durably, now or within the last half second; an object in a bucket, within ten seconds.
+  /// Errors: those of the storage, with the reason.
   Status CheckWrites();
 
  private:
-  [[nodiscard]] Status CheckRoomIn(const std::filesystem::path& folder, const char* disk) const;
-  [[nodiscard]] Status WriteAndSync(const std::filesystem::path& folder) const;
+  [[nodiscard]] Status CheckRoomIn(const Result<DiskRoom>& room, const char* disk) const;
 
   const DataDirectory& directory_;
   JobStore& jobs_;
+  ObjectStore& objects_;
   std::int64_t min_free_bytes_;
-  const std::string name_;  // of files that this process alone writes; empty: in its own folder
   std::mutex mutex_;
   std::optional<Status> last_;
   std::chrono::steady_clock::time_point at_;

@@ -39,13 +39,20 @@ bool AnyObject(const fs::path& objects) {
 
 }  // namespace
 
-std::optional<StoreIdentity> ReadIdentity(const DataDirectory& directory) {
-  Result<std::string> text = ReadFile(IdentityFile(directory), kLargestIdentity);
-  if (!text) return std::nullopt;
-  std::istringstream words(*text);
+std::string WriteText(const StoreIdentity& identity) {
+  return identity.id + " " + std::to_string(identity.generation) + "\n";
+}
+
+std::optional<StoreIdentity> ParseIdentity(const std::string& text) {
+  std::istringstream words(text);
   StoreIdentity identity;
   if (words >> identity.id >> identity.generation) return identity;
   return std::nullopt;
+}
+
+std::optional<StoreIdentity> ReadIdentity(const DataDirectory& directory) {
+  Result<std::string> text = ReadFile(IdentityFile(directory), kLargestIdentity);
+  return text ? ParseIdentity(*text) : std::nullopt;
 }
 
 Status CheckDatabaseIsThere(const DataDirectory& directory) {
@@ -81,19 +88,15 @@ Status CheckSameStore(const DataDirectory& directory, JobStore& jobs, ObjectStor
   Result<JobPage> newest = jobs.List({{JobState::kSuccessful, JobState::kAccepted}, {}, 1});
   if (!newest) return std::move(newest.error());
   if (newest->jobs.empty() || objects.Open(newest->jobs[0].input_sha256)) return Ok{};
-  const std::string gone =
-      "the uploads and results of its jobs are gone from " + directory.Objects().string();
-  if (!directory.shared_objects.empty()) {
-    return Unusable(gone, "mount or restore that folder, or give the right one (store.objects)");
-  }
-  return Unusable(gone, "mount or restore that folder; or let `farhorizon fsck " +
-                            directory.root.string() +
-                            " --repair` fail the jobs that have lost theirs");
+  return Unusable(
+      "the uploads and results of its jobs are gone from " + directory.Objects().string(),
+      "mount or restore that folder; or let `farhorizon fsck " + directory.root.string() +
+          " --repair` fail the jobs that have lost theirs");
 }
 
 Status WriteIdentity(const DataDirectory& directory, const StoreIdentity& identity) {
   const fs::path file = IdentityFile(directory);
-  Status written = WriteFile(file, identity.id + " " + std::to_string(identity.generation) + "\n");
+  Status written = WriteFile(file, WriteText(identity));
   std::error_code ignored;  // the folder is for its owner alone, too
   fs::permissions(file, fs::perms::owner_read | fs::perms::owner_write, ignored);
   return written;

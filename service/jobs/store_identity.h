@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "core/base/result.h"
 #include "service/jobs/data_directory.h"
@@ -21,6 +22,10 @@ Status CheckDatabaseIsThere(const DataDirectory& directory);
 /// which they were used with last.
 /// Errors: kIo "job-store-unusable", with the remedy.
 Status CheckSameStore(const DataDirectory& directory, JobStore& jobs, ObjectStore& objects);
+
+/// An identity as a line of text, and back; nullopt for any other text.
+std::string WriteText(const StoreIdentity& identity);
+std::optional<StoreIdentity> ParseIdentity(const std::string& text);
 
 /// The identity beside the objects; nullopt where there is none that can be read.
 std::optional<StoreIdentity> ReadIdentity(const DataDirectory& directory);

@@ -61,20 +61,24 @@ Result<std::int64_t> UploadService::RemoveExpired(std::int64_t now_ms) {
 }
 
 Status UploadService::CopyTo(const Upload& upload, SpoolFile& to) {
-  if (!upload.sha256.empty()) return AppendObject(stores_.objects, upload.sha256, to);
-  std::vector<UploadPart> parts;
+  // Another job may take the parts over meanwhile: they stay until the copy is done.
+  const auto pin = stores_.collector.Pin();
+  if (!pin) return pin.error();
+  std::vector<std::string> objects;
   Status read = stores_.jobs.Transact([&](SqlDatabase& database) -> Status {
-    parts = SelectParts(database, upload.id);
+    objects.clear();
+    const std::optional<Upload> now = SelectUpload(database, upload.id, NowMs());
+    if (!now) return NoSuchUpload();
+    if (!now->sha256.empty()) objects.push_back(now->sha256);
+    for (const UploadPart& part : SelectParts(database, upload.id)) objects.push_back(part.sha256);
     return Ok{};
   });
   if (!read) return read;
-  for (const UploadPart& part : parts) {
-    Status copied = AppendObject(stores_.objects, part.sha256, to);
+  for (const std::string& object : objects) {
+    Status copied = AppendObject(stores_.objects, object, to);
     if (!copied) return copied;
   }
-  if (to.bytes() == upload.offset) return Ok{};
-  // A job or a client has taken the parts meanwhile.
-  return Error{ErrorCode::kResourceExhausted, "the upload has just changed; try again"};
+  return Ok{};
 }
 
 Status UploadService::Settle(const std::string& id, const StoredObject& whole) {

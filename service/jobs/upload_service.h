@@ -34,7 +34,8 @@ class UploadService {
   /// Removes those whose time has passed, at most a hundred; returns how many.
   Result<std::int64_t> RemoveExpired(std::int64_t now_ms);
 
-  /// Appends the bytes of a complete upload to a file. Errors: kIo "input-corrupt".
+  /// Appends the bytes of a complete upload to a file. Errors: kIo "input-corrupt"; kNotFound
+  /// "no-such-upload".
   Status CopyTo(const Upload& upload, SpoolFile& to);
   /// Lets the object of a job be the upload's, in place of its parts.
   /// Requires: objects are pinned, and a row names this one.

@@ -26,6 +26,17 @@ Status AppendFile(int from, SpoolFile& to) {
                       [&to](std::string_view piece) { return to.Write(piece); });
 }
 
+// False where another request has the turn: parts that are gone are no damage then.
+bool WithTurn(JobStore& jobs, const Upload& upload) {
+  bool same = true;
+  const Status read = jobs.Transact([&](SqlDatabase& database) -> Status {
+    const std::optional<Upload> now = SelectUpload(database, upload.id, NowMs());
+    same = now && now->turn == upload.turn;
+    return Ok{};
+  });
+  return same || !read;
+}
+
 }  // namespace
 
 Status AppendObject(ObjectStore& objects, const std::string& sha256, SpoolFile& to) {
@@ -76,7 +87,8 @@ Status UploadWriter::Store() {
   SpoolFile spool = *std::move(spool_);
   spool_.reset();
   Result<SpoolFile> part = Joined(std::move(spool));
-  return part ? StorePart(*std::move(part)) : Status(std::move(part.error()));
+  if (part) return StorePart(*std::move(part));
+  return WithTurn(stores_.jobs, upload_) ? Status(std::move(part.error())) : UploadOffsetMismatch();
 }
 
 Result<SpoolFile> UploadWriter::Joined(SpoolFile spool) {

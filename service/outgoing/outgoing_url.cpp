@@ -13,7 +13,7 @@ namespace farhorizon {
 
 namespace {
 
-constexpr std::size_t kMostBytes = 4096;
+constexpr std::size_t kMostUrlBytes = 4096;
 
 using Handle = std::unique_ptr<CURLU, decltype(&curl_url_cleanup)>;
 
@@ -58,7 +58,7 @@ bool IsAmbiguous(const std::string& path) {
 }  // namespace
 
 Result<OutgoingUrl> ReadOutgoingUrl(const std::string& text) {
-  if (text.size() > kMostBytes) return Refused("the URL is longer than 4096 characters");
+  if (text.size() > kMostUrlBytes) return Refused("the URL is longer than 4096 characters");
   const bool plain = std::all_of(text.begin(), text.end(),
                                  [](char c) { return c > ' ' && c < '\x7f' && c != '\\'; });
   if (!plain) {

@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::string_view kPrefix = "whsec_";
 constexpr std::uintmax_t kLargestFile = 65536;
-constexpr std::size_t kLeastBytes = 24;
-constexpr std::size_t kMostBytes = 64;
+constexpr std::size_t kLeastSecretBytes = 24;
+constexpr std::size_t kMostSecretBytes = 64;
 
 Error Unusable(const std::string& why) {
   return {
@@ -38,7 +38,8 @@ Result<std::vector<std::string>> ReadSecrets(const std::string& file) {
     std::string secret;
     Base64Decoder decoder;
     if (!line.starts_with(kPrefix) || !decoder.Feed(line.substr(kPrefix.size()), secret) ||
-        !decoder.MayEnd() || secret.size() < kLeastBytes || secret.size() > kMostBytes) {
+        !decoder.MayEnd() || secret.size() < kLeastSecretBytes ||
+        secret.size() > kMostSecretBytes) {
       return Unusable("has a line that is not whsec_ and 24 to 64 bytes in base64");
     }
     secrets.push_back(std::move(secret));

@@ -2,117 +2,13 @@
 // where Debian's postgresql-15 is not installed.
 #include <algorithm>
 #include <csignal>
-#include <map>
-#include <optional>
 
-#include "tests/support/postgres_server.h"
-#include "tests/support/service_fixture.h"
+#include "tests/support/machines_fixture.h"
 
 namespace farhorizon {
 namespace {
 
 using nlohmann::json;
-
-class ManyMachinesE2e : public testing::Test {
- protected:
-  struct Machine {
-    std::unique_ptr<Process> process;
-    std::uint16_t port = 0;
-  };
-
-  void SetUp() override {
-    if (!PostgresServer::IsInstalled()) GTEST_SKIP() << "no postgresql-15";
-    server_ = std::make_unique<PostgresServer>();
-    url_ = server_->NewDatabase();
-  }
-  // role: "serve" or "work". Each process has a data folder of its own, named as it is.
-  void Start(const std::string& name, const std::string& role) {
-    const std::vector<std::string> words = {FARHORIZON_PROGRAM, role,
-                                            "--listen",         "127.0.0.1:0",
-                                            "--data",           (folder_ / name).string(),
-                                            "--workers",        "1",
-                                            "--database",       url_,
-                                            "--objects",        (folder_ / "objects").string()};
-    const std::vector<std::string> settings = {
-        std::string("FARHORIZON_WORKER_PROGRAM=") + STAND_IN_WORKER,
-        "FARHORIZON_STORE_LEASE_SECONDS=3"};
-    Machine& machine = machines_[name];
-    machine.process = std::make_unique<Process>(words, settings, LogOf(name));
-    machine.port = PortOf(LogOf(name));
-    ASSERT_NE(machine.port, 0) << SlurpFile(LogOf(name));
-  }
-  [[nodiscard]] std::filesystem::path LogOf(const std::string& name) const {
-    return folder_ / (name + ".log");
-  }
-  RawAnswer Send(const std::string& name, const std::string& file,
-                 const std::string& headers = "") {
-    return Ask(machines_[name].port, "POST", "/jobs?crs=EPSG:4326&filename=" + file,
-               "Content-Type: application/octet-stream\r\n" + headers, SmallGrid());
-  }
-  std::string Submit(const std::string& name, const std::string& file) {
-    const RawAnswer answer = Send(name, file);
-    EXPECT_EQ(answer.status, 201) << answer.head << answer.body;
-    return answer.status == 201 ? json::parse(answer.body).value("jobID", "") : "";
-  }
-  std::string StateOf(const std::string& name, const std::string& id) {
-    const RawAnswer answer = Ask(machines_[name].port, "GET", "/jobs/" + id);
-    return answer.status == 200 ? json::parse(answer.body).value("status", "") : "";
-  }
-  std::string WaitForEnd(const std::string& name, const std::string& id) {
-    std::string state;
-    for (int tries = 0; tries < 1200; ++tries) {
-      state = StateOf(name, id);
-      if (state != "accepted" && state != "running" && !state.empty()) break;
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    }
-    return state;
-  }
-  // How many lines of a process's log have this message, of this job.
-  [[nodiscard]] int Said(const std::string& name, const std::string& message,
-                         const std::string& id) const {
-    std::ifstream log(LogOf(name));
-    int count = 0;
-    for (std::string line; std::getline(log, line);) {
-      const json entry = json::parse(line, nullptr, false);
-      if (!entry.is_object() || entry.value("msg", "") != message) continue;
-      count += entry.value("job_id", "") == id ? 1 : 0;
-    }
-    return count;
-  }
-  // The process that runs the job; "" where none has begun within half a minute.
-  std::string RunnerOf(const std::string& id) {
-    for (int tries = 0; tries < 600; ++tries) {
-      for (const auto& [name, machine] : machines_) {
-        if (machine.process && Said(name, "job starts", id) > 0) return name;
-      }
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    }
-    return "";
-  }
-  void Kill(const std::string& name) {
-    Process& process = *machines_[name].process;
-    process.Signal(SIGKILL);
-    EXPECT_EQ(process.Wait(), 128 + SIGKILL);
-    machines_[name].process.reset();
-  }
-  int SuccessesOf(const std::string& id) {
-    int count = 0;
-    for (const auto& [name, machine] : machines_) count += Said(name, "job successful", id);
-    return count;
-  }
-  // A process that still serves.
-  std::string Server() {
-    for (const auto& [name, machine] : machines_) {
-      if (machine.process && name != "worker") return name;
-    }
-    return "";
-  }
-
-  TempDir folder_;
-  std::unique_ptr<PostgresServer> server_;
-  std::string url_;
-  std::map<std::string, Machine> machines_;
-};
 
 TEST_F(ManyMachinesE2e, AKilledProcessCostsALeaseAndItsJobEndsSuccessfulOnce) {
   Start("ada", "serve");
@@ -223,9 +119,15 @@ TEST_F(ManyMachinesE2e, ADatabaseThatIsDownIs503AndNothingIsLost) {
 TEST_F(ManyMachinesE2e, IsNotReadyWithoutTheFolderOfObjects) {
   Start("ada", "serve");
   EXPECT_EQ(Ask(machines_["ada"].port, "GET", "/readyz").status, 200);
+  const std::string id = Submit("ada", "good.asc");
+  ASSERT_EQ(WaitForEnd("ada", id), "successful");
   std::filesystem::rename(folder_ / "objects", folder_ / "away");
   std::this_thread::sleep_for(std::chrono::seconds(1));  // longer than an answer is good for
   EXPECT_EQ(Ask(machines_["ada"].port, "GET", "/readyz").status, 503);
+  const RawAnswer refused = Send("ada", "good.asc");
+  EXPECT_EQ(refused.status, 503) << refused.body;
+  EXPECT_NE(refused.head.find("Retry-After"), std::string::npos) << refused.head;
+  EXPECT_EQ(Ask(machines_["ada"].port, "GET", "/jobs/" + id + "/results/report.json").status, 503);
   std::filesystem::rename(folder_ / "away", folder_ / "objects");
   std::this_thread::sleep_for(std::chrono::seconds(1));
   EXPECT_EQ(Ask(machines_["ada"].port, "GET", "/readyz").status, 200);

@@ -24,6 +24,7 @@ CASES = {"kills": kills.run, "crash_points": crash_points.run, "disk": disk.run,
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--seed", type=int, default=int(time.time()) % 100000, help="what a failure names")
+    parser.add_argument("--folder", action="store_true", help="machines: objects in a folder, not in a bucket")
 
 
 if __name__ == "__main__":

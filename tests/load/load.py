@@ -15,12 +15,13 @@ import overload  # noqa: E402
 import poll  # noqa: E402
 import slow  # noqa: E402
 import soak  # noqa: E402
+import storage  # noqa: E402
 import submit  # noqa: E402
 import tiles  # noqa: E402
 
 LOADS = {"poll": poll.run, "submit": submit.run, "overload": overload.run, "slow": slow.run, "bodies": bodies.run,
-         "tiles": tiles.run, "events": events.run, "machines": machines.run,
-         "nodes": nodes.run, "soak": soak.run}
+         "tiles": tiles.run, "events": events.run, "machines": machines.run, "nodes": nodes.run,
+         "storage": storage.run, "soak": soak.run}
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:

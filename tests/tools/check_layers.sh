@@ -76,7 +76,9 @@ declare -A may=(
   [service/outgoing]="core/base core/io service"
   # Keys: who sends a request, and what they may.
   [service/auth]="core/base core/io service"
-  [service/jobs]="core/base core/io core/pipeline service service/worker service/worker/sandbox service/worker/spawner"
+  # S3-compatible storage: it knows requests and keys, and no jobs.
+  [service/s3]="core/base core/io service"
+  [service/jobs]="core/base core/io core/pipeline service service/s3 service/worker service/worker/sandbox service/worker/spawner"
   # Looks at the data directory of a stopped service.
   [service/jobs/fsck]="core/base core/io service service/auth service/jobs"
   # What web pages consist of: their texts, and the files of CesiumJS.
@@ -84,7 +86,7 @@ declare -A may=(
   [service/handlers]="core/base core/io core/io/file_kind core/pipeline service service/auth service/jobs service/outgoing service/pages"
   [service/http]="core/base service service/handlers"
   # The configuration consists of the options of the parts, so it stands above them.
-  [service/config]="core/base service service/auth service/worker service/jobs service/outgoing service/http"
+  [service/config]="core/base service service/auth service/s3 service/worker service/jobs service/outgoing service/http"
   [service/cli]="core/base core/geo core/io core/pipeline core/pipeline/build service service/auth service/worker service/worker/sandbox service/worker/spawner service/jobs service/jobs/fsck service/outgoing service/handlers service/http service/pages core/pipeline/verify core/pipeline/compare core/horizon core/horizon/search service/config"
   [service/main.cpp]="core/base service service/cli"
 )
@@ -93,7 +95,7 @@ declare -A may=(
 # The first row that matches decides; a header with a dot or a slash that is in no row is an offence,
 # so that a new dependency has to be entered here.
 foreign=(
-  '(gdal|ogr|cpl_|vrt) @ ^core/io/((dem|raster)/([a-z]+/)?)?[^/]+\.cpp$ ^service/jobs/[a-z_0-9]*object_store\.cpp$'
+  '(gdal|ogr|cpl_|vrt) @ ^core/io/((dem|raster)/([a-z]+/)?)?[^/]+\.cpp$'
   'draco/ @ ^core/io/(mesh_files/)?[^/]+\.cpp$'
   'meshoptimizer\.h$ @ ^core/io/mesh_files/[^/]+\.cpp$'
   'proj(_[a-z]+)?(\.h$|/) @ ^core/geo/[^/]+\.cpp$'
@@ -101,7 +103,9 @@ foreign=(
   'boost/ @ ^service/asio\.h$ ^service/(http|worker|cli)/'
   'sqlite3 @ ^service/jobs/[a-z_0-9]+\.cpp$'
   'pqxx/ @ ^service/jobs/[a-z_0-9]+\.cpp$'
-  'curl/ @ ^service/outgoing/outgoing_(client|url)\.cpp$'
+  'postgresql/ @ ^service/jobs/database_url\.cpp$'
+  'curl/ @ ^service/outgoing/outgoing_(client|url)\.cpp$ ^service/s3/[a-z_0-9]+\.cpp$'
+  'pugixml @ ^service/s3/[a-z_0-9]+\.cpp$'
   'nlohmann/ @ ^core/(io|pipeline)/((compare|quantized_mesh)/)?[^/]+\.cpp$ ^core/io/mesh_files/(gltf_json\.h|[^/]+\.cpp)$ ^service/[a-z_0-9]+\.(h|cpp)$ ^service/(auth|handlers|jobs|worker|config|cli)/'
   'openssl/ @ ^core/io/[^/]+\.cpp$'
   'CLI/ @ ^service/cli/(command_line|run)\.cpp$'
@@ -110,7 +114,7 @@ foreign=(
   '((sys|netinet|arpa|linux)/)?[a-z_0-9]+\.h$ @ ^core/io/[^/]+\.cpp$ ^service/'
 )
 # A database hides behind one interface: it is seen by one file alone.
-single=('sqlite3' 'pqxx')
+single=('sqlite3' 'pqxx' 'pugixml')
 
 bad=0
 offence() {

@@ -80,8 +80,8 @@ class Sweep {
     }
   };
   using Active = std::set<std::uint32_t, Below>;
-  // An edge, and the gap above it as long as the line crosses it. chain: kNoIndex in a gap that is not
-  // enclosed.
+  // An edge, and the gap above it as long as the line crosses it. chain: kNoIndex in a gap that is
+  // not enclosed.
   struct SweptEdge {
     std::uint32_t west;
     std::uint32_t east;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "service/jobs/sqlite_job_store.h"
+#include "tests/service/simulation/memory_objects.h"
 #include "tests/support/temp_dir.h"
 
 namespace farhorizon {
@@ -17,7 +18,7 @@ class RunEndingTest : public testing::Test {
     auto jobs = OpenSqliteJobStore(directory_->Jobs());
     ASSERT_TRUE(jobs);
     jobs_ = *std::move(jobs);
-    health_ = std::make_unique<StorageHealth>(*directory_, *jobs_, 0);
+    health_ = std::make_unique<StorageHealth>(*directory_, *jobs_, objects_, 0);
     ending_ = std::make_unique<RunEnding>(*jobs_, *health_);
     ASSERT_TRUE(jobs_->Insert({"a", {}, std::string(64, 'a'), 5, {}}, {}, 1));
   }
@@ -32,6 +33,7 @@ class RunEndingTest : public testing::Test {
   TempDir folder_;
   std::unique_ptr<DataDirectory> directory_;
   std::unique_ptr<JobStore> jobs_;
+  MemoryObjects objects_;
   std::unique_ptr<StorageHealth> health_;
   std::unique_ptr<RunEnding> ending_;
   std::int64_t time_ = 0;

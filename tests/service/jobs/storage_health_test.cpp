@@ -7,6 +7,7 @@
 
 #include "service/jobs/sqlite_job_store.h"
 #include "service/jobs/sync_failure.h"
+#include "tests/service/simulation/memory_objects.h"
 #include "tests/support/temp_dir.h"
 
 namespace farhorizon {
@@ -25,10 +26,11 @@ class StorageHealthTest : public testing::Test {
   TempDir folder_;
   std::unique_ptr<DataDirectory> directory_;
   std::unique_ptr<JobStore> jobs_;
+  MemoryObjects objects_;
 };
 
 TEST_F(StorageHealthTest, WritesAndLeavesNothing) {
-  StorageHealth health(*directory_, *jobs_, 0);
+  StorageHealth health(*directory_, *jobs_, objects_, 0);
   EXPECT_TRUE(health.CheckRoom());
   EXPECT_TRUE(health.CheckWrites());
   EXPECT_FALSE(std::filesystem::exists(folder_ / "data" / "probe"));
@@ -36,18 +38,19 @@ TEST_F(StorageHealthTest, WritesAndLeavesNothing) {
 }
 
 TEST_F(StorageHealthTest, SaysThatThereIsNoRoom) {
-  const StorageHealth health(*directory_, *jobs_, std::numeric_limits<std::int64_t>::max());
+  const StorageHealth health(*directory_, *jobs_, objects_,
+                             std::numeric_limits<std::int64_t>::max());
   EXPECT_EQ(health.CheckRoom().error().kind, "no-space");
 }
 
 TEST_F(StorageHealthTest, SaysThatTheLockWent) {
-  const StorageHealth health(*directory_, *jobs_, 0);
+  const StorageHealth health(*directory_, *jobs_, objects_, 0);
   std::filesystem::remove(folder_ / "data" / "lock");
   EXPECT_EQ(health.CheckRoom().error().kind, "data-directory");
 }
 
 TEST_F(StorageHealthTest, SaysThatAFileCannotBeMade) {
-  StorageHealth health(*directory_, *jobs_, 0);
+  StorageHealth health(*directory_, *jobs_, objects_, 0);
   std::filesystem::create_directory(folder_ / "data" / "probe");  // stands in its way
   EXPECT_EQ(health.CheckWrites().error().kind, "storage");
 }

@@ -52,7 +52,23 @@ class MemoryObjects : public ObjectStore {
     return std::vector<std::string>(names.begin(), names.end());
   }
 
+  Result<std::string> Label() override {
+    if (!label_.empty()) return label_;
+    return Error{ErrorCode::kNotFound, "no label"};
+  }
+  Status SetLabel(const std::string& label) override {
+    label_ = label;
+    return Ok{};
+  }
+  Result<std::string> ClaimLabel(const std::string& label) override {
+    if (label_.empty()) label_ = label;
+    return label_;
+  }
+  Status CheckWrites() override { return Ok{}; }
+  Result<DiskRoom> Room() override { return DiskRoom{1 << 30, 1 << 20}; }
+
  private:
+  std::string label_;
   std::set<std::string> all_;
   std::set<std::string> incoming_;
   std::set<std::string> stray_;
