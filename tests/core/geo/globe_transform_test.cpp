@@ -16,8 +16,8 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-GlobeTransform MustOpen(const std::string& crs, const std::string& datum = "",
-                        std::optional<MapPoint> about = std::nullopt) {
+GlobeTransform MustOpenTransform(const std::string& crs, const std::string& datum = "",
+                                 std::optional<MapPoint> about = std::nullopt) {
   Result<GlobeTransform> globe =
       GlobeTransform::Open(crs, {.vertical_datum = datum, .about = about});
   if (!globe) throw std::runtime_error(globe.error().message);
@@ -36,7 +36,7 @@ std::string KindOf(const std::string& crs, const std::string& datum = "") {
 }
 
 TEST(GlobeTransform, GeocentricAgreesWithTheClosedFormula) {
-  const GlobeTransform globe = MustOpen("EPSG:4326");
+  const GlobeTransform globe = MustOpenTransform("EPSG:4326");
   std::mt19937 random(3);
   std::uniform_real_distribution<double> lon(-180, 180);
   std::uniform_real_distribution<double> lat(-90, 90);
@@ -60,7 +60,7 @@ TEST(GlobeTransform, GeocentricAgreesWithTheClosedFormula) {
 }
 
 TEST(GlobeTransform, WebMercatorAgreesWithTheClosedFormula) {
-  const GlobeTransform globe = MustOpen("EPSG:3857");
+  const GlobeTransform globe = MustOpenTransform("EPSG:3857");
   const Geodetic g = OnGlobe(globe, {-13630000, 4540000, 12.5});
   const std::array<double, 2> expected = by_formula::FromWebMercator(-13630000, 4540000);
   EXPECT_NEAR(g.lon_deg, expected[0], 1e-12);
@@ -69,7 +69,8 @@ TEST(GlobeTransform, WebMercatorAgreesWithTheClosedFormula) {
 }
 
 TEST(GlobeTransform, UtmAgreesWithTheClosedFormula) {
-  const GlobeTransform globe = MustOpen("EPSG:32644");  // zone 44 north, central meridian 81
+  const GlobeTransform globe =
+      MustOpenTransform("EPSG:32644");  // zone 44 north, central meridian 81
   for (const double x : {250000.0, 500000.0, 700000.0}) {
     for (const double y : {100000.0, 3400000.0, 8000000.0}) {
       const Geodetic g = OnGlobe(globe, {x, y, 0});
@@ -82,10 +83,10 @@ TEST(GlobeTransform, UtmAgreesWithTheClosedFormula) {
 
 TEST(GlobeTransform, OrderIsAlwaysEastThenNorth) {
   // EPSG:4326 and EPSG:2193 (New Zealand) put north first by their authority.
-  const Geodetic g = OnGlobe(MustOpen("EPSG:4326"), {8, 46, 0});
+  const Geodetic g = OnGlobe(MustOpenTransform("EPSG:4326"), {8, 46, 0});
   EXPECT_EQ(g.lon_deg, 8);
   EXPECT_EQ(g.lat_deg, 46);
-  const Geodetic nz = OnGlobe(MustOpen("EPSG:2193"), {1600000, 5400000, 0});
+  const Geodetic nz = OnGlobe(MustOpenTransform("EPSG:2193"), {1600000, 5400000, 0});
   EXPECT_NEAR(nz.lon_deg, 173, 1e-6);
   EXPECT_NEAR(nz.lat_deg, -41.5, 0.1);
 }
@@ -95,7 +96,7 @@ TEST(GlobeTransform, OrderIsAlwaysEastThenNorth) {
 TEST(GlobeTransform, Nad27IsShiftedAndItsHeightsPass) {
   for (const char* crs : {"EPSG:26710", "EPSG:26713"}) {
     const MapPoint p = {560000, 5110000, 2543};
-    const GlobeTransform globe = MustOpen(crs, "", p);
+    const GlobeTransform globe = MustOpenTransform(crs, "", p);
     const Geodetic g = OnGlobe(globe, p);
     EXPECT_EQ(g.height_m, 2543);
     const double meridian = std::string(crs) == "EPSG:26710" ? -123 : -105;
@@ -109,7 +110,7 @@ TEST(GlobeTransform, OneWayIsTakenForAllPoints) {
   // Two points either side of the meridian where PROJ changes its NAD27 operation must not tear:
   // a hundredth of a degree apart on the map, as much apart on the globe.
   const MapPoint about = {-90, 40, 0};
-  const GlobeTransform globe = MustOpen("EPSG:4267", "", about);
+  const GlobeTransform globe = MustOpenTransform("EPSG:4267", "", about);
   std::vector<MapPoint> points;
   for (int i = 0; i <= 4000; ++i) points.push_back({-110 + i * 0.01, 40, 0});
   Result<std::vector<Geodetic>> there = globe.ToGeodetic(points);
@@ -122,7 +123,7 @@ TEST(GlobeTransform, OneWayIsTakenForAllPoints) {
 
 TEST(GlobeTransform, LongitudesBeyondHalfATurnComeBackWhereTheDemHasThem) {
   const MapPoint p = {271, 38, 10};
-  const GlobeTransform globe = MustOpen("EPSG:4326", "", p);
+  const GlobeTransform globe = MustOpenTransform("EPSG:4326", "", p);
   const Geodetic g = OnGlobe(globe, p);
   EXPECT_EQ(g.lon_deg, -89);
   Result<std::vector<MapPoint>> back = globe.FromGeodetic({g});
@@ -131,13 +132,14 @@ TEST(GlobeTransform, LongitudesBeyondHalfATurnComeBackWhereTheDemHasThem) {
 }
 
 TEST(GlobeTransform, VerticalDatumMayComeWithTheSystemOrBesideIt) {
-  const Geodetic beside = OnGlobe(MustOpen("EPSG:4326", "EPSG:5773"), {8, 46, 1000});
-  const Geodetic within = OnGlobe(MustOpen("EPSG:4326+5773"), {8, 46, 1000});
+  const Geodetic beside = OnGlobe(MustOpenTransform("EPSG:4326", "EPSG:5773"), {8, 46, 1000});
+  const Geodetic within = OnGlobe(MustOpenTransform("EPSG:4326+5773"), {8, 46, 1000});
   EXPECT_NEAR(beside.height_m, 1051.853, 0.002);  // measured with cs2cs
   EXPECT_EQ(beside.height_m, within.height_m);
-  const Geodetic projected = OnGlobe(MustOpen("EPSG:32632", "EPSG:5773"), {500000, 5100000, 1000});
+  const Geodetic projected =
+      OnGlobe(MustOpenTransform("EPSG:32632", "EPSG:5773"), {500000, 5100000, 1000});
   EXPECT_GT(projected.height_m, 1040);
-  const Geodetic dropped = OnGlobe(MustOpen("EPSG:4326+5773", "ellipsoid"), {8, 46, 1000});
+  const Geodetic dropped = OnGlobe(MustOpenTransform("EPSG:4326+5773", "ellipsoid"), {8, 46, 1000});
   EXPECT_EQ(dropped.height_m, 1000);
 }
 
@@ -149,7 +151,7 @@ TEST(GlobeTransform, Egm96AgreesWithItsMakersTestPoints) {
     double lon_deg;
     double undulation_m;
   };
-  const GlobeTransform globe = MustOpen("EPSG:4326+5773");
+  const GlobeTransform globe = MustOpenTransform("EPSG:4326+5773");
   for (const TestPoint& p :
        {TestPoint{38.6281550, -90.2208450, -31.628}, TestPoint{-14.6212170, -54.9788860, -2.969},
         TestPoint{46.8743190, 102.4487290, -43.575}, TestPoint{-23.6174460, 133.8747120, 15.871},
@@ -195,18 +197,19 @@ TEST(GlobeTransform, RefusesSystemsThatAreNotOnEarth) {
 }
 
 TEST(GlobeTransform, ReadsSystemsAsPeopleWriteThem) {
-  const Geodetic expected = OnGlobe(MustOpen("EPSG:32613"), {500000, 4500000, 0});
+  const Geodetic expected = OnGlobe(MustOpenTransform("EPSG:32613"), {500000, 4500000, 0});
   for (const char* crs : {"32613", "EPSG 32613", "+init=epsg:32613", "WGS 84 / UTM zone 13N",
                           "+proj=utm +zone=13 +datum=WGS84 +units=m", "urn:ogc:def:crs:EPSG::32613",
                           "proj=utm zone=13 datum=WGS84"}) {
-    const Geodetic g = OnGlobe(MustOpen(crs), {500000, 4500000, 0});
+    const Geodetic g = OnGlobe(MustOpenTransform(crs), {500000, 4500000, 0});
     EXPECT_EQ(g.lon_deg, expected.lon_deg) << crs;
     EXPECT_EQ(g.lat_deg, expected.lat_deg) << crs;
   }
-  EXPECT_EQ(OnGlobe(MustOpen("OGC:CRS84"), {8, 46, 0}).lon_deg, 8);
+  EXPECT_EQ(OnGlobe(MustOpenTransform("OGC:CRS84"), {8, 46, 0}).lon_deg, 8);
   // A rotated pole, as climate models have it: the grid's pole is at 39.25 north, 18 east + 180.
   const Geodetic rotated = OnGlobe(
-      MustOpen("+proj=ob_tran +o_proj=longlat +o_lon_p=-162 +o_lat_p=39.25 +lon_0=180 +R=6371000"),
+      MustOpenTransform(
+          "+proj=ob_tran +o_proj=longlat +o_lon_p=-162 +o_lat_p=39.25 +lon_0=180 +R=6371000"),
       {0, 90, 0});
   EXPECT_NEAR(rotated.lat_deg, 39.25, 1e-6);
 }
@@ -214,7 +217,7 @@ TEST(GlobeTransform, ReadsSystemsAsPeopleWriteThem) {
 TEST(GlobeTransform, SaysWhereADemLiesFarFromTheAreaOfItsSystem) {
   const auto codes = [](const std::string& crs, MapPoint about) {
     std::vector<std::string> found;
-    const GlobeTransform globe = MustOpen(crs, "", about);
+    const GlobeTransform globe = MustOpenTransform(crs, "", about);
     for (const Assumption& assumption : globe.assumptions()) {
       found.push_back(assumption.code);
     }
@@ -250,12 +253,12 @@ TEST(GlobeTransform, RefusesWhatIsNoSystemOfMaps) {
 }
 
 TEST(GlobeTransform, RefusesPointsOutsideTheSystem) {
-  const GlobeTransform globe = MustOpen("EPSG:4326");
+  const GlobeTransform globe = MustOpenTransform("EPSG:4326");
   Result<std::vector<Geodetic>> there = globe.ToGeodetic({{8, 46, 0}, {8, 95, 0}});
   ASSERT_FALSE(there);
   EXPECT_EQ(there.error().kind, "outside-crs");
   EXPECT_THAT(there.error().message, HasSubstr("point 1 (8, 95)"));
-  EXPECT_FALSE(MustOpen("EPSG:32644").ToGeodetic({{1e12, 1e12, 0}}));
+  EXPECT_FALSE(MustOpenTransform("EPSG:32644").ToGeodetic({{1e12, 1e12, 0}}));
   Result<GlobeTransform> bad =
       GlobeTransform::Open("EPSG:32644", {.about = MapPoint{1e12, 1e12, 0}});
   ASSERT_FALSE(bad);

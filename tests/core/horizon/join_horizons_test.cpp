@@ -22,7 +22,7 @@ Named NamesOf(const std::vector<Segment>& segments) {
   return names;
 }
 
-std::vector<Segment> SegmentsOf(const Terrain& terrain, const std::vector<Edge>& edges) {
+std::vector<Segment> SegmentsOfEdges(const Terrain& terrain, const std::vector<Edge>& edges) {
   std::vector<Segment> segments;
   for (const Edge& e : edges) segments.push_back({terrain.Point(e.a), terrain.Point(e.b)});
   return segments;
@@ -109,7 +109,7 @@ Named HorizonByTiles(const Dem& dem, std::int32_t n) {
     }
     joined = Join(joined, found, dem);
   }
-  const Named creases = NamesOf(SegmentsOf(whole, CreasesOf(MeshOf(whole))));
+  const Named creases = NamesOf(SegmentsOfEdges(whole, CreasesOf(MeshOf(whole))));
   Named kept;
   for (const auto& name : NamesOf(joined)) {
     if (creases.count(name) > 0) kept.insert(name);
@@ -122,7 +122,7 @@ Named HorizonAtOnce(const Dem& dem) {
   std::vector<Edge> edges;
   const Horizon horizon = *FindHorizon(terrain, {}, {});
   for (const HorizonEdge& h : horizon.edges) edges.push_back(h.edge);
-  return NamesOf(SegmentsOf(terrain, edges));
+  return NamesOf(SegmentsOfEdges(terrain, edges));
 }
 
 TEST(JoinHorizons, TilesSweptApartGiveTheHorizonOfTheWhole) {

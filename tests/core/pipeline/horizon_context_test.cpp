@@ -22,7 +22,7 @@ namespace {
 constexpr int kApron = 3;
 
 // Rough ground; in some, posts of the apron stand above all others.
-TestRaster Ground(int columns, int rows, unsigned seed) {
+TestRaster ContextGround(int columns, int rows, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_int_distribution<int> height(0, seed % 4 == 0 ? 2 : 40);
   TestRaster raster{.columns = columns, .rows = rows, .values = {}};
@@ -53,7 +53,7 @@ TEST(HorizonContext, IsWhatEachEdgeByItselfIsInTheTerrainWithItsApron) {
   std::size_t in = 0;
   std::size_t out = 0;
   for (unsigned seed = 0; seed < 60; ++seed) {
-    WriteTiff(folder / "dem.tif", Ground(9 + static_cast<int>(seed % 7), 11, seed));
+    WriteTiff(folder / "dem.tif", ContextGround(9 + static_cast<int>(seed % 7), 11, seed));
     const auto input = *TerrainInput::Open(folder / "dem.tif", WithContext(), {});
     const Horizon horizon = *FindHorizon(input->terrain(), {}, {});
     const std::vector<bool> found = *FindInContext(*input, horizon, {}, {});
@@ -87,7 +87,7 @@ TEST(HorizonContext, IsWhatEachEdgeByItselfIsInTheTerrainWithItsApron) {
 
 TEST(HorizonContext, IsPublishedWithEachEdgeAndVerified) {
   const TempDir folder;
-  WriteTiff(folder / "dem.tif", Ground(20, 18, 5));
+  WriteTiff(folder / "dem.tif", ContextGround(20, 18, 5));
   for (const HorizonDetail detail : {HorizonDetail::kEdges, HorizonDetail::kChains}) {
     BuildOptions options = WithContext();
     options.horizon_detail = detail;
@@ -122,7 +122,7 @@ TEST(HorizonContext, IsPublishedWithEachEdgeAndVerified) {
 // The horizon is found twice, and each stage of it is one all the same.
 TEST(HorizonContext, LetsNoProgressFall) {
   const TempDir folder;
-  WriteTiff(folder / "dem.tif", Ground(20, 18, 5));
+  WriteTiff(folder / "dem.tif", ContextGround(20, 18, 5));
   std::vector<ProgressReport> built;
   ASSERT_TRUE(BuildArtifacts(folder / "dem.tif", folder / "out", WithContext(),
                              {.progress = RecordInto(built)}));

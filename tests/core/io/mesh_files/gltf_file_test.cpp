@@ -20,25 +20,26 @@ PlainMesh SomeHills() {
   return GridMeshOf(4, 3, [](std::uint32_t c, std::uint32_t r) { return c * 5 + r * r; });
 }
 
-Result<FileMesh> Read(const std::string& bytes, const std::filesystem::path& folder = "/nowhere",
-                      const MeshLimits& limits = {}) {
+Result<FileMesh> ReadGltfBytes(const std::string& bytes,
+                               const std::filesystem::path& folder = "/nowhere",
+                               const MeshLimits& limits = {}) {
   return ReadGltf({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, folder,
                   limits);
 }
 
 std::string Complaint(const TestGltf& gltf) {
-  const Result<FileMesh> mesh = Read(GlbBytes(gltf));
+  const Result<FileMesh> mesh = ReadGltfBytes(GlbBytes(gltf));
   return mesh ? "it is read" : mesh.error().message;
 }
 
-TEST(ReadGltf, PlacesByAllNodesAboveAndTurnsWhatAMatrixMirrors) {
+TEST(ReadGltfBytes, PlacesByAllNodesAboveAndTurnsWhatAMatrixMirrors) {
   TestGltf gltf = PlainGltf(SomeHills());
   // Up a quarter turn about x, then twice as large, then moved; the inner node mirrors.
   gltf.json["nodes"] =
       Json::array({{{"children", {1}}, {"translation", {100, 0, 0}}, {"scale", {2, 2, 2}}},
                    {{"children", {2}}, {"rotation", {std::sqrt(0.5), 0, 0, std::sqrt(0.5)}}},
                    {{"mesh", 0}, {"matrix", {-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}}});
-  const Result<FileMesh> mesh = Read(GlbBytes(gltf));
+  const Result<FileMesh> mesh = ReadGltfBytes(GlbBytes(gltf));
   ASSERT_TRUE(mesh) << mesh.error().message;
   PlainMesh expected = SomeHills();
   for (auto& p : expected.points) p = {100 - 2 * p[0], -2 * p[2], 2 * p[1]};
@@ -52,7 +53,7 @@ TEST(ReadGltf, PlacesByAllNodesAboveAndTurnsWhatAMatrixMirrors) {
   EXPECT_EQ(mesh->triangles, expected.triangles);
 }
 
-TEST(ReadGltf, TakesEveryPrimitiveOfTrianglesStripsAndFans) {
+TEST(ReadGltfBytes, TakesEveryPrimitiveOfTrianglesStripsAndFans) {
   TestGltf gltf = PlainGltf({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {{0, 1, 2}, {1, 3, 2}}});
   Json& primitives = gltf.json["meshes"][0]["primitives"];
   const Json triangles = primitives[0];
@@ -65,7 +66,7 @@ TEST(ReadGltf, TakesEveryPrimitiveOfTrianglesStripsAndFans) {
   lines["mode"] = 1;
   const auto read = [&](const Json& primitive) {
     primitives = Json::array({lines, primitive});
-    const Result<FileMesh> mesh = Read(GlbBytes(gltf));
+    const Result<FileMesh> mesh = ReadGltfBytes(GlbBytes(gltf));
     if (!mesh) throw std::runtime_error(mesh.error().message);
     return TrianglesByPoint(*mesh);
   };
@@ -77,16 +78,16 @@ TEST(ReadGltf, TakesEveryPrimitiveOfTrianglesStripsAndFans) {
   EXPECT_THAT(Complaint(gltf), HasSubstr("points and lines alone"));
 }
 
-TEST(ReadGltf, TakesNormalizedNumbers) {
+TEST(ReadGltfBytes, TakesNormalizedNumbers) {
   TestGltf gltf = MeshoptGltf({{{32767, 0, 0}, {-32767, -32768, 0}, {0, 0, 16384}}, {{0, 1, 2}}});
   gltf.json["accessors"][0]["normalized"] = true;
-  const Result<FileMesh> mesh = Read(GlbBytes(gltf));
+  const Result<FileMesh> mesh = ReadGltfBytes(GlbBytes(gltf));
   ASSERT_TRUE(mesh) << mesh.error().message;
   EXPECT_EQ(mesh->points,
             (std::vector<FilePoint>{{1, 0, 0}, {-1, -1, 0}, {0, 0, 16384.0 / 32767}}));
 }
 
-TEST(ReadGltf, ReadsBuffersBesideItAndNothingElse) {
+TEST(ReadGltfBytes, ReadsBuffersBesideItAndNothingElse) {
   const TempDir folder;
   std::filesystem::create_directory(folder / "in");
   TestGltf gltf = PlainGltf(SomeHills());
@@ -94,7 +95,7 @@ TEST(ReadGltf, ReadsBuffersBesideItAndNothingElse) {
   SpillFile(folder / "out.bin", gltf.buffer);
   const auto read = [&](const std::string& uri) {
     gltf.json["buffers"] = Json::array({{{"byteLength", gltf.buffer.size()}, {"uri", uri}}});
-    const Result<FileMesh> mesh = Read(gltf.json.dump(), folder / "in");
+    const Result<FileMesh> mesh = ReadGltfBytes(gltf.json.dump(), folder / "in");
     return mesh ? "" : mesh.error().message;
   };
   EXPECT_EQ(read("a%20buffer.bin"), "");
@@ -111,7 +112,7 @@ TEST(ReadGltf, ReadsBuffersBesideItAndNothingElse) {
   EXPECT_THAT(read("data:;base64,AAAA"), HasSubstr("beyond buffer 0"));
 }
 
-TEST(ReadGltf, EndsWhereNodesRunInACircleOrAreReachedTwice) {
+TEST(ReadGltfBytes, EndsWhereNodesRunInACircleOrAreReachedTwice) {
   TestGltf gltf = PlainGltf(SomeHills());
   gltf.json["nodes"] = Json::array({{{"children", {1}}}, {{"children", {0}}, {"mesh", 0}}});
   EXPECT_THAT(Complaint(gltf), HasSubstr("node 0 is reached twice"));
@@ -121,7 +122,7 @@ TEST(ReadGltf, EndsWhereNodesRunInACircleOrAreReachedTwice) {
   EXPECT_THAT(Complaint(gltf), HasSubstr("not as glTF 2.0 has it"));
 }
 
-TEST(ReadGltf, KeepsToTheLimitsWhereManyNodesShareAMesh) {
+TEST(ReadGltfBytes, KeepsToTheLimitsWhereManyNodesShareAMesh) {
   TestGltf gltf = PlainGltf(SomeHills());
   Json nodes = Json::array();
   Json roots = Json::array();
@@ -131,12 +132,12 @@ TEST(ReadGltf, KeepsToTheLimitsWhereManyNodesShareAMesh) {
   }
   gltf.json["nodes"] = nodes;
   gltf.json["scenes"][0]["nodes"] = roots;
-  const Result<FileMesh> mesh = Read(GlbBytes(gltf), "/nowhere", {.max_points = 200});
+  const Result<FileMesh> mesh = ReadGltfBytes(GlbBytes(gltf), "/nowhere", {.max_points = 200});
   ASSERT_FALSE(mesh);
   EXPECT_EQ(mesh.error().kind, "mesh-too-large");
 }
 
-TEST(ReadGltf, ChecksEveryNumber) {
+TEST(ReadGltfBytes, ChecksEveryNumber) {
   const TestGltf sound = PlainGltf(SomeHills());
   const auto with = [&](const std::string& pointer, const Json& value) {
     TestGltf gltf = sound;
@@ -160,12 +161,12 @@ TEST(ReadGltf, ChecksEveryNumber) {
   EXPECT_EQ(with("/extensionsRequired", {"KHR_materials_unlit"}), "it is read");
   std::string deep;
   for (int i = 0; i < 100'000; ++i) deep += "[";
-  const Result<FileMesh> mesh = Read("{\"a\":" + deep);
+  const Result<FileMesh> mesh = ReadGltfBytes("{\"a\":" + deep);
   ASSERT_FALSE(mesh);
   EXPECT_THAT(mesh.error().message, HasSubstr("64 deep"));
 }
 
-TEST(ReadGltf, ChecksWhatMeshoptIsToldToDecode) {
+TEST(ReadGltfBytes, ChecksWhatMeshoptIsToldToDecode) {
   const TestGltf sound = MeshoptGltf(SomeHills());
   const auto with = [&](int view, const std::string& name, const Json& value) {
     TestGltf gltf = sound;
@@ -183,8 +184,8 @@ TEST(ReadGltf, ChecksWhatMeshoptIsToldToDecode) {
   TestGltf octahedral = sound;
   octahedral.json["bufferViews"][0]["extensions"]["EXT_meshopt_compression"]["filter"] =
       "OCTAHEDRAL";
-  const Result<FileMesh> filtered = Read(GlbBytes(octahedral));
-  const Result<FileMesh> plain = Read(GlbBytes(sound));
+  const Result<FileMesh> filtered = ReadGltfBytes(GlbBytes(octahedral));
+  const Result<FileMesh> plain = ReadGltfBytes(GlbBytes(sound));
   ASSERT_TRUE(plain) << plain.error().message;
   ASSERT_TRUE(filtered) << filtered.error().message;
   EXPECT_NE(filtered->points, plain->points);

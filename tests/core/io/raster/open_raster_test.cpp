@@ -64,20 +64,20 @@ TEST_F(OpenRasterTest, ReadsWhatGdalWrites) {
     const char* driver;
     std::vector<std::string> options;
     bool has_crs;
-  } kFormats[] = {{"dem.tif", "GTiff", {}, true},
-                  {"dem.img", "HFA", {}, true},
-                  {"packed.img", "HFA", {"COMPRESSED=YES"}, true},
-                  {"dem.bil", "EHdr", {}, true},
-                  {"dem.flt", "EHdr", {}, true},
-                  {"dem.dat", "ENVI", {}, true},
-                  {"dem.asc", "AAIGrid", {}, true},
-                  {"text.grd", "GSAG", {}, false},
-                  {"binary.grd", "GSBG", {}, false},
-                  {"seven.grd", "GS7BG", {}, false},
-                  {"dem.xyz", "XYZ", {}, false},
-                  {"comma.csv", "XYZ", {"COLUMN_SEPARATOR=,"}, false},
-                  {"named.xyz", "XYZ", {"ADD_HEADER_LINE=YES"}, false}};
-  for (const auto& format : kFormats) {
+  } kWrittenByGdal[] = {{"dem.tif", "GTiff", {}, true},
+                        {"dem.img", "HFA", {}, true},
+                        {"packed.img", "HFA", {"COMPRESSED=YES"}, true},
+                        {"dem.bil", "EHdr", {}, true},
+                        {"dem.flt", "EHdr", {}, true},
+                        {"dem.dat", "ENVI", {}, true},
+                        {"dem.asc", "AAIGrid", {}, true},
+                        {"text.grd", "GSAG", {}, false},
+                        {"binary.grd", "GSBG", {}, false},
+                        {"seven.grd", "GS7BG", {}, false},
+                        {"dem.xyz", "XYZ", {}, false},
+                        {"comma.csv", "XYZ", {"COLUMN_SEPARATOR=,"}, false},
+                        {"named.xyz", "XYZ", {"ADD_HEADER_LINE=YES"}, false}};
+  for (const auto& format : kWrittenByGdal) {
     WriteWithDriver(dir_ / format.name, format.driver, raster, format.options);
     EXPECT_THAT(Cells(format.name), Pointwise(DoubleEq(), raster.values)) << format.name;
     EXPECT_THAT(transform_, Pointwise(::testing::DoubleNear(1e-6), *raster.geotransform))

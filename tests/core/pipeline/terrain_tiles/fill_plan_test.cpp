@@ -84,23 +84,25 @@ TEST(FillPlan, RefusesARingThatDoesNotClose) {
 // so that few edges are parallel.
 TEST(FillPlan, FillsRandomRegions) {
   std::mt19937 random(7);  // NOLINT(cert-msc51-cpp): the same regions in each run
-  constexpr int kSide = 12;
+  constexpr int kPlanSide = 12;
   for (int run = 0; run < 60; ++run) {
     const bool straight = run % 3 == 0;
     std::vector<LatticePoint> points;
-    for (int r = 0; r <= kSide; ++r) {
-      for (int c = 0; c <= kSide; ++c) {
+    for (int r = 0; r <= kPlanSide; ++r) {
+      for (int c = 0; c <= kPlanSide; ++c) {
         const auto moved = [&] { return straight ? 0 : static_cast<int>(random() % 40); };
         const int dx = moved();
         points.push_back({100 * c + dx, 100 * r + moved()});
       }
     }
-    const auto at = [](int c, int r) { return static_cast<std::uint32_t>(r * (kSide + 1) + c); };
+    const auto at = [](int c, int r) {
+      return static_cast<std::uint32_t>(r * (kPlanSide + 1) + c);
+    };
     std::map<Edge, int> senses;
     std::int64_t area = 0;
     const auto share = 1 + random() % 3;
-    for (int r = 0; r < kSide; ++r) {
-      for (int c = 0; c < kSide; ++c) {
+    for (int r = 0; r < kPlanSide; ++r) {
+      for (int c = 0; c < kPlanSide; ++c) {
         if (random() % 4 >= share) continue;
         const std::array<std::uint32_t, 4> ring = {at(c, r), at(c + 1, r), at(c + 1, r + 1),
                                                    at(c, r + 1)};
