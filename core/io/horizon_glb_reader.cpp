@@ -13,6 +13,7 @@
 
 #include "core/io/glb_container.h"
 #include "core/io/gltf_numbers.h"
+#include "core/io/horizon_glb.h"
 
 namespace farhorizon {
 
