@@ -18,6 +18,7 @@
 #include "core/io/horizon_glb_reader.h"
 #include "core/io/line_chains.h"
 #include "core/pipeline/level_edges.h"
+#include "core/pipeline/verify/random_line.h"
 
 namespace farhorizon {
 
