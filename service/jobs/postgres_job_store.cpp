@@ -1,10 +1,8 @@
-// The shared job store: the statements are those of the embedded one (sql_queue.h, sql_claim.h,
-// sql_runs.h, sql_removal.h, sql_rows.h) in PostgreSQL's dialect; here is what several processes
-// need beside.
+// The shared job store: SqlJobStore in PostgreSQL's dialect; here is what several processes need
+// beside. Changes are told by a trigger of the tables (postgres_schema.cpp), to this process too.
 #include "service/jobs/postgres_job_store.h"
 
 #include <algorithm>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <utility>
@@ -15,12 +13,8 @@
 #include "service/jobs/postgres_pins.h"
 #include "service/jobs/postgres_pool.h"
 #include "service/jobs/postgres_schema.h"
-#include "service/jobs/sql_callbacks.h"
-#include "service/jobs/sql_claim.h"
-#include "service/jobs/sql_queue.h"
-#include "service/jobs/sql_removal.h"
+#include "service/jobs/sql_job_store.h"
 #include "service/jobs/sql_rows.h"
-#include "service/jobs/sql_runs.h"
 
 namespace farhorizon {
 
@@ -53,50 +47,14 @@ SqlDialect DialectOf(const PostgresStoreOptions& options) {
   return dialect;
 }
 
-class PostgresJobStore : public JobStore {
+class PostgresJobStore : public SqlJobStore {
  public:
   explicit PostgresJobStore(PostgresStoreOptions options);
   Status Open();
 
-  Result<Job> Insert(const NewJob& job, const QueueBounds& bounds, std::int64_t now_ms) override;
-  Result<std::optional<Job>> FindEarlier(const NewJob& job, std::int64_t now_ms) override;
-  Status CheckQueue(const std::string& client, const QueueBounds& bounds) override;
-  Result<Job> Find(const std::string& id) override;
-  Result<JobPage> List(const JobQuery& query) override;
-  Result<UnfinishedJobs> CountUnfinished() override;
-  Result<std::optional<Job>> ClaimNext(std::int64_t now_ms, const MemoryRoom& room) override;
-  Result<std::vector<std::string>> FailOverdue(std::int64_t now_ms) override;
-  Result<bool> ReportProgress(const std::string& id, std::int64_t run, int progress,
-                              const std::string& message, std::int64_t now_ms) override;
-  Result<bool> ReportAssumptions(const std::string& id, std::int64_t run,
-                                 const Assumptions& assumptions, std::int64_t now_ms) override;
-  Result<bool> Publish(const std::string& id, std::int64_t run,
-                       const std::vector<Artifact>& artifacts,
-                       const std::map<std::string, double>& timings, std::int64_t now_ms) override;
-  Result<bool> Fail(const std::string& id, std::int64_t run, const Error& failure,
-                    std::int64_t now_ms) override;
-  Result<bool> Requeue(const std::string& id, std::int64_t run, RequeueReason reason,
-                       std::int64_t now_ms) override;
-  Result<bool> RequeueWithMemory(const std::string& id, std::int64_t run, std::int64_t memory_bytes,
-                                 std::int64_t now_ms) override;
-  Result<bool> Postpone(const std::string& id, std::int64_t run, std::int64_t delay_ms,
-                        std::int64_t now_ms) override;
-  Result<Job> Dismiss(const std::string& id, std::int64_t now_ms) override;
   Result<std::int64_t> RemoveExpired(const Retention& retention, std::int64_t now_ms) override;
-  Result<std::int64_t> RecoverRunning(PreviousEnd end, std::int64_t now_ms) override;
-  Result<std::optional<DueCallback>> ClaimCallback(std::chrono::milliseconds lease,
-                                                   std::int64_t now_ms) override;
-  Result<bool> EndCallback(const DueCallback& callback, CallbackEnd end) override;
-  Result<bool> RetryCallback(const DueCallback& callback, std::chrono::milliseconds delay,
-                             std::int64_t now_ms) override;
-  Result<std::vector<Artifact>> Artifacts(const std::string& id) override;
-  Result<bool> IsReferenced(const std::string& sha256) override;
-  Result<std::vector<std::string>> Garbage() override;
-  Status ForgetGarbage(const std::vector<std::string>& names) override;
-  Result<StoreIdentity> Identity() override;
   Result<StoreIdentity> BeginGeneration() override;
   Status Ping() override;
-  Status Transact(const std::function<Status(SqlDatabase&)>& work) override;
 
   [[nodiscard]] std::optional<milliseconds> LeaseTime() const override { return options_.lease; }
   Result<std::vector<std::string>> Hold(const std::vector<HeldRun>& runs) override;
@@ -106,49 +64,17 @@ class PostgresJobStore : public JobStore {
   Result<std::unique_ptr<ObjectLock>> HaltPins(bool wait) override;
 
  private:
-  // Runs work(connection): over that of this thread's pin, or one of the pool. Returns a SqlFailure
-  // as its Error.
-  template <typename Work>
-  auto Guarded(Work work) -> decltype(work(std::declval<PostgresDatabase&>())) {
-    try {
-      if (PostgresPool::Loan* pin = pins_.OfThread()) return pin->Run(work);
-      return calls_.Run(work);
-    } catch (SqlFailure& failure) {
-      return std::move(failure.error);
-    }
-  }
-  // The same for work that has no Error of its own to return.
-  template <typename Work>
-  auto Call(Work work) -> Result<decltype(work(std::declval<PostgresDatabase&>()))> {
-    return Guarded([&](PostgresDatabase& database)
-                       -> Result<decltype(work(std::declval<PostgresDatabase&>()))> {
-      return work(database);
-    });
-  }
-  // The same for one statement that writes, in a transaction: what is lost before its commit was
-  // not done.
-  template <typename Work>
-  auto Write(Work work) -> Result<decltype(work(std::declval<PostgresDatabase&>()))> {
-    return Call([&](PostgresDatabase& database) {
-      Transaction transaction(database);
-      auto result = work(database);
-      transaction.Commit();
-      return result;
-    });
-  }
-  // The time for a row that is written now: never before one that the store had when this was
-  // called.
-  static std::int64_t Later(const SqlDatabase& database, std::int64_t now_ms) {
-    Statement latest(database, "SELECT max(updated_ms) FROM jobs");
-    return latest.Step() ? std::max(now_ms, latest.Integer(0)) : now_ms;
-  }
+  Status RunRead(const Reading& work) override { return RunCall(work); }
+  Status RunCall(const Writing& work) override;
+  // In a transaction: what is lost before its commit was not done.
+  Status RunWrite(const Writing& work) override;
+  std::int64_t Later(const SqlDatabase& database, std::int64_t now_ms) override;
+  void Tell(const SqlDatabase& database, StoreNews news) override;
 
   const PostgresStoreOptions options_;
   const SqlDialect dialect_;
   PostgresPool calls_;
   PostgresPins pins_;
-  std::mutex claims_;  // of this process follow one another: turns_ is theirs
-  StartTurns turns_;
   std::unique_ptr<PostgresListener> news_;
 };
 
@@ -182,196 +108,58 @@ Status PostgresJobStore::Open() {
   }
 }
 
-Result<Job> PostgresJobStore::Insert(const NewJob& job, const QueueBounds& bounds,
-                                     std::int64_t now_ms) {
-  return Guarded([&](PostgresDatabase& database) -> Result<Job> {
+// Over the connection of this thread's pin, or one of the pool.
+Status PostgresJobStore::RunCall(const Writing& work) {
+  const auto run = [&work](PostgresDatabase& database) -> Status {
+    work(database);
+    return Ok{};
+  };
+  try {
+    if (PostgresPool::Loan* pin = pins_.OfThread()) return pin->Run(run);
+    return calls_.Run(run);
+  } catch (SqlFailure& failure) {
+    return std::move(failure.error);
+  }
+}
+
+Status PostgresJobStore::RunWrite(const Writing& work) {
+  return RunCall([&work](SqlDatabase& database) {
     Transaction transaction(database);
-    Statement(database, dialect_.lock_queue).Run();
-    Result<Job> stored = InsertInQueue(database, job, bounds, Later(database, now_ms));
-    if (!stored) return stored;
-    Tell(database, kNewsJobWaits);
+    work(database);
     transaction.Commit();
-    return stored;
   });
 }
 
-Result<std::optional<Job>> PostgresJobStore::FindEarlier(const NewJob& job, std::int64_t now_ms) {
-  return Guarded([&](PostgresDatabase& database) -> Result<std::optional<Job>> {
-    return FindEarlierJob(database, job, now_ms);
-  });
+std::int64_t PostgresJobStore::Later(const SqlDatabase& database, std::int64_t now_ms) {
+  Statement latest(database, "SELECT max(updated_ms) FROM jobs");
+  return latest.Step() ? std::max(now_ms, latest.Integer(0)) : now_ms;
 }
 
-Status PostgresJobStore::CheckQueue(const std::string& client, const QueueBounds& bounds) {
-  return Guarded([&](PostgresDatabase& database) -> Status {
-    return farhorizon::CheckQueue(database, client, bounds);
-  });
-}
-
-Result<Job> PostgresJobStore::Find(const std::string& id) {
-  return Guarded([&](PostgresDatabase& database) -> Result<Job> {
-    std::optional<Job> job = SelectJob(database, id);
-    if (!job) return NoSuchJob();
-    return *std::move(job);
-  });
-}
-
-Result<JobPage> PostgresJobStore::List(const JobQuery& query) {
-  return Call([&](PostgresDatabase& database) { return SelectPage(database, query); });
-}
-
-Result<UnfinishedJobs> PostgresJobStore::CountUnfinished() {
-  return Call([](PostgresDatabase& database) { return CountUnfinishedJobs(database); });
-}
-
-Result<std::optional<Job>> PostgresJobStore::ClaimNext(std::int64_t now_ms,
-                                                       const MemoryRoom& room) {
-  const std::lock_guard lock(claims_);
-  return Call([&](PostgresDatabase& database) {
-    return ClaimJob(database, turns_, room, Later(database, now_ms));
-  });
-}
-
-Result<std::vector<std::string>> PostgresJobStore::FailOverdue(std::int64_t now_ms) {
-  return Call([&](PostgresDatabase& database) {
-    return FailOverdueJobs(database, Later(database, now_ms));
-  });
-}
-
-Result<bool> PostgresJobStore::ReportProgress(const std::string& id, std::int64_t run, int progress,
-                                              const std::string& message, std::int64_t now_ms) {
-  return Write([&](PostgresDatabase& database) {
-    return StoreProgress(database, {id, run, Later(database, now_ms)}, progress, message);
-  });
-}
-
-Result<bool> PostgresJobStore::ReportAssumptions(const std::string& id, std::int64_t run,
-                                                 const Assumptions& assumptions,
-                                                 std::int64_t now_ms) {
-  return Write([&](PostgresDatabase& database) {
-    return StoreAssumptions(database, {id, run, Later(database, now_ms)}, assumptions);
-  });
-}
-
-Result<bool> PostgresJobStore::Publish(const std::string& id, std::int64_t run,
-                                       const std::vector<Artifact>& artifacts,
-                                       const std::map<std::string, double>& timings,
-                                       std::int64_t now_ms) {
-  return Call([&](PostgresDatabase& database) {
-    return PublishRun(database, {id, run, Later(database, now_ms)}, artifacts, timings);
-  });
-}
-
-Result<bool> PostgresJobStore::Fail(const std::string& id, std::int64_t run, const Error& failure,
-                                    std::int64_t now_ms) {
-  return Write([&](PostgresDatabase& database) {
-    return FailRun(database, {id, run, Later(database, now_ms)}, failure);
-  });
-}
-
-Result<bool> PostgresJobStore::Requeue(const std::string& id, std::int64_t run,
-                                       RequeueReason reason, std::int64_t now_ms) {
-  return Write([&](PostgresDatabase& database) {
-    Tell(database, kNewsJobWaits);
-    return RequeueRun(database, {id, run, Later(database, now_ms)}, reason);
-  });
-}
-
-Result<bool> PostgresJobStore::RequeueWithMemory(const std::string& id, std::int64_t run,
-                                                 std::int64_t memory_bytes, std::int64_t now_ms) {
-  return Write([&](PostgresDatabase& database) {
-    return farhorizon::RequeueWithMemory(database, {id, run, Later(database, now_ms)},
-                                         memory_bytes);
-  });
-}
-
-Result<bool> PostgresJobStore::Postpone(const std::string& id, std::int64_t run,
-                                        std::int64_t delay_ms, std::int64_t now_ms) {
-  return Write([&](PostgresDatabase& database) {
-    return PostponeRun(database, {id, run, Later(database, now_ms)}, delay_ms);
-  });
-}
-
-Result<Job> PostgresJobStore::Dismiss(const std::string& id, std::int64_t now_ms) {
-  Result<Job> dismissed = Guarded([&](PostgresDatabase& database) -> Result<Job> {
-    return DismissJob(database, id, Later(database, now_ms));
-  });
-  if (!dismissed) return dismissed;
-  // What is not heard of here is heard of when the lease is next renewed.
-  [[maybe_unused]] const Result<bool> told = Call([](PostgresDatabase& database) {
-    Tell(database, kNewsRunEnded);
-    return true;
-  });
-  return dismissed;
+void PostgresJobStore::Tell(const SqlDatabase& database, StoreNews news) {
+  farhorizon::Tell(database, news == StoreNews::kJobWaits ? kNewsJobWaits : kNewsRunEnded);
 }
 
 Result<std::int64_t> PostgresJobStore::RemoveExpired(const Retention& retention,
                                                      std::int64_t now_ms) {
-  return Call([&](PostgresDatabase& database) {
+  const Status forgotten = Call([](const SqlDatabase& database) {
     Statement(database, "DELETE FROM turns WHERE turn < (SELECT last_value FROM turn) - ?")
         .Bind(kTurnsKept)
         .Run();
-    return RemoveExpiredJobs(database, retention, now_ms);
-  });
-}
-
-Result<std::int64_t> PostgresJobStore::RecoverRunning(PreviousEnd end, std::int64_t now_ms) {
-  return Call([&](PostgresDatabase& database) {
-    return RecoverJobs(database, end, Later(database, now_ms));
-  });
-}
-
-Result<std::optional<DueCallback>> PostgresJobStore::ClaimCallback(milliseconds lease,
-                                                                   std::int64_t now_ms) {
-  return Call([&](PostgresDatabase& database) {
-    return farhorizon::ClaimCallback(database, lease, now_ms);
-  });
-}
-
-Result<bool> PostgresJobStore::EndCallback(const DueCallback& callback, CallbackEnd end) {
-  return Write(
-      [&](PostgresDatabase& database) { return farhorizon::EndCallback(database, callback, end); });
-}
-
-Result<bool> PostgresJobStore::RetryCallback(const DueCallback& callback, milliseconds delay,
-                                             std::int64_t now_ms) {
-  return Write([&](PostgresDatabase& database) {
-    return farhorizon::RetryCallback(database, callback, delay, now_ms);
-  });
-}
-
-Result<std::vector<Artifact>> PostgresJobStore::Artifacts(const std::string& id) {
-  return Call([&](PostgresDatabase& database) { return SelectArtifacts(database, id); });
-}
-
-Result<bool> PostgresJobStore::IsReferenced(const std::string& sha256) {
-  return Call(
-      [&](PostgresDatabase& database) { return farhorizon::IsReferenced(database, sha256); });
-}
-
-Result<std::vector<std::string>> PostgresJobStore::Garbage() {
-  return Call([](PostgresDatabase& database) { return SelectGarbage(database); });
-}
-
-Status PostgresJobStore::ForgetGarbage(const std::vector<std::string>& names) {
-  return Guarded([&](PostgresDatabase& database) -> Status {
-    farhorizon::ForgetGarbage(database, names);
     return Ok{};
   });
-}
-
-Result<StoreIdentity> PostgresJobStore::Identity() {
-  return Call([](PostgresDatabase& database) { return SelectIdentity(database); });
+  if (!forgotten) return forgotten.error();
+  return SqlJobStore::RemoveExpired(retention, now_ms);
 }
 
 Result<StoreIdentity> PostgresJobStore::BeginGeneration() {
-  return Write([](PostgresDatabase& database) {
+  return Write([](const SqlDatabase& database) {
     Statement(database, "UPDATE store SET generation = generation + 1").Run();
     return SelectIdentity(database);
   });
 }
 
 Status PostgresJobStore::Ping() {
-  return Guarded([](PostgresDatabase& database) -> Status {
+  return Call([](const SqlDatabase& database) {
     // Somebody may have locked the one that every request needs.
     Statement(database, "SELECT 1 FROM jobs LIMIT 1").Step();
     Statement(database, "UPDATE store SET pings = pings + 1").Run();
@@ -379,23 +167,13 @@ Status PostgresJobStore::Ping() {
   });
 }
 
-Status PostgresJobStore::Transact(const std::function<Status(SqlDatabase&)>& work) {
-  return Guarded([&](PostgresDatabase& database) -> Status {
-    Transaction transaction(database);
-    Status done = work(database);
-    if (done) transaction.Commit();
-    return done;
-  });
-}
-
 Result<std::vector<std::string>> PostgresJobStore::Hold(const std::vector<HeldRun>& runs) {
-  return Write([&](PostgresDatabase& database) { return HoldRuns(database, runs); });
+  return Write([&](SqlDatabase& database) { return HoldRuns(database, runs); });
 }
 
 Result<std::int64_t> PostgresJobStore::RecoverLost(std::int64_t now_ms) {
-  return Call([&](PostgresDatabase& database) {
-    return RecoverLostJobs(database, Later(database, now_ms));
-  });
+  return Call(
+      [&](SqlDatabase& database) { return RecoverLostJobs(database, Later(database, now_ms)); });
 }
 
 void PostgresJobStore::Listen(std::function<void(StoreNews)> handler) {

@@ -53,6 +53,11 @@ Error Full(std::int64_t waiting, const std::string& whose, ErrorKind kind) {
 
 }  // namespace
 
+void LockQueue(const SqlDatabase& database) {
+  const std::string& lock = database.dialect().lock_queue;
+  if (!lock.empty()) Statement(database, lock).Run();
+}
+
 Status CheckQueue(const SqlDatabase& database, const std::string& client,
                   const QueueBounds& bounds) {
   Statement own(database, "SELECT count(*) FROM jobs WHERE state = 'accepted' AND client = ?");

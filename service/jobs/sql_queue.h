@@ -11,6 +11,9 @@
 
 namespace farhorizon {
 
+/// Nobody else inserts a job or an upload until the transaction ends.
+void LockQueue(const SqlDatabase& database);
+
 /// As JobStore::CheckQueue has it.
 Status CheckQueue(const SqlDatabase& database, const std::string& client,
                   const QueueBounds& bounds);

@@ -3,6 +3,8 @@
 // client has sent anew: whoever has no turn changes no row.
 #include "service/jobs/sql_uploads.h"
 
+#include "service/jobs/sql_queue.h"
+
 namespace farhorizon {
 
 namespace {
@@ -73,9 +75,7 @@ void DropParts(const SqlDatabase& database, const std::string& id, std::int64_t 
 }  // namespace
 
 Status InsertUpload(const SqlDatabase& database, const Upload& upload, const UploadBounds& bounds) {
-  // Nobody else takes the same room.
-  const std::string& lock = database.dialect().lock_queue;
-  if (!lock.empty()) Statement(database, lock).Run();
+  LockQueue(database);  // nobody else takes the same room
   const std::int64_t bytes = upload.bytes.value_or(bounds.each);
   const Taken own = Sum(database, "client = ? AND ", &upload.client, bounds.each);
   if (own.uploads >= bounds.of_client || own.bytes + bytes > bounds.bytes_of_client) {
