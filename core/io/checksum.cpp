@@ -1,4 +1,5 @@
-// As sha256.cpp, for algorithms that are known by name alone.
+// Wraps OpenSSL's digests. Once one has started, a call can fail only for want of memory, which a
+// caller could do nothing about (Check).
 #include "core/io/checksum.h"
 
 #include <array>
@@ -24,11 +25,14 @@ Checksum::Checksum(Checksum&&) noexcept = default;
 Checksum& Checksum::operator=(Checksum&&) noexcept = default;
 
 std::optional<Checksum> Checksum::Named(std::string_view name) {
-  const EVP_MD* algorithm = name == "sha1" ? EVP_sha1() : name == "sha256" ? EVP_sha256() : nullptr;
+  const EVP_MD* algorithm = name == "sha256" ? EVP_sha256()
+                            : name == "sha1" ? EVP_sha1()
+                            : name == "md5"  ? EVP_md5()
+                                             : nullptr;
   if (algorithm == nullptr) return std::nullopt;
   auto state = std::make_unique<State>();
-  Check(state->context != nullptr && EVP_DigestInit_ex(state->context, algorithm, nullptr) == 1,
-        "a checksum starts");
+  Check(state->context != nullptr, "there is memory for a checksum");
+  if (EVP_DigestInit_ex(state->context, algorithm, nullptr) != 1) return std::nullopt;
   return Checksum(std::move(state));
 }
 

@@ -7,11 +7,12 @@
 
 namespace farhorizon {
 
-/// A sum of bytes that come piece by piece, of an algorithm that a client has chosen: sha1, which
-/// tells accidents of the network and no malice, or sha256.
+/// A sum of bytes that come piece by piece, of an algorithm that a protocol names. md5 and sha1
+/// tell accidents of the network and no malice.
 class Checksum {
  public:
-  /// name: "sha1" or "sha256"; nullopt for any other.
+  /// name: "md5", "sha1" or "sha256"; nullopt for any other, and for one that the system's policy
+  /// leaves out.
   static std::optional<Checksum> Named(std::string_view name);
   ~Checksum();
   Checksum(Checksum&&) noexcept;

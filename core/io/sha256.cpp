@@ -1,5 +1,4 @@
-// Wraps OpenSSL's digests. Each call can fail only for want of memory or of the algorithm, neither
-// of which a caller could do anything about: that is a bug of this program's installation (Check).
+// A system without SHA-256 is a bug of this program's installation (Check).
 #include "core/io/sha256.h"
 
 #include <algorithm>
@@ -35,32 +34,17 @@ bool SameDigest(const Digest& a, const Digest& b) {
   return CRYPTO_memcmp(a.bytes_.data(), b.bytes_.data(), Digest::kBytes) == 0;
 }
 
-struct Sha256::State {
-  EVP_MD_CTX* context = EVP_MD_CTX_new();
-  State() = default;
-  State(const State&) = delete;
-  State& operator=(const State&) = delete;
-  ~State() { EVP_MD_CTX_free(context); }
-};
-
-Sha256::Sha256() : state_(std::make_unique<State>()) {
-  Check(
-      state_->context != nullptr && EVP_DigestInit_ex(state_->context, EVP_sha256(), nullptr) == 1,
-      "SHA-256 starts");
-}
-Sha256::~Sha256() = default;
-Sha256::Sha256(Sha256&&) noexcept = default;
-Sha256& Sha256::operator=(Sha256&&) noexcept = default;
-
-void Sha256::Add(std::string_view bytes) {
-  Check(EVP_DigestUpdate(state_->context, bytes.data(), bytes.size()) == 1, "SHA-256 goes on");
-}
+Sha256::Sha256()
+    : sum_([] {
+        std::optional<Checksum> sum = Checksum::Named("sha256");
+        Check(sum.has_value(), "SHA-256 is there");
+        return *std::move(sum);
+      }()) {}
 
 Digest Sha256::Finish() {
+  const std::string sum = sum_.Finish();
   std::array<std::uint8_t, Digest::kBytes> bytes{};
-  unsigned int size = 0;
-  Check(EVP_DigestFinal_ex(state_->context, bytes.data(), &size) == 1 && size == bytes.size(),
-        "SHA-256 ends");
+  std::copy_n(sum.begin(), bytes.size(), bytes.begin());
   return Digest(bytes);
 }
 

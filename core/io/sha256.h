@@ -2,10 +2,11 @@
 
 #include <array>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+
+#include "core/io/checksum.h"
 
 namespace farhorizon {
 
@@ -35,17 +36,13 @@ class Digest {
 class Sha256 {
  public:
   Sha256();
-  ~Sha256();
-  Sha256(Sha256&&) noexcept;
-  Sha256& operator=(Sha256&&) noexcept;
 
-  void Add(std::string_view bytes);
+  void Add(std::string_view bytes) { sum_.Add(bytes); }
   /// Requires: called once, last.
   Digest Finish();
 
  private:
-  struct State;
-  std::unique_ptr<State> state_;
+  Checksum sum_;
 };
 
 /// Lower-case hexadecimal SHA-256 of `bytes`.

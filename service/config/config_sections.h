@@ -6,8 +6,8 @@
 
 namespace farhorizon {
 
-// The keys of each section of the configuration, in the order of the file: of what clients and other
-// servers meet (network_keys.cpp), and of the work (job_keys.cpp).
+// The keys of each section of the configuration, in the order of the file: of what clients and
+// other servers meet (network_keys.cpp), and of the work (job_keys.cpp).
 
 std::vector<ConfigKey> HttpKeys();
 std::vector<ConfigKey> AuthKeys();

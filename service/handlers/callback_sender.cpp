@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <random>
 #include <utility>
 
 #include "service/clock.h"
@@ -12,6 +11,7 @@
 #include "service/log.h"
 #include "service/metrics.h"
 #include "service/outgoing/outgoing_client.h"
+#include "service/random.h"
 
 namespace farhorizon {
 
@@ -29,20 +29,6 @@ constexpr milliseconds kLease{20'000};
 constexpr milliseconds kLookInterval{500};
 constexpr milliseconds kFirstDelay{1000};
 constexpr milliseconds kLongestDelay{600'000};
-
-const char* NameOf(CallbackEvent event) {
-  return kCallbackEventNames.at(static_cast<std::size_t>(event));
-}
-
-// Any time up to a bound that doubles with each attempt ("full jitter"): receivers that come back
-// are not overrun.
-milliseconds DelayAfter(std::int64_t attempt) {
-  milliseconds most = kFirstDelay;
-  for (std::int64_t i = 1; i < attempt && most < kLongestDelay; ++i) most *= 2;
-  thread_local std::mt19937_64 random{std::random_device{}()};
-  most = std::min(most, kLongestDelay);
-  return milliseconds(std::uniform_int_distribution<std::int64_t>(0, most.count())(random));
-}
 
 }  // namespace
 
@@ -131,7 +117,9 @@ void CallbackSender::Send(const DueCallback& callback) {
 void CallbackSender::PutOff(const DueCallback& callback, const std::string& why, bool for_good) {
   const bool over = for_good || callback.age >= options_.retry_time;
   const milliseconds left = duration_cast<milliseconds>(options_.retry_time) - callback.age;
-  const milliseconds delay = over ? milliseconds(0) : std::min(DelayAfter(callback.attempt), left);
+  const milliseconds delay =
+      over ? milliseconds(0)
+           : std::min(RandomDelay(kFirstDelay, kLongestDelay, callback.attempt - 1), left);
   const Result<bool> noted = over ? context_.jobs.EndCallback(callback, CallbackEnd::kGivenUp)
                                   : context_.jobs.RetryCallback(callback, delay);
   if (!noted) Warn(noted.error());

@@ -42,10 +42,6 @@ constexpr std::chrono::milliseconds kLook{20};
 // What an echo needs: a process of this program that does next to nothing.
 constexpr JobCost kEchoCost{std::int64_t{1} << 27U, 1};
 
-Error InvalidInput(const std::string& what) {
-  return {ErrorCode::kInvalidArgument, what, "invalid-parameter"};
-}
-
 // The body's DEM, or nothing, and the rest of it.
 struct ExecutionBody {
   ExecutionBody(SpoolFile file, std::int64_t most)
@@ -64,7 +60,7 @@ struct ExecutionBody {
   }
   Status TakeDem(std::string_view text) {
     decoded.clear();
-    if (!decoder.Feed(text, decoded)) return InvalidInput("the input dem is no base64");
+    if (!decoder.Feed(text, decoded)) return InvalidParameter("the input dem is no base64");
     return spool.Write(decoded);
   }
 
@@ -90,10 +86,11 @@ Status CheckDemInput(const json& inputs, const ExecutionBody& body) {
   Result<GivenInput> dem = ReadInput("dem", inputs["dem"]);
   if (!dem) return std::move(dem.error());
   if (!body.sieve.found() || !body.decoder.MayEnd()) {
-    return InvalidInput("the input dem must be one text in base64, or an object with it as value");
+    return InvalidParameter(
+        "the input dem must be one text in base64, or an object with it as value");
   }
   if (!dem->encoding.empty() && dem->encoding != "base64") {
-    return InvalidInput("the encoding of the input dem must be base64");
+    return InvalidParameter("the encoding of the input dem must be base64");
   }
   return CheckDemMedia(dem->media_type);
 }
@@ -151,7 +148,7 @@ class ExecuteExchange : public Exchange {
 };
 
 Result<DemOrigin> ExecuteExchange::TakeDem(const json& inputs) {
-  if (!inputs.contains("dem")) return InvalidInput("the input dem is missing");
+  if (!inputs.contains("dem")) return InvalidParameter("the input dem is missing");
   Result<std::optional<InputLink>> link = ReadLink(inputs["dem"]);
   if (!link) return std::move(link.error());
   Status fits = *link ? CheckDemMedia((*link)->type) : CheckDemInput(inputs, body_);

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "service/handlers/problem.h"
 #include "service/handlers/processes.h"
 #include "service/handlers/subscriber.h"
 #include "service/strict_json.h"
@@ -14,10 +15,6 @@ namespace farhorizon {
 namespace {
 
 using nlohmann::json;
-
-Error Invalid(const std::string& what) {
-  return {ErrorCode::kInvalidArgument, what, "invalid-parameter"};
-}
 
 // What an input or an output says of its format: by itself, or in an object `format`.
 std::string TextOf(const json& object, const char* name) {
@@ -32,26 +29,27 @@ std::string TextOf(const json& object, const char* name) {
 Status CheckMembers(const json& body) {
   constexpr std::array<std::string_view, 5> kKnown = {"inputs", "outputs", "process", "response",
                                                       "subscriber"};
-  if (!body.is_object()) return Invalid("an execute request is a JSON object");
+  if (!body.is_object()) return InvalidParameter("an execute request is a JSON object");
   for (const auto& [name, value] : body.items()) {
     if (std::find(kKnown.begin(), kKnown.end(), name) != kKnown.end()) continue;
-    return Invalid("an execute request has no member \"" + name.substr(0, 100) +
-                   "\"; known are inputs, outputs, response, process and subscriber");
+    return InvalidParameter("an execute request has no member \"" + name.substr(0, 100) +
+                            "\"; known are inputs, outputs, response, process and subscriber");
   }
   if (body.contains("inputs") && body["inputs"].is_object()) return Ok{};
-  return Invalid("an execute request has its inputs in an object, as {\"inputs\": {…}}");
+  return InvalidParameter("an execute request has its inputs in an object, as {\"inputs\": {…}}");
 }
 
 // The process that the body names, by its name or its URL.
 Result<std::string> ProcessOf(const HandlerContext& context, const json& body,
                               const std::string& expected) {
   if (!body.contains("process")) return expected.empty() ? kTerrainProcess : expected;
-  if (!body["process"].is_string()) return Invalid("process must be a process' name or URL");
+  if (!body["process"].is_string())
+    return InvalidParameter("process must be a process' name or URL");
   std::string named = body["process"].get<std::string>();
   const std::string folder = context.base + "/processes/";
   if (named.starts_with(folder)) named.erase(0, folder.size());
   if (!expected.empty() && named != expected) {
-    return Invalid("the body names another process than the path");
+    return InvalidParameter("the body names another process than the path");
   }
   if (!IsOffered(context, named)) return NoSuchProcess(named);
   return named;
@@ -62,7 +60,7 @@ Result<std::optional<bool>> RawOf(const json& body) {
   if (!body.contains("response")) return std::optional<bool>();
   if (body["response"] == "raw") return std::optional<bool>(true);
   if (body["response"] == "document") return std::optional<bool>(false);
-  return Invalid("response must be raw or document");
+  return InvalidParameter("response must be raw or document");
 }
 
 // The transmissions that are asked for by name, unset where none is; nullopt for all outputs.
@@ -70,20 +68,21 @@ using Asked = std::optional<std::map<std::string, std::optional<Transmission>>>;
 
 Result<Asked> AskedOutputs(const json& body, const std::string& process) {
   if (!body.contains("outputs")) return Asked();
-  if (!body["outputs"].is_object()) return Invalid("outputs must be an object");
+  if (!body["outputs"].is_object()) return InvalidParameter("outputs must be an object");
   Asked asked;
   asked.emplace();
   for (const auto& [name, how] : body["outputs"].items()) {
     if (!MayHaveOutput(process, name)) {
-      return Invalid("the process has no output \"" + name.substr(0, 100) +
-                     "\"; its description lists all");
+      return InvalidParameter("the process has no output \"" + name.substr(0, 100) +
+                              "\"; its description lists all");
     }
-    if (!how.is_object()) return Invalid("an output is asked for by an object, which may be empty");
+    if (!how.is_object())
+      return InvalidParameter("an output is asked for by an object, which may be empty");
     std::optional<Transmission>& mode = (*asked)[name];
     if (!how.contains("transmissionMode")) continue;
     const json& word = how["transmissionMode"];
     if (word != "value" && word != "reference") {
-      return Invalid("transmissionMode must be value or reference");
+      return InvalidParameter("transmissionMode must be value or reference");
     }
     mode = word == "value" ? Transmission::kValue : Transmission::kReference;
   }

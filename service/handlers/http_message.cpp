@@ -1,5 +1,7 @@
 #include "service/handlers/http_message.h"
 
+#include "core/base/lower.h"
+
 namespace farhorizon {
 
 const std::string* HttpRequest::Header(std::string_view name) const {
@@ -78,19 +80,7 @@ const char* ReasonPhrase(int status) {
   }
 }
 
-std::string LowerCase(std::string_view text) {
-  std::string lower(text);
-  for (char& c : lower) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return lower;
-}
-
-std::string_view Trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
+std::string LowerCase(std::string_view text) { return Lower(std::string(text)); }
 
 std::string MediaTypeIn(std::string_view content_type) {
   return LowerCase(Trimmed(content_type.substr(0, content_type.find(';'))));

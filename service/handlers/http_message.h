@@ -12,6 +12,7 @@
 
 #include "core/base/result.h"
 #include "service/auth/caller.h"
+#include "service/text_list.h"
 #include "service/url_query.h"
 
 namespace farhorizon {
@@ -126,7 +127,5 @@ std::string MediaTypeIn(std::string_view content_type);
 
 /// `text` with the letters A to Z in lower case.
 std::string LowerCase(std::string_view text);
-/// `text` without the blanks and tabs at its ends.
-std::string_view Trimmed(std::string_view text);
 
 }  // namespace farhorizon

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 
+#include "service/handlers/problem.h"
 #include "service/handlers/uploads.h"
 #include "service/jobs/job.h"
 
@@ -22,11 +23,9 @@ Result<std::optional<InputLink>> ReadLink(const nlohmann::json& given) {
   for (const auto& [name, value] : given.items()) {
     const bool known = std::find(kMembers.begin(), kMembers.end(), name) != kMembers.end();
     if (known && value.is_string()) continue;
-    return Error{ErrorCode::kInvalidArgument,
-                 "the input dem is a link, which has texts as href, type, rel, title and "
-                 "hreflang, not " +
-                     name.substr(0, 100) + (known ? " of another kind" : ""),
-                 "invalid-parameter"};
+    return InvalidParameter(
+        "the input dem is a link, which has texts as href, type, rel, title and hreflang, not " +
+        name.substr(0, 100) + (known ? " of another kind" : ""));
   }
   return std::optional<InputLink>(
       {given["href"].get<std::string>(), given.value("type", std::string())});

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "service/handlers/problem.h"
 #include "service/strict_json.h"
 
 namespace farhorizon {
@@ -24,10 +25,7 @@ Result<Parameters> ParametersOfJson(const std::string& text) {
 }
 
 Result<Parameters> ParametersOf(const nlohmann::json& document) {
-  const auto invalid = [](const std::string& what) {
-    return Error{ErrorCode::kInvalidArgument, what, "invalid-parameter"};
-  };
-  if (!document.is_object()) return invalid("the parameters must be a JSON object");
+  if (!document.is_object()) return InvalidParameter("the parameters must be a JSON object");
   Parameters parameters;
   for (const auto& [name, value] : document.items()) {
     std::optional<std::string> joined = ScalarText(value);
@@ -35,12 +33,13 @@ Result<Parameters> ParametersOf(const nlohmann::json& document) {
       joined.emplace();
       for (const auto& element : value) {
         const std::optional<std::string> part = ScalarText(element);
-        if (!part) return invalid("the parameter " + name + " must list numbers or texts");
+        if (!part) return InvalidParameter("the parameter " + name + " must list numbers or texts");
         joined->append(",").append(*part);
       }
       joined->erase(0, 1);
     }
-    if (!joined) return invalid("the parameter " + name + " must be a number, a text or a list");
+    if (!joined)
+      return InvalidParameter("the parameter " + name + " must be a number, a text or a list");
     parameters.emplace(name, *joined);
   }
   return parameters;

@@ -189,6 +189,10 @@ bool WantsPlainJson(const HttpRequest& request) {
 Problem::Problem(ErrorKind kind, std::string text)
     : status(HttpStatusOf(kind)), code(kind), detail(std::move(text)) {}
 
+Error InvalidParameter(const std::string& what) {
+  return {ErrorCode::kInvalidArgument, what, "invalid-parameter"};
+}
+
 int HttpStatusOf(ErrorKind kind) {
   Check(!kind.empty(), "a problem has a code");
   return StatusInRows(kind);

@@ -17,6 +17,9 @@ struct Problem {
   std::string detail;  ///< for the person who can act
 };
 
+/// kInvalidArgument "invalid-parameter".
+Error InvalidParameter(const std::string& what);
+
 /// The HTTP status of `kind`: one for each of kErrorKinds.
 int HttpStatusOf(ErrorKind kind);
 

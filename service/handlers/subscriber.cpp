@@ -4,25 +4,18 @@
 #include <string>
 #include <utility>
 
+#include "service/handlers/problem.h"
 #include "service/outgoing/callback_rules.h"
 
 namespace farhorizon {
 
-namespace {
-
 using nlohmann::json;
-
-Error InvalidSubscriber(const std::string& what) {
-  return {ErrorCode::kInvalidArgument, what, "invalid-parameter"};
-}
-
-}  // namespace
 
 Result<Subscriber> ReadSubscriber(const HandlerContext& context, const json& request) {
   Subscriber whom;
   const auto given = request.find("subscriber");
   if (given == request.end()) return whom;
-  if (!given->is_object()) return InvalidSubscriber("subscriber must be an object of URLs");
+  if (!given->is_object()) return InvalidParameter("subscriber must be an object of URLs");
   if (!context.callbacks) {
     return Error{ErrorCode::kInvalidArgument,
                  "this service calls no subscriber: ask for the job's status, or let "
@@ -38,7 +31,7 @@ Result<Subscriber> ReadSubscriber(const HandlerContext& context, const json& req
     ++found;
     const json& text = (*given)[name];
     if (!text.is_string())
-      return InvalidSubscriber(std::string(name) + " of subscriber must be a URL");
+      return InvalidParameter(std::string(name) + " of subscriber must be a URL");
     *uri = text.get<std::string>();
     const Result<OutgoingUrl> allowed = context.callbacks->Check(*uri);
     if (!allowed) {
@@ -47,11 +40,11 @@ Result<Subscriber> ReadSubscriber(const HandlerContext& context, const json& req
     }
   }
   if (found < given->size()) {
-    return InvalidSubscriber(
+    return InvalidParameter(
         "subscriber has a member that is not known; known are successUri, "
         "inProgressUri and failedUri");
   }
-  if (whom.success_uri.empty()) return InvalidSubscriber("subscriber must have a successUri");
+  if (whom.success_uri.empty()) return InvalidParameter("subscriber must have a successUri");
   return whom;
 }
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/io/base64.h"
+#include "service/handlers/upload_fields.h"
 
 namespace farhorizon {
 
@@ -11,10 +12,6 @@ namespace {
 
 constexpr std::size_t kSha1Bytes = 20;
 constexpr std::size_t kSha256Bytes = 32;
-
-Error InvalidChecksum(const std::string& why) {
-  return {ErrorCode::kInvalidArgument, why, "invalid-upload"};
-}
 
 }  // namespace
 
@@ -24,9 +21,9 @@ Result<UploadChecksum> UploadChecksum::Of(const HttpRequest& request) {
   if (field == nullptr) return checksum;
   const std::size_t blank = std::min(field->find(' '), field->size());
   const std::string name = field->substr(0, blank);
-  checksum.sum_ = Checksum::Named(name);
+  if (name == "sha1" || name == "sha256") checksum.sum_ = Checksum::Named(name);
   if (!checksum.sum_) {
-    return InvalidChecksum(std::string("Upload-Checksum must be of one of ") + kChecksumAlgorithms);
+    return InvalidUpload(std::string("Upload-Checksum must be of one of ") + kChecksumAlgorithms);
   }
   Base64Decoder decoder;
   const bool read =
@@ -34,7 +31,7 @@ Result<UploadChecksum> UploadChecksum::Of(const HttpRequest& request) {
   if (read && checksum.expected_.size() == (name == "sha1" ? kSha1Bytes : kSha256Bytes)) {
     return checksum;
   }
-  return InvalidChecksum("Upload-Checksum must be the algorithm, a blank, and the sum in base64");
+  return InvalidUpload("Upload-Checksum must be the algorithm, a blank, and the sum in base64");
 }
 
 void UploadChecksum::Add(std::string_view piece) {

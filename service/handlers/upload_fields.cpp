@@ -18,10 +18,6 @@ constexpr std::size_t kMostMetadata = 4096;
 constexpr std::int64_t kMostNumber = 1'000'000'000'000'000'000;
 constexpr std::size_t kNumberDigits = 18;
 
-Error InvalidUpload(const std::string& why) {
-  return {ErrorCode::kInvalidArgument, why, "invalid-upload"};
-}
-
 Result<std::int64_t> ReadNumber(const char* name, const std::string& text) {
   if (text.empty() || text.find_first_not_of("0123456789") != std::string::npos) {
     return InvalidUpload(std::string(name) + " must be a number of bytes, 0 or more");
@@ -69,6 +65,10 @@ std::string FirstOf(const std::map<std::string, std::string>& values, const char
 }
 
 }  // namespace
+
+Error InvalidUpload(const std::string& why) {
+  return {ErrorCode::kInvalidArgument, why, "invalid-upload"};
+}
 
 std::optional<HttpResponse> RefuseTusVersion(const HttpRequest& request) {
   const std::string* version = request.Header("tus-resumable");

@@ -12,6 +12,9 @@ namespace farhorizon {
 /// The version of the protocol of resumable uploads that is spoken [Tus].
 inline constexpr const char* kTusVersion = "1.0.0";
 
+/// kInvalidArgument "invalid-upload".
+Error InvalidUpload(const std::string& why);
+
 /// The response to a request that speaks another version, or says none; nullopt to one of this
 /// version.
 std::optional<HttpResponse> RefuseTusVersion(const HttpRequest& request);

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 
@@ -10,6 +11,9 @@ namespace farhorizon {
 /// What of a job a subscriber is called for.
 enum class CallbackEvent { kInProgress, kSuccess, kFailure };
 inline constexpr std::array kCallbackEventNames = {"in-progress", "success", "failure"};
+inline const char* NameOf(CallbackEvent event) {
+  return kCallbackEventNames.at(static_cast<std::size_t>(event));
+}
 
 /// Where a job's client wants to be called, by the names of OGC API - Processes; empty: not.
 struct Subscriber {

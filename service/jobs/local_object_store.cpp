@@ -63,8 +63,8 @@ class LocalObjectStore : public ObjectStore {
   Status SetAside(const std::string& sha256) override;
   Status TakeBack(const std::string& sha256) override;
   Result<std::vector<std::string>> List(ObjectList which) override;
-  Result<std::string> Label() override { return ReadFile(LabelFile(), kLargestLabel); }
-  Status SetLabel(const std::string& label) override;
+  Result<std::string> Label() override { return ReadLabel(root_); }
+  Status SetLabel(const std::string& label) override { return WriteLabel(root_, label); }
   Result<std::string> ClaimLabel(const std::string& label) override;
   Status CheckWrites() override;
   Result<DiskRoom> Room() override { return RoomOf(root_); }
@@ -76,7 +76,6 @@ class LocalObjectStore : public ObjectStore {
   [[nodiscard]] fs::path IncomingName(const std::string& sha256) const {
     return root_ / "incoming" / sha256;
   }
-  [[nodiscard]] fs::path LabelFile() const { return root_ / "identity"; }
   // The error for an object that is not there: of the object, or of all where the folder is gone.
   [[nodiscard]] Error Missing() const;
   Status Place(const fs::path& temp, const std::string& sha256);
@@ -122,12 +121,9 @@ void LocalObjectStore::Keep(const std::vector<std::string>& names) {
 
 Result<OpenObject> LocalObjectStore::Open(const std::string& sha256) {
   if (!IsSha256(sha256)) return Error{ErrorCode::kNotFound, "no such object"};
-  Result<UniqueFd> fd = OpenForReading(PathOf(sha256));
-  if (!fd && fd.error().code == ErrorCode::kNotFound) return Missing();
-  if (!fd) return std::move(fd.error());
-  struct stat info {};
-  if (::fstat(fd->get(), &info) != 0) return StorageError("look at an object");
-  return OpenObject{*std::move(fd), info.st_size};
+  Result<OpenObject> object = OpenObjectFile(PathOf(sha256));
+  if (!object && object.error().code == ErrorCode::kNotFound) return Missing();
+  return object;
 }
 
 Error LocalObjectStore::Missing() const {
@@ -141,14 +137,7 @@ Error LocalObjectStore::Missing() const {
 Status LocalObjectStore::CopyTo(const std::string& sha256, const fs::path& target) {
   Result<OpenObject> object = Open(sha256);
   if (!object) return std::move(object.error());
-  const UniqueFd copy(::open(target.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0400));
-  if (!copy) return StorageError("make the worker's input");
-  Result<StoredObject> copied = CopyAndHash(object->fd.get(), copy.get());
-  if (!copied) return std::move(copied.error());
-  if (copied->sha256 != sha256) {
-    return Error{ErrorCode::kIo, "the stored upload is damaged; send it again", "input-corrupt"};
-  }
-  return Ok{};
+  return CopyObject(*object, sha256, target);
 }
 
 Status LocalObjectStore::Remove(const std::string& sha256) {
@@ -186,18 +175,11 @@ Result<std::vector<std::string>> LocalObjectStore::List(ObjectList which) {
   return names;
 }
 
-Status LocalObjectStore::SetLabel(const std::string& label) {
-  Status written = WriteFile(LabelFile(), label);
-  std::error_code ignored;  // the folder is for its owner alone, too
-  fs::permissions(LabelFile(), fs::perms::owner_read | fs::perms::owner_write, ignored);
-  return written;
-}
-
 Result<std::string> LocalObjectStore::ClaimLabel(const std::string& label) {
   const fs::path own = root_ / "temp" / (temp_prefix_ + "label");
   Status written = WriteFile(own, label);
   if (!written) return std::move(written.error());
-  const bool claimed = ::link(own.c_str(), LabelFile().c_str()) == 0 || errno == EEXIST;
+  const bool claimed = ::link(own.c_str(), LabelFile(root_).c_str()) == 0 || errno == EEXIST;
   const Error failed = StorageError("name the objects' owner");
   ::unlink(own.c_str());
   if (!claimed) return failed;
@@ -225,6 +207,19 @@ Status LocalObjectStore::Move(const fs::path& from, const fs::path& to) {
 }
 
 }  // namespace
+
+fs::path LabelFile(const fs::path& root) { return root / "identity"; }
+
+Result<std::string> ReadLabel(const fs::path& root) {
+  return ReadFile(LabelFile(root), kLargestLabel);
+}
+
+Status WriteLabel(const fs::path& root, const std::string& label) {
+  Status written = WriteFile(LabelFile(root), label);
+  std::error_code ignored;  // the folder is for its owner alone, too
+  fs::permissions(LabelFile(root), fs::perms::owner_read | fs::perms::owner_write, ignored);
+  return written;
+}
 
 Result<std::unique_ptr<ObjectStore>> OpenLocalObjectStore(const fs::path& root, Sharing sharing) {
   std::error_code failure;

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
 
 #include "core/base/result.h"
 #include "service/jobs/object_store.h"
@@ -22,5 +23,12 @@ enum class Sharing { kOneProcess, kManyProcesses };
 /// Errors: kIo where the folders cannot be made.
 Result<std::unique_ptr<ObjectStore>> OpenLocalObjectStore(const std::filesystem::path& root,
                                                           Sharing sharing = Sharing::kOneProcess);
+
+/// The file that has the label of the objects below `root`.
+std::filesystem::path LabelFile(const std::filesystem::path& root);
+/// The label of the objects below `root`, as ObjectStore has it, without a store of them.
+/// Errors: those of ReadFile and WriteFile.
+Result<std::string> ReadLabel(const std::filesystem::path& root);
+Status WriteLabel(const std::filesystem::path& root, const std::string& label);
 
 }  // namespace farhorizon

@@ -1,7 +1,6 @@
 #include "service/jobs/object_cache.h"
 
 #include <algorithm>
-#include <fcntl.h>
 #include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
@@ -20,14 +19,6 @@ namespace fs = std::filesystem;
 constexpr int kMostFetches = 3;
 
 Error NotThere() { return {ErrorCode::kNotFound, "no such copy"}; }
-
-Result<OpenObject> OpenFile(const fs::path& path) {
-  Result<UniqueFd> fd = OpenForReading(path);
-  if (!fd) return std::move(fd.error());
-  struct stat info {};
-  if (::fstat(fd->get(), &info) != 0) return StorageError("look at a copy of an object");
-  return OpenObject{*std::move(fd), info.st_size};
-}
 
 // The SHA-256 of an open file, which is at its start again afterwards.
 Result<std::string> SumOf(int fd) {
@@ -127,7 +118,7 @@ void ObjectCache::Land(const std::string& sha256, const Status& status) {
 Result<OpenObject> ObjectCache::Take(const std::string& sha256) {
   const auto found = entries_.find(sha256);
   if (found == entries_.end() || !found->second.sound) return NotThere();
-  Result<OpenObject> object = OpenFile(folder_ / sha256);
+  Result<OpenObject> object = OpenObjectFile(folder_ / sha256);
   if (!object || object->bytes != found->second.bytes) {
     Forget(sha256);
     return NotThere();
@@ -142,7 +133,7 @@ Result<OpenObject> ObjectCache::TakeChecked(const std::string& sha256) {
     const std::lock_guard lock(mutex_);
     if (!entries_.contains(sha256)) return NotThere();
   }
-  Result<OpenObject> object = OpenFile(folder_ / sha256);
+  Result<OpenObject> object = OpenObjectFile(folder_ / sha256);
   const Result<std::string> sum = object ? SumOf(object->fd.get()) : NotThere();
   const std::lock_guard lock(mutex_);
   if (!sum || *sum != sha256) {
@@ -160,7 +151,7 @@ Result<OpenObject> ObjectCache::Bring(const std::string& sha256, const Fetch& fe
     if (!file) return std::move(file.error());
     Status fetched = fetch(file->fd());
     if (!fetched) return std::move(fetched.error());
-    Result<OpenObject> object = OpenFile(file->path());
+    Result<OpenObject> object = OpenObjectFile(file->path());
     if (!object) return object;
     Result<std::string> sum = SumOf(object->fd.get());
     if (!sum) return std::move(sum.error());

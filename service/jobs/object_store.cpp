@@ -1,6 +1,9 @@
 #include "service/jobs/object_store.h"
 
 #include <algorithm>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <utility>
 
 #include "core/base/hex.h"
 #include "core/io/posix_file.h"
@@ -32,6 +35,24 @@ Result<StoredObject> CopyAndHash(int from, int to) {
   if (!copied) return std::move(copied.error());
   object.sha256 = hash.Finish().Hex();
   return object;
+}
+
+Result<OpenObject> OpenObjectFile(const std::filesystem::path& file) {
+  Result<UniqueFd> fd = OpenForReading(file);
+  if (!fd) return std::move(fd.error());
+  struct stat info {};
+  if (::fstat(fd->get(), &info) != 0) return StorageError("look at an object");
+  return OpenObject{*std::move(fd), info.st_size};
+}
+
+Status CopyObject(const OpenObject& object, const std::string& sha256,
+                  const std::filesystem::path& target) {
+  const UniqueFd copy(::open(target.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0400));
+  if (!copy) return StorageError("make the worker's input");
+  Result<StoredObject> copied = CopyAndHash(object.fd.get(), copy.get());
+  if (!copied) return std::move(copied.error());
+  if (copied->sha256 == sha256) return Ok{};
+  return Error{ErrorCode::kIo, "the stored upload is damaged; send it again", "input-corrupt"};
 }
 
 }  // namespace farhorizon

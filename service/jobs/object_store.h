@@ -88,6 +88,13 @@ class ObjectStore {
 /// Copies all bytes of `from` to `to`; their SHA-256 and number. Errors: those of StorageError.
 Result<StoredObject> CopyAndHash(int from, int to);
 
+/// Opens a file that has an object's bytes. Errors: kNotFound; those of StorageError.
+Result<OpenObject> OpenObjectFile(const std::filesystem::path& file);
+
+/// Copies the object to the new file `target`. Errors: as ObjectStore::CopyTo.
+Status CopyObject(const OpenObject& object, const std::string& sha256,
+                  const std::filesystem::path& target);
+
 /// True for a SHA-256 in lower-case hexadecimal.
 bool IsSha256(const std::string& text);
 

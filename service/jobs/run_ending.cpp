@@ -16,20 +16,12 @@ namespace {
 
 constexpr std::chrono::milliseconds kRetryInterval{1000};
 constexpr std::int64_t kMaxRestarts = 1;
-// Full jitter (a delay from 0 to a bound that doubles): what a fault has stopped at one time does
-// not come back at one time. Half a minute is soon enough for a disk that an operator has cleared.
-constexpr std::int64_t kFirstDelayMs = 1000;
-constexpr std::int64_t kLongestRetryDelayMs = 30'000;
+// Half a minute is soon enough for a disk that an operator has cleared.
+constexpr std::chrono::milliseconds kFirstRetryDelay{1000};
+constexpr std::chrono::milliseconds kLongestRetryDelay{30'000};
 // Of a fault that only the worker has seen. It may be true (a file system that is full for a
 // moment) or a lie of a worker that a file has taken over.
 constexpr std::int64_t kMostBelieved = 8;
-
-std::int64_t DelayMs(std::int64_t retries) {
-  const std::int64_t doublings = std::min<std::int64_t>(retries, 10);
-  const std::int64_t most = std::min(kLongestRetryDelayMs, kFirstDelayMs << doublings);
-  const auto bytes = RandomBytes();
-  return (bytes[0] + 256 * bytes[1]) * most / 65536;
-}
 
 }  // namespace
 
@@ -83,7 +75,7 @@ void RunEnding::DataFailed(const Job& job, const Error& error, const std::stop_t
 }
 
 void RunEnding::Postpone(const Job& job, const Error& error, const std::stop_token& stop) {
-  const std::int64_t delay = DelayMs(job.retries);
+  const std::int64_t delay = RandomDelay(kFirstRetryDelay, kLongestRetryDelay, job.retries).count();
   Log(LogLevel::kWarning, "the machine is at fault: the job runs again later",
       {{"job_id", job.id}, {"code", error.kind}, {"error", error.message}, {"delay_ms", delay}});
   StoreSurely(job, stop, [&] { return jobs_.Postpone(job.id, job.run, delay, NowMs()); });

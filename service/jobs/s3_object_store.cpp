@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <fcntl.h>
 #include <iterator>
 #include <limits>
 #include <mutex>
@@ -101,18 +100,16 @@ Result<OpenObject> S3ObjectStore::Open(const std::string& sha256) {
 
 Status S3ObjectStore::CopyTo(const std::string& sha256, const fs::path& target) {
   // Twice, for a copy on this machine may have been damaged since it was fetched.
-  for (int tries = 0; tries < 2; ++tries) {
+  for (int tries = 1;; ++tries) {
     Result<OpenObject> object = Open(sha256);
     if (!object) return std::move(object.error());
-    const UniqueFd copy(::open(target.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0400));
-    if (!copy) return StorageError("make the worker's input");
-    Result<StoredObject> copied = CopyAndHash(object->fd.get(), copy.get());
-    if (copied && copied->sha256 == sha256) return Ok{};
+    Status copied = CopyObject(*object, sha256, target);
+    if (copied) return copied;
     ::unlink(target.c_str());
-    if (!copied) return std::move(copied.error());
+    if (copied.error().kind != "input-corrupt") return copied;
     Distrust(sha256);
+    if (tries == 2) return copied;
   }
-  return Error{ErrorCode::kIo, "the stored upload is damaged; send it again", "input-corrupt"};
 }
 
 // While objects are removed nobody stores any: so few requests as there can be.

@@ -11,11 +11,6 @@ namespace farhorizon {
 
 namespace {
 
-Error Unusable(const std::string& why, const std::string& remedy) {
-  return {ErrorCode::kIo, "job store: " + why + "; " + remedy + ". Nothing was changed",
-          "job-store-unusable"};
-}
-
 // The identity that the objects have; nullopt where they have none.
 Result<std::optional<StoreIdentity>> IdentityOf(ObjectStore& objects) {
   Result<std::string> label = objects.Label();
@@ -26,22 +21,23 @@ Result<std::optional<StoreIdentity>> IdentityOf(ObjectStore& objects) {
 
 Status CheckFit(const std::optional<StoreIdentity>& theirs, const StoreIdentity& own) {
   if (!theirs) {
-    return Unusable(
+    return UnusableStore(
         "the uploads and results of its jobs are gone: the database was used with others before",
         "mount or name the right ones (store.objects); or, where they are lost for good, give them "
         "a file \"identity\" with the line \"" +
             own.id + " " + std::to_string(own.generation) + "\", or take a new database");
   }
   if (theirs->id != own.id) {
-    return Unusable("the uploads and results belong to another database",
-                    "give the right database (store.jobs) or the right objects (store.objects)");
+    return UnusableStore(
+        "the uploads and results belong to another database",
+        "give the right database (store.jobs) or the right objects (store.objects)");
   }
   if (theirs->generation > own.generation) {
-    return Unusable("the database is older than the uploads and results (start " +
-                        std::to_string(own.generation) + ", theirs " +
-                        std::to_string(theirs->generation) + ")",
-                    "put the right one back, or write the former number into the objects' file "
-                    "\"identity\"");
+    return UnusableStore(
+        "the database is older than the uploads and results (start " +
+            std::to_string(own.generation) + ", theirs " + std::to_string(theirs->generation) + ")",
+        "put the right one back, or write the former number into the objects' file "
+        "\"identity\"");
   }
   return Ok{};
 }

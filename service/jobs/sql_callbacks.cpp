@@ -14,10 +14,6 @@ constexpr std::int64_t kLongestCallDelayMs = std::int64_t{2} * 3600 * 1000;
 constexpr const char* kThisClaim =
     " WHERE job_id = ? AND event = ? AND state = 'due' AND attempts = ?";
 
-const char* NameOf(CallbackEvent event) {
-  return kCallbackEventNames.at(static_cast<std::size_t>(event));
-}
-
 // The time that leases of calls go by, as an expression.
 std::string Now(const SqlDatabase& database, std::int64_t now_ms) {
   const std::string& clock = database.dialect().clock_ms;

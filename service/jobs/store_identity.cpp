@@ -5,22 +5,13 @@
 #include <string>
 #include <system_error>
 
-#include "core/io/file.h"
+#include "service/jobs/local_object_store.h"
 
 namespace farhorizon {
 
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::uintmax_t kLargestIdentity = 4096;
-
-fs::path IdentityFile(const DataDirectory& directory) { return directory.Objects() / "identity"; }
-
-Error Unusable(const std::string& why, const std::string& remedy) {
-  return {ErrorCode::kIo, "job store: " + why + "; " + remedy + ". Nothing was changed",
-          "job-store-unusable"};
-}
 
 std::uintmax_t SizeOf(const fs::path& file) {
   std::error_code failure;
@@ -39,6 +30,11 @@ bool AnyObject(const fs::path& objects) {
 
 }  // namespace
 
+Error UnusableStore(const std::string& why, const std::string& remedy) {
+  return {ErrorCode::kIo, "job store: " + why + "; " + remedy + ". Nothing was changed",
+          "job-store-unusable"};
+}
+
 std::string WriteText(const StoreIdentity& identity) {
   return identity.id + " " + std::to_string(identity.generation) + "\n";
 }
@@ -51,19 +47,21 @@ std::optional<StoreIdentity> ParseIdentity(const std::string& text) {
 }
 
 std::optional<StoreIdentity> ReadIdentity(const DataDirectory& directory) {
-  Result<std::string> text = ReadFile(IdentityFile(directory), kLargestIdentity);
+  const Result<std::string> text = ReadLabel(directory.Objects());
   return text ? ParseIdentity(*text) : std::nullopt;
 }
 
 Status CheckDatabaseIsThere(const DataDirectory& directory) {
   if (SizeOf(directory.Jobs()) > 0) return Ok{};
   const bool log = SizeOf(directory.Jobs().string() + "-wal") > 0;
-  if (!log && !fs::exists(IdentityFile(directory)) && !AnyObject(directory.Objects())) return Ok{};
-  return Unusable("the database " + directory.Jobs().string() + " is missing or empty, but " +
-                      (log ? "its log is" : "uploads and results of a store are") +
-                      " beside it: without it, nobody knows whose they are",
-                  "put the database back from a backup, or move the data directory away to start "
-                  "afresh");
+  if (!log && !fs::exists(LabelFile(directory.Objects())) && !AnyObject(directory.Objects()))
+    return Ok{};
+  return UnusableStore(
+      "the database " + directory.Jobs().string() + " is missing or empty, but " +
+          (log ? "its log is" : "uploads and results of a store are") +
+          " beside it: without it, nobody knows whose they are",
+      "put the database back from a backup, or move the data directory away to start "
+      "afresh");
 }
 
 Status CheckSameStore(const DataDirectory& directory, JobStore& jobs, ObjectStore& objects) {
@@ -74,32 +72,28 @@ Status CheckSameStore(const DataDirectory& directory, JobStore& jobs, ObjectStor
                              directory.root.string() +
                              " --repair`, which sets aside what it does not know";
   if (beside && beside->id != own->id) {
-    return Unusable("the uploads and results beside the database belong to another database",
-                    remedy);
+    return UnusableStore("the uploads and results beside the database belong to another database",
+                         remedy);
   }
   if (beside && beside->generation > own->generation) {
-    return Unusable("the database is older than the uploads and results beside it (start " +
-                        std::to_string(own->generation) + ", theirs " +
-                        std::to_string(beside->generation) + ")",
-                    remedy);
+    return UnusableStore("the database is older than the uploads and results beside it (start " +
+                             std::to_string(own->generation) + ", theirs " +
+                             std::to_string(beside->generation) + ")",
+                         remedy);
   }
   if (beside || own->generation == 0 || AnyObject(directory.Objects())) return Ok{};
   // Nothing at all is beside the database. That may be, unless its jobs have artifacts.
   Result<JobPage> newest = jobs.List({{JobState::kSuccessful, JobState::kAccepted}, {}, 1});
   if (!newest) return std::move(newest.error());
   if (newest->jobs.empty() || objects.Open(newest->jobs[0].input_sha256)) return Ok{};
-  return Unusable(
+  return UnusableStore(
       "the uploads and results of its jobs are gone from " + directory.Objects().string(),
       "mount or restore that folder; or let `farhorizon fsck " + directory.root.string() +
           " --repair` fail the jobs that have lost theirs");
 }
 
 Status WriteIdentity(const DataDirectory& directory, const StoreIdentity& identity) {
-  const fs::path file = IdentityFile(directory);
-  Status written = WriteFile(file, WriteText(identity));
-  std::error_code ignored;  // the folder is for its owner alone, too
-  fs::permissions(file, fs::perms::owner_read | fs::perms::owner_write, ignored);
-  return written;
+  return WriteLabel(directory.Objects(), WriteText(identity));
 }
 
 }  // namespace farhorizon

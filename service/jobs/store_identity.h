@@ -23,6 +23,9 @@ Status CheckDatabaseIsThere(const DataDirectory& directory);
 /// Errors: kIo "job-store-unusable", with the remedy.
 Status CheckSameStore(const DataDirectory& directory, JobStore& jobs, ObjectStore& objects);
 
+/// "job-store-unusable": why, and the remedy.
+Error UnusableStore(const std::string& why, const std::string& remedy);
+
 /// An identity as a line of text, and back; nullopt for any other text.
 std::string WriteText(const StoreIdentity& identity);
 std::optional<StoreIdentity> ParseIdentity(const std::string& text);

@@ -31,11 +31,8 @@ Status Judge(const OutgoingUrl& url, const OutgoingResponse& response) {
   if (response.status == 200) return Ok{};
   std::string why = url.host + " answered " + std::to_string(response.status);
   if (!response.location.empty()) {
-    std::string location;
-    for (const char c : response.location.substr(0, 200)) {
-      location += c >= ' ' && c < '\x7f' ? c : '?';
-    }
-    why += ", a redirect to " + location + ", and redirects are not followed; link that";
+    why += ", a redirect to " + Printable(response.location) +
+           ", and redirects are not followed; link that";
   }
   return Error{ErrorCode::kIo, why, "href-failed"};
 }

@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cstring>
-#include <curl/curl.h>
-#include <memory>
-#include <mutex>
 #include <netinet/in.h>
 #include <optional>
 #include <sys/socket.h>
 #include <utility>
+
+#include "core/base/lower.h"
+#include "service/curl.h"
+#include "service/text_list.h"
 
 namespace farhorizon {
 
@@ -18,8 +19,6 @@ constexpr std::size_t kMostHeadBytes = 65536;
 // Slower than that for so long is no transfer.
 constexpr long kLeastBytesPerSecond = 1024;
 constexpr long kSlowSeconds = 10;
-
-using List = std::unique_ptr<curl_slist, decltype(&curl_slist_free_all)>;
 
 std::optional<IpAddress> AddressOf(const curl_sockaddr& peer) {
   IpAddress bytes{};
@@ -37,20 +36,7 @@ std::optional<IpAddress> AddressOf(const curl_sockaddr& peer) {
   return bytes;
 }
 
-std::string Lower(std::string_view text) {
-  std::string lower(text);
-  std::transform(lower.begin(), lower.end(), lower.begin(), [](char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  });
-  return lower;
-}
-
-std::string_view WithoutBlanks(std::string_view text) {
-  constexpr const char* kBlanks = " \t\r\n";
-  const std::size_t begin = text.find_first_not_of(kBlanks);
-  if (begin == std::string_view::npos) return "";
-  return text.substr(begin, text.find_last_not_of(kBlanks) + 1 - begin);
-}
+constexpr const char* kBlanks = " \t\r\n";
 
 // One transfer. libcurl calls its members, by the functions below, in the thread that performs it.
 class Transfer {
@@ -59,16 +45,14 @@ class Transfer {
       : request_(request), rules_(rules), stop_(stop) {}
 
   Result<OutgoingResponse> Run() {
-    const std::unique_ptr<CURL, decltype(&curl_easy_cleanup)> curl(curl_easy_init(),
-                                                                   &curl_easy_cleanup);
-    Check(curl != nullptr, "there is memory for a transfer");
-    curl_ = curl.get();
-    const List headers = ListOf(Headers());
-    const List resolve = ListOf(request_.resolve);
+    CurlList headers;
+    for (const std::string& header : Headers()) headers.Add(header);
+    CurlList resolve;
+    for (const std::string& address : request_.resolve) resolve.Add(address);
     SetRequest(headers.get(), resolve.get());
     SetBounds();
     SetCallbacks();
-    const CURLcode code = curl_easy_perform(curl_);
+    const CURLcode code = curl_easy_perform(curl_.get());
     Note();
     if (error_) return *std::move(error_);
     // What comes after all that is wanted does not matter.
@@ -91,10 +75,10 @@ class Transfer {
     if (head_bytes_ > kMostHeadBytes) return Fail("the head of the answer is longer than 64 KiB");
     const std::size_t colon = line.find(':');
     if (colon == std::string_view::npos) return true;
-    const std::string name = Lower(WithoutBlanks(line.substr(0, colon)));
-    const std::string_view value = WithoutBlanks(line.substr(colon + 1));
+    const std::string name = Lower(std::string(Trimmed(line.substr(0, colon), kBlanks)));
+    const std::string_view value = Trimmed(line.substr(colon + 1), kBlanks);
     if (name == "location") response_.location = value;
-    if (name == "content-encoding" && Lower(value) != "identity") coding_ = value;
+    if (name == "content-encoding" && Lower(std::string(value)) != "identity") coding_ = value;
     return true;
   }
 
@@ -116,23 +100,6 @@ class Transfer {
   [[nodiscard]] bool Stopped() const { return stop_.stop_requested(); }
 
  private:
-  template <typename Value>
-  void Set(CURLoption option, Value value) {
-    const CURLcode set = curl_easy_setopt(curl_, option, value);
-    Check(set == CURLE_OK, "libcurl knows every option that shuts a transfer in");
-  }
-
-  static List ListOf(const std::vector<std::string>& texts) {
-    List list(nullptr, &curl_slist_free_all);
-    for (const std::string& text : texts) {
-      curl_slist* longer = curl_slist_append(list.get(), text.c_str());
-      Check(longer != nullptr, "there is memory for a field");
-      static_cast<void>(list.release());
-      list.reset(longer);
-    }
-    return list;
-  }
-
   [[nodiscard]] std::vector<std::string> Headers() const {
     std::vector<std::string> headers = request_.headers;
     headers.emplace_back("Accept-Encoding: identity");
@@ -141,79 +108,73 @@ class Transfer {
   }
 
   void SetRequest(curl_slist* headers, curl_slist* resolve) {
-    Set(CURLOPT_URL, request_.url.text.c_str());
-    Set(CURLOPT_PATH_AS_IS, 1L);
-    Set(CURLOPT_PROTOCOLS_STR, "http,https");
-    Set(CURLOPT_DISALLOW_USERNAME_IN_URL, 1L);
-    Set(CURLOPT_HTTP_VERSION, long{CURL_HTTP_VERSION_1_1});
-    Set(CURLOPT_HTTP09_ALLOWED, 0L);
-    Set(CURLOPT_USERAGENT, "farhorizon");
-    Set(CURLOPT_HTTPHEADER, headers);
-    if (resolve != nullptr) Set(CURLOPT_RESOLVE, resolve);
+    curl_.Set(CURLOPT_URL, request_.url.text.c_str());
+    curl_.Set(CURLOPT_PATH_AS_IS, 1L);
+    curl_.Set(CURLOPT_PROTOCOLS_STR, "http,https");
+    curl_.Set(CURLOPT_DISALLOW_USERNAME_IN_URL, 1L);
+    curl_.Set(CURLOPT_HTTP_VERSION, long{CURL_HTTP_VERSION_1_1});
+    curl_.Set(CURLOPT_HTTP09_ALLOWED, 0L);
+    curl_.Set(CURLOPT_USERAGENT, "farhorizon");
+    curl_.Set(CURLOPT_HTTPHEADER, headers);
+    if (resolve != nullptr) curl_.Set(CURLOPT_RESOLVE, resolve);
     if (request_.is_post) {
-      Set(CURLOPT_POST, 1L);
-      Set(CURLOPT_POSTFIELDSIZE_LARGE, static_cast<curl_off_t>(request_.body.size()));
-      Set(CURLOPT_POSTFIELDS, request_.body.data());
+      curl_.Set(CURLOPT_POST, 1L);
+      curl_.Set(CURLOPT_POSTFIELDSIZE_LARGE, static_cast<curl_off_t>(request_.body.size()));
+      curl_.Set(CURLOPT_POSTFIELDS, request_.body.data());
     }
   }
 
   void SetBounds() {
-    Set(CURLOPT_NOSIGNAL, 1L);
-    Set(CURLOPT_QUICK_EXIT, 1L);  // a look-up of a name that takes longer is left to itself
-    Set(CURLOPT_FOLLOWLOCATION, 0L);
-    Set(CURLOPT_PROXY, "");  // none of the environment's
-    Set(CURLOPT_NOPROXY, "*");
-    Set(CURLOPT_NETRC, long{CURL_NETRC_IGNORED});
-    Set(CURLOPT_SSL_VERIFYPEER, 1L);
-    Set(CURLOPT_SSL_VERIFYHOST, 2L);
-    Set(CURLOPT_FRESH_CONNECT, 1L);
-    Set(CURLOPT_FORBID_REUSE, 1L);
-    Set(CURLOPT_CONNECTTIMEOUT_MS, static_cast<long>(request_.connect_time.count()));
-    Set(CURLOPT_TIMEOUT_MS, static_cast<long>(request_.time.count()));
-    Set(CURLOPT_LOW_SPEED_LIMIT, kLeastBytesPerSecond);
-    Set(CURLOPT_LOW_SPEED_TIME, kSlowSeconds);
+    curl_.Set(CURLOPT_NOSIGNAL, 1L);
+    curl_.Set(CURLOPT_QUICK_EXIT, 1L);  // a look-up of a name that takes longer is left to itself
+    curl_.Set(CURLOPT_FOLLOWLOCATION, 0L);
+    curl_.Set(CURLOPT_PROXY, "");  // none of the environment's
+    curl_.Set(CURLOPT_NOPROXY, "*");
+    curl_.Set(CURLOPT_NETRC, long{CURL_NETRC_IGNORED});
+    curl_.Set(CURLOPT_SSL_VERIFYPEER, 1L);
+    curl_.Set(CURLOPT_SSL_VERIFYHOST, 2L);
+    curl_.Set(CURLOPT_FRESH_CONNECT, 1L);
+    curl_.Set(CURLOPT_FORBID_REUSE, 1L);
+    curl_.Set(CURLOPT_CONNECTTIMEOUT_MS, static_cast<long>(request_.connect_time.count()));
+    curl_.Set(CURLOPT_TIMEOUT_MS, static_cast<long>(request_.time.count()));
+    curl_.Set(CURLOPT_LOW_SPEED_LIMIT, kLeastBytesPerSecond);
+    curl_.Set(CURLOPT_LOW_SPEED_TIME, kSlowSeconds);
     // By Content-Length; Take counts.
-    if (request_.take) Set(CURLOPT_MAXFILESIZE_LARGE, curl_off_t{request_.most_bytes});
+    if (request_.take) curl_.Set(CURLOPT_MAXFILESIZE_LARGE, curl_off_t{request_.most_bytes});
   }
 
   void SetCallbacks() {
     const auto open = +[](void* self, curlsocktype /*purpose*/, curl_sockaddr* peer) {
       return static_cast<Transfer*>(self)->Open(*peer);
     };
-    Set(CURLOPT_OPENSOCKETFUNCTION, open);
-    Set(CURLOPT_OPENSOCKETDATA, this);
+    curl_.Set(CURLOPT_OPENSOCKETFUNCTION, open);
+    curl_.Set(CURLOPT_OPENSOCKETDATA, this);
     const auto head = +[](char* line, std::size_t one, std::size_t size, void* self) {
       return static_cast<Transfer*>(self)->TakeHead({line, one * size}) ? one * size : 0;
     };
-    Set(CURLOPT_HEADERFUNCTION, head);
-    Set(CURLOPT_HEADERDATA, this);
+    curl_.Set(CURLOPT_HEADERFUNCTION, head);
+    curl_.Set(CURLOPT_HEADERDATA, this);
     const auto body = +[](char* piece, std::size_t one, std::size_t size, void* self) {
       return static_cast<Transfer*>(self)->Take({piece, one * size}) ? one * size : 0;
     };
-    Set(CURLOPT_WRITEFUNCTION, body);
-    Set(CURLOPT_WRITEDATA, this);
+    curl_.Set(CURLOPT_WRITEFUNCTION, body);
+    curl_.Set(CURLOPT_WRITEDATA, this);
     const auto progress = +[](void* self, curl_off_t, curl_off_t, curl_off_t, curl_off_t) {
       return static_cast<Transfer*>(self)->Stopped() ? 1 : 0;
     };
-    Set(CURLOPT_XFERINFOFUNCTION, progress);
-    Set(CURLOPT_XFERINFODATA, this);
-    Set(CURLOPT_NOPROGRESS, 0L);
+    curl_.Set(CURLOPT_XFERINFOFUNCTION, progress);
+    curl_.Set(CURLOPT_XFERINFODATA, this);
+    curl_.Set(CURLOPT_NOPROGRESS, 0L);
   }
 
   // What libcurl knows by now.
   void Note() {
     long status = 0;
-    curl_easy_getinfo(curl_, CURLINFO_RESPONSE_CODE, &status);
+    curl_easy_getinfo(curl_.get(), CURLINFO_RESPONSE_CODE, &status);
     response_.status = static_cast<int>(status);
     const char* address = nullptr;
-    curl_easy_getinfo(curl_, CURLINFO_PRIMARY_IP, &address);
+    curl_easy_getinfo(curl_.get(), CURLINFO_PRIMARY_IP, &address);
     if (address != nullptr) response_.address = address;
-  }
-
-  static std::string Printable(std::string_view text) {
-    std::string plain;
-    for (const char c : text.substr(0, 200)) plain += c >= ' ' && c < '\x7f' ? c : '?';
-    return plain;
   }
 
   bool Fail(const std::string& why) {
@@ -257,7 +218,7 @@ class Transfer {
   const OutgoingRequest& request_;
   const AddressRules& rules_;
   const std::stop_token& stop_;
-  CURL* curl_ = nullptr;
+  CurlHandle curl_;
   OutgoingResponse response_;
   std::optional<Error> error_;
   std::string coding_;
@@ -269,12 +230,14 @@ class Transfer {
 
 }  // namespace
 
+std::string Printable(std::string_view text) {
+  std::string plain;
+  for (const char c : text.substr(0, 200)) plain += c >= ' ' && c < '\x7f' ? c : '?';
+  return plain;
+}
+
 Result<OutgoingResponse> SendOutgoing(const OutgoingRequest& request, const AddressRules& rules,
                                       const std::stop_token& stop) {
-  static std::once_flag once;
-  std::call_once(once, [] {
-    Check(curl_global_init(CURL_GLOBAL_DEFAULT) == CURLE_OK, "libcurl can be used");
-  });
   return Transfer(request, rules, stop).Run();
 }
 

@@ -38,6 +38,10 @@ struct OutgoingResponse {
   std::int64_t bytes = 0;
 };
 
+/// At most 200 characters of what another server has sent, for a message: what is not printable in
+/// ASCII is a question mark.
+std::string Printable(std::string_view text);
+
 /// Sends one request on a connection of its own, by HTTP/1.1, and TLS that is verified for https.
 /// The socket is made for an address that `rules` allow, the very one that is connected to: what
 /// the name meant before or means later does not matter. Of several addresses those that are not

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "core/base/lower.h"
 #include "service/text_list.h"
 
 namespace farhorizon {
@@ -35,13 +36,7 @@ std::string Part(const Handle& handle, CURLUPart part, unsigned flags = 0) {
 
 // Whether a server could take the path for another one.
 bool IsAmbiguous(const std::string& path) {
-  const std::string lower = [&] {
-    std::string text = path;
-    std::transform(text.begin(), text.end(), text.begin(), [](char c) {
-      return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    });
-    return text;
-  }();
+  const std::string lower = Lower(path);
   // Of control characters %00 to %1f and %7f.
   for (const char* encoded : {"%2e", "%2f", "%5c", "%25", "%0", "%1", "%7f"}) {
     if (lower.find(encoded) != std::string::npos) return true;
@@ -91,9 +86,7 @@ Result<OutgoingUrl> ReadOutgoingUrl(const std::string& text) {
   const std::string authority = url.scheme + "://" + url.host + (port ? ":" + *port : "");
   const bool canonical = text == authority + url.path + url.query ||
                          (url.path == "/" && text == authority + url.query);
-  const auto lower = [](char c) { return c < 'A' || c > 'Z'; };
-  if (!canonical || url.host.ends_with('.') ||
-      !std::all_of(url.host.begin(), url.host.end(), lower)) {
+  if (!canonical || url.host.ends_with('.') || Lower(url.host) != url.host) {
     return Refused("the URL has its host or port in another form than the usual one, which is " +
                    authority);
   }

@@ -63,19 +63,24 @@ bool Restart(int fd) { return ::ftruncate(fd, 0) == 0 && ::lseek(fd, 0, SEEK_SET
 
 }  // namespace
 
-Status S3Bucket::Put(S3Request request) {
-  request.method = "PUT";
+Result<S3Answer> S3Bucket::Ask(const S3Request& request) {
   Result<S3Answer> answer = client_.Send(request);
-  if (!answer) return std::move(answer.error());
-  return answer->status == 200 ? Status(Ok{}) : Unexpected(request, *answer);
+  if (!answer || answer->status == 200) return answer;
+  if (IsNoSuchKey(*answer)) return Error{ErrorCode::kNotFound, "no such object"};
+  return Unexpected(request, *answer);
+}
+
+Status S3Bucket::Do(const S3Request& request) {
+  Result<S3Answer> answer = Ask(request);
+  return answer ? Status(Ok{}) : std::move(answer.error());
 }
 
 Status S3Bucket::PutText(const std::string& key, const std::string& text) {
-  return Put({.key = Key(key), .body = text});
+  return Do({.method = "PUT", .key = Key(key), .body = text});
 }
 
 Status S3Bucket::TryPutText(const std::string& key, const std::string& text) {
-  return Put({.key = Key(key), .body = text, .most = kProbeTime, .once = true});
+  return Do({.method = "PUT", .key = Key(key), .body = text, .most = kProbeTime, .once = true});
 }
 
 Result<bool> S3Bucket::PutNewText(const std::string& key, const std::string& text) {
@@ -89,41 +94,35 @@ Result<bool> S3Bucket::PutNewText(const std::string& key, const std::string& tex
 }
 
 Result<std::string> S3Bucket::GetText(const std::string& key) {
-  const S3Request request{.key = Key(key)};
-  Result<S3Answer> answer = client_.Send(request);
+  Result<S3Answer> answer = Ask({.key = Key(key)});
   if (!answer) return std::move(answer.error());
-  if (IsNoSuchKey(*answer)) return Error{ErrorCode::kNotFound, "no such object"};
-  if (answer->status != 200) return Unexpected(request, *answer);
   return std::move(answer->body);
 }
 
 Status S3Bucket::PutFile(const std::string& key, int fd, std::int64_t bytes) {
   if (bytes > kLargestPut) return PutParts(Key(key), fd, bytes);
-  return Put({.key = Key(key), .file = FilePart{fd, 0, bytes}, .most = kAsLongAsBytesMove});
+  return Do({.method = "PUT",
+             .key = Key(key),
+             .file = FilePart{fd, 0, bytes},
+             .most = kAsLongAsBytesMove});
 }
 
 Status S3Bucket::PutParts(const std::string& key, int fd, std::int64_t bytes) {
-  S3Request request{.method = "POST", .key = key, .query = "uploads="};
-  Result<S3Answer> begun = client_.Send(request);
+  const S3Request request{.method = "POST", .key = key, .query = "uploads="};
+  Result<S3Answer> begun = Ask(request);
   if (!begun) return std::move(begun.error());
   const std::string id = ReadS3UploadId(begun->body);
-  if (begun->status != 200 || id.empty()) return Unexpected(request, *begun);
+  if (id.empty()) return Unexpected(request, *begun);
   const std::string upload = "uploadId=" + Escaped(id);
   Result<std::string> list = PutEachPart({.method = "PUT", .key = key}, upload, fd, bytes);
   Status stored = list ? Status(Ok{}) : Status(list.error());
   if (stored) {
-    request = {.method = "POST",
-               .key = key,
-               .query = upload,
-               .body = *list,
-               .most = kJoinTime,
-               .silence = kJoinTime};
-    Result<S3Answer> joined = client_.Send(request);
-    if (!joined) {
-      stored = joined.error();
-    } else if (joined->status != 200) {
-      stored = Unexpected(request, *joined);
-    }
+    stored = Do({.method = "POST",
+                 .key = key,
+                 .query = upload,
+                 .body = *list,
+                 .most = kJoinTime,
+                 .silence = kJoinTime});
   }
   if (!stored) {
     (void)client_.Send({.method = "DELETE", .key = key, .query = upload, .once = true});
@@ -140,9 +139,9 @@ Result<std::string> S3Bucket::PutEachPart(S3Request request, const std::string& 
     request.query = "partNumber=" + std::to_string(number) + "&" + upload;
     request.file = FilePart{fd, offset, std::min(part_bytes, bytes - offset)};
     request.most = kAsLongAsBytesMove;
-    Result<S3Answer> answer = client_.Send(request);
+    Result<S3Answer> answer = Ask(request);
     if (!answer) return std::move(answer.error());
-    if (answer->status != 200 || answer->etag.empty()) return Unexpected(request, *answer);
+    if (answer->etag.empty()) return Unexpected(request, *answer);
     list += "<Part><PartNumber>" + std::to_string(number) + "</PartNumber><ETag>" + answer->etag +
             "</ETag></Part>";
   }
@@ -162,24 +161,16 @@ Status S3Bucket::GetFile(const std::string& key, int fd) {
   };
   const S3Request request{.key = Key(key), .sink = take, .most = kAsLongAsBytesMove};
   if (!Restart(fd)) return Error{ErrorCode::kIo, "cut a file", "storage"};
-  Result<S3Answer> answer = client_.Send(request);
-  if (!written) return written;
-  if (!answer) return std::move(answer.error());
-  if (IsNoSuchKey(*answer)) return Error{ErrorCode::kNotFound, "no such object"};
-  return answer->status == 200 ? Status(Ok{}) : Unexpected(request, *answer);
+  Status got = Do(request);
+  return written ? got : written;
 }
 
 Status S3Bucket::Copy(const std::string& from, const std::string& to) {
-  const S3Request request{
-      .method = "PUT",
-      .key = Key(to),
-      .headers = {"x-amz-copy-source: /" + client_.location().bucket + "/" + Key(from)},
-      .most = kJoinTime,
-      .silence = kJoinTime};
-  Result<S3Answer> answer = client_.Send(request);
-  if (!answer) return std::move(answer.error());
-  if (IsNoSuchKey(*answer)) return Error{ErrorCode::kNotFound, "no such object"};
-  return answer->status == 200 ? Status(Ok{}) : Unexpected(request, *answer);
+  return Do({.method = "PUT",
+             .key = Key(to),
+             .headers = {"x-amz-copy-source: /" + client_.location().bucket + "/" + Key(from)},
+             .most = kJoinTime,
+             .silence = kJoinTime});
 }
 
 Status S3Bucket::Delete(const std::string& key) {
@@ -196,10 +187,8 @@ Status S3Bucket::DeleteAll(const std::vector<std::string>& keys) {
     for (std::size_t i = at; i < std::min(keys.size(), at + kMostDeletes); ++i) {
       body += "<Object><Key>" + Key(keys[i]) + "</Key></Object>";
     }
-    const S3Request request{.method = "POST", .query = "delete=", .body = body + "</Delete>"};
-    Result<S3Answer> answer = client_.Send(request);
-    if (!answer) return std::move(answer.error());
-    if (answer->status != 200) return Unexpected(request, *answer);
+    Status deleted = Do({.method = "POST", .query = "delete=", .body = body + "</Delete>"});
+    if (!deleted) return deleted;
   }
   return Ok{};
 }
@@ -212,10 +201,10 @@ Result<std::vector<std::string>> S3Bucket::List(const std::string& folder) {
   for (;;) {
     const std::string after = last.empty() ? "" : "&start-after=" + last;
     const S3Request request{.query = "list-type=2&prefix=" + Escaped(prefix) + after};
-    Result<S3Answer> answer = client_.Send(request);
+    Result<S3Answer> answer = Ask(request);
     if (!answer) return std::move(answer.error());
     std::optional<S3Page> page = ReadS3Page(answer->body);
-    if (answer->status != 200 || !page) return Unexpected(request, *answer);
+    if (!page) return Unexpected(request, *answer);
     for (const std::string& key : page->keys) {
       if (key.rfind(prefix, 0) == 0) names.push_back(key.substr(prefix.size()));
     }

@@ -51,7 +51,10 @@ class S3Bucket {
   [[nodiscard]] std::string Key(const std::string& name) const {
     return client_.location().prefix + name;
   }
-  Status Put(S3Request request);
+  /// The answer that is a 200. Errors: kNotFound where there is no such key.
+  Result<S3Answer> Ask(const S3Request& request);
+  /// The same where no more is wanted of it.
+  Status Do(const S3Request& request);
   Status PutParts(const std::string& key, int fd, std::int64_t bytes);
   Result<std::string> PutEachPart(S3Request request, const std::string& upload, int fd,
                                   std::int64_t bytes);

@@ -17,8 +17,7 @@ using std::chrono::steady_clock;
 
 constexpr int kMostTries = 4;
 constexpr std::chrono::seconds kMostTime{15};
-// Full jitter: what one fault has stopped does not come back at one time.
-constexpr std::int64_t kFirstPauseMs = 200;
+constexpr milliseconds kFirstPause{200};
 constexpr std::chrono::seconds kBetweenTries{1};
 
 bool IsAnswer(int status) {
@@ -31,12 +30,6 @@ bool MayPass(const S3Answer& answer, const std::string& code) {
          answer.status == 408 || code == "InternalError" || code == "SlowDown" ||
          code == "RequestTimeout" || code == "BadDigest" || code == "XAmzContentSHA256Mismatch" ||
          code == "OperationAborted" || code == "ConditionalRequestConflict";
-}
-
-void Pause(int tries) {
-  const auto bytes = RandomBytes();
-  const std::int64_t most = kFirstPauseMs << static_cast<unsigned>(tries);
-  std::this_thread::sleep_for(milliseconds((bytes[0] + 256 * bytes[1]) * most / 65536));
 }
 
 }  // namespace
@@ -79,12 +72,13 @@ Result<S3Answer> S3Client::SendOften(const S3Request& request, int tries) {
     const std::optional<S3Fault> fault =
         answer.body.empty() ? std::nullopt : ReadS3Fault(answer.body);
     const std::string code = fault ? fault->code : "";
-    const bool done = answer.status / 100 != 2 || !fault;
-    if (IsAnswer(answer.status) && done && code != "NoSuchBucket" && !MayPass(answer, code)) {
+    const bool may_pass = MayPass(answer, code);
+    // A 200 with a fault in it is no success: Amazon says so where parts could not be joined.
+    const bool spoilt = answer.status / 100 == 2 && fault;
+    if (IsAnswer(answer.status) && !spoilt && code != "NoSuchBucket" && !may_pass) {
       Note(true);
       return answer;
     }
-    const bool may_pass = MayPass(answer, code);
     if (answer.status < 0) {
       Note(true);
       return Error{ErrorCode::kIo, request.method + " " + request.key + ": " + answer.body,
@@ -95,7 +89,7 @@ Result<S3Answer> S3Client::SendOften(const S3Request& request, int tries) {
       Note(answer.status != 0);
       return ErrorOf(request, answer);
     }
-    Pause(tried - 1);
+    std::this_thread::sleep_for(RandomDelay(kFirstPause, kMostTime, tried - 1));
   }
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/io/file.h"
+#include "service/text_list.h"
 
 namespace farhorizon {
 
@@ -12,11 +13,7 @@ namespace {
 
 constexpr std::uintmax_t kLargestFile = 1 << 20;
 
-std::string Trimmed(const std::string& text) {
-  const std::size_t begin = text.find_first_not_of(" \t\r");
-  if (begin == std::string::npos) return "";
-  return text.substr(begin, text.find_last_not_of(" \t\r") + 1 - begin);
-}
+constexpr const char* kBlanks = " \t\r";
 
 Error NoKeys(const std::string& why) {
   return {ErrorCode::kInvalidArgument,
@@ -31,12 +28,12 @@ S3Keys KeysOf(const std::string& text, const std::string& profile) {
   std::istringstream lines(text);
   bool inside = false;
   for (std::string line; std::getline(lines, line);) {
-    line = Trimmed(line);
+    line = Trimmed(line, kBlanks);
     if (!line.empty() && line.front() == '[') inside = line == "[" + profile + "]";
     const std::size_t equals = line.find('=');
     if (!inside || equals == std::string::npos) continue;
-    const std::string name = Trimmed(line.substr(0, equals));
-    const std::string value = Trimmed(line.substr(equals + 1));
+    const std::string_view name = Trimmed(std::string_view(line).substr(0, equals), kBlanks);
+    const std::string_view value = Trimmed(std::string_view(line).substr(equals + 1), kBlanks);
     if (name == "aws_access_key_id") keys.id = value;
     if (name == "aws_secret_access_key") keys.secret = value;
     if (name == "aws_session_token") keys.token = value;

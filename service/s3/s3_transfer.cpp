@@ -2,13 +2,15 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <curl/curl.h>
 #include <unistd.h>
 #include <utility>
 
-#include "core/base/hex.h"
-#include "core/io/md5.h"
+#include "core/base/lower.h"
+#include "core/io/base64.h"
+#include "core/io/checksum.h"
 #include "core/io/sha256.h"
+#include "service/curl.h"
+#include "service/text_list.h"
 
 namespace farhorizon {
 
@@ -30,17 +32,17 @@ ssize_t ReadAt(const FilePart& part, std::int64_t done, char* into, std::size_t 
 }
 
 struct Sums {
-  std::string sha256;
-  std::optional<std::string> md5;
+  std::string sha256;              // hexadecimal
+  std::optional<std::string> md5;  // base64; nullopt where the system's policy leaves it out
 };
 
 // nullopt where the file cannot be read, or is shorter than it was.
 std::optional<Sums> SumsOf(const S3Request& request) {
   Sha256 sha256;
-  Md5 md5;
+  std::optional<Checksum> md5 = Checksum::Named("md5");
   const auto add = [&](std::string_view piece) {
     sha256.Add(piece);
-    md5.Add(piece);
+    if (md5) md5->Add(piece);
   };
   if (!request.file) {
     add(request.body);
@@ -53,25 +55,13 @@ std::optional<Sums> SumsOf(const S3Request& request) {
       done += size;
     }
   }
-  return Sums{sha256.Finish().Hex(), md5.Finish()};
-}
-
-class HeaderList {
- public:
-  HeaderList() = default;
-  HeaderList(const HeaderList&) = delete;
-  HeaderList& operator=(const HeaderList&) = delete;
-  ~HeaderList() { ::curl_slist_free_all(list_); }
-  void Add(const std::string& line) {
-    curl_slist* longer = ::curl_slist_append(list_, line.c_str());
-    Check(longer != nullptr, "there is memory for a header");
-    list_ = longer;
+  Sums sums{sha256.Finish().Hex(), std::nullopt};
+  if (md5) {
+    const std::string sum = md5->Finish();
+    sums.md5 = ToBase64({reinterpret_cast<const unsigned char*>(sum.data()), sum.size()});
   }
-  [[nodiscard]] curl_slist* get() const { return list_; }
-
- private:
-  curl_slist* list_ = nullptr;
-};
+  return sums;
+}
 
 // What libcurl's callbacks read and write during one attempt.
 struct Flow {
@@ -125,38 +115,19 @@ std::size_t TakeBody(char* bytes, std::size_t size, std::size_t count, void* con
 
 std::size_t TakeHeader(char* bytes, std::size_t size, std::size_t count, void* context) {
   const std::string_view line(bytes, size * count);
-  constexpr std::string_view kName = "etag:";
-  const bool same = line.size() > kName.size() &&
-                    std::equal(kName.begin(), kName.end(), line.begin(), [](char a, char b) {
-                      return a == (b >= 'A' && b <= 'Z' ? static_cast<char>(b - 'A' + 'a') : b);
-                    });
-  if (same) {
-    const std::size_t begin = std::min(line.find_first_not_of(" \t", kName.size()), line.size());
-    const std::size_t end = line.find_last_not_of(" \t\r\n") + 1;
-    static_cast<Flow*>(context)->answer.etag = line.substr(begin, end - begin);
+  const std::size_t colon = std::min(line.find(':'), line.size() - 1);
+  if (Lower(std::string(line.substr(0, colon))) == "etag") {
+    static_cast<Flow*>(context)->answer.etag = Trimmed(line.substr(colon + 1), " \t\r\n");
   }
   return line.size();
 }
 
 }  // namespace
 
-class S3Transfer::Handle {
+class S3Transfer::Handle : public CurlHandle {
  public:
-  Handle() { Check(curl_ != nullptr, "there is memory for a connection"); }
-  Handle(const Handle&) = delete;
-  Handle& operator=(const Handle&) = delete;
-  ~Handle() { ::curl_easy_cleanup(curl_); }
-  [[nodiscard]] CURL* get() const { return curl_; }
-
-  template <typename Value>
-  void Set(CURLoption option, Value value) {
-    Check(::curl_easy_setopt(curl_, option, value) == CURLE_OK, "libcurl knows the option");
-  }
   void SetBody(Flow& flow);
   void SetLimits(const S3Request& request);
-
- private:
-  CURL* curl_ = ::curl_easy_init();
 };
 
 void S3Transfer::Handle::SetBody(Flow& flow) {
@@ -191,10 +162,7 @@ void S3Transfer::Handle::SetLimits(const S3Request& request) {
 }
 
 S3Transfer::S3Transfer(std::string url, std::string region)
-    : url_(std::move(url)), region_(std::move(region)) {
-  static const CURLcode ready = ::curl_global_init(CURL_GLOBAL_DEFAULT);
-  Check(ready == CURLE_OK, "libcurl starts");
-}
+    : url_(std::move(url)), region_(std::move(region)) {}
 
 S3Transfer::~S3Transfer() = default;
 
@@ -213,7 +181,7 @@ S3Answer S3Transfer::Attempt(const S3Request& request, const S3Keys& keys) {
   std::unique_ptr<Handle> handle = Take();
   ::curl_easy_reset(handle->get());
   Flow flow{request, handle->get(), answer};
-  HeaderList headers;
+  CurlList headers;
   headers.Add("x-amz-content-sha256: " + sums->sha256);
   if (request.method == "PUT" || request.method == "POST") {
     if (sums->md5) headers.Add("Content-MD5: " + *sums->md5);

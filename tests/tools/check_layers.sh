@@ -104,7 +104,7 @@ foreign=(
   'sqlite3 @ ^service/jobs/[a-z_0-9]+\.cpp$'
   'pqxx/ @ ^service/jobs/[a-z_0-9]+\.cpp$'
   'postgresql/ @ ^service/jobs/database_url\.cpp$'
-  'curl/ @ ^service/outgoing/outgoing_(client|url)\.cpp$ ^service/s3/[a-z_0-9]+\.cpp$'
+  'curl/ @ ^service/curl\.h$ ^service/outgoing/outgoing_url\.cpp$'
   'pugixml @ ^service/s3/[a-z_0-9]+\.cpp$'
   'nlohmann/ @ ^core/(io|pipeline)/((compare|quantized_mesh)/)?[^/]+\.cpp$ ^core/io/mesh_files/(gltf_json\.h|[^/]+\.cpp)$ ^service/[a-z_0-9]+\.(h|cpp)$ ^service/(auth|handlers|jobs|worker|config|cli)/'
   'openssl/ @ ^core/io/[^/]+\.cpp$'
