@@ -1,3 +1,6 @@
+// Three passes, as each needs all levels of the one before. Levels are encoded; what they decode
+// to, which is what clients get, is measured, all of them in one call; then their files are
+// written, as the depth of a skirt depends on what was measured.
 #include "core/pipeline/write_levels.h"
 
 #include <algorithm>

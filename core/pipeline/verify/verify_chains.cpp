@@ -1,3 +1,7 @@
+// A chain stands for several edges of the DEM and has the rounded places of their posts. So its
+// edges are read off it, by the posts nearest to its points, and the chains that ought to be there
+// are made anew of the edges that were found again: both lists must have the same posts in the same
+// order, and each point and weight must be that of its twin but for its last digit.
 #include "core/pipeline/verify/verify_chains.h"
 
 #include <algorithm>

@@ -1,3 +1,6 @@
+// A line keeps its five highest crossings and no others, so that its upkeep is some comparisons.
+// What it does not know makes a loss look greater than it is, and never smaller. A vertex' list of
+// lines may have some that it carries no more: who reads one asks Carries.
 #include "core/simplify/lines/sampled_skyline.h"
 
 #include <algorithm>

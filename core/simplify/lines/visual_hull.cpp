@@ -1,3 +1,6 @@
+// Between two lines of a pencil the lower one's skyline counts, at a post the least of all pencils.
+// A window has the least of its posts, so one look at it rules out all edges within; each is made
+// of the one before, by rows and then by columns, at some comparisons a post whatever its radius.
 #include "core/simplify/lines/visual_hull.h"
 
 #include <limits>

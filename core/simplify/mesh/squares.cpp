@@ -1,3 +1,6 @@
+// Row by row of the posts under a triangle: the plane's height where the row begins, and a step for
+// each column. The ground's gradients are differences of the posts at hand, so that neither they
+// nor planes of the ground's facets are stored.
 #include "core/simplify/mesh/squares.h"
 
 #include <algorithm>

@@ -1,3 +1,7 @@
+// The posts of a run leave cheapest first, from a heap whose older entries are known by their
+// price: a post is priced anew when a neighbour has gone. A price is what the gap's sum of squares
+// grows by, times the heaviest weight within. Nothing but the run's own heights counts, in one
+// order, as two tiles that share a side must find the same.
 #include "core/simplify/sides/ranking.h"
 
 #include <algorithm>

@@ -1,3 +1,6 @@
+// What is to go is collapsed along its side, and again as long as one that goes frees the ring of
+// another. A vertex that is left then lies straight between its neighbours, but for corners that
+// two outlines make, and is cut off. Both keep the sampled skyline up to date.
 #include "core/simplify/sides/side_thinner.h"
 
 #include <algorithm>

@@ -1,3 +1,8 @@
+// In whole steps of the guard's scale, so that no rule depends on rounding. A horizon edge is two
+// bits at its earlier post, for each of four directions to a later one. A new edge is asked what
+// costs least first: the bits and the lines of the parts; whether it runs below the spokes whose
+// place it takes; then a search for an occluder, which begins with what occluded the last edge
+// nearby.
 #include "core/simplify/work/level_rules.h"
 
 #include <algorithm>
