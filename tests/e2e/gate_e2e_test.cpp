@@ -18,7 +18,7 @@ using testing::Not;
 
 class GateE2e : public ServiceE2e {};
 
-std::string CodeOf(const RawAnswer& answer) {
+std::string CodeOfProblem(const RawAnswer& answer) {
   return nlohmann::json::parse(answer.body).value("code", "");
 }
 
@@ -59,7 +59,7 @@ TEST_F(GateE2e, PagesOfOtherOriginsAndNamesOfOthersGetNothing) {
     EXPECT_THAT(answer.head, Not(HasSubstr("Access-Control-Allow-Origin"))) << method;
   }
   // As a form of a page sends it, which asks for no preflight.
-  EXPECT_EQ(CodeOf(Ask(port_, "POST", "/jobs", evil + "Content-Type: text/plain\r\n", "x")),
+  EXPECT_EQ(CodeOfProblem(Ask(port_, "POST", "/jobs", evil + "Content-Type: text/plain\r\n", "x")),
             "origin-not-allowed");
   EXPECT_THAT(Ask(port_, "GET", "/jobs", evil).head, Not(HasSubstr("Access-Control-Allow-Origin")));
   EXPECT_EQ(Ask(port_, "GET", path).status, 200);
@@ -123,9 +123,10 @@ TEST_F(GateE2e, BoundsChunkExtensionsAndTrailers) {
 TEST_F(GateE2e, HoldsParametersAndBodiesToWhatTheySay) {
   Start();
   const std::string octets = "Content-Type: application/octet-stream\r\n";
-  EXPECT_EQ(CodeOf(Ask(port_, "POST", "/jobs?crs=%00", octets, "x")), "invalid-parameter");
-  EXPECT_EQ(CodeOf(Ask(port_, "POST", "/jobs",
-                       octets + "Content-Digest: sha-256=:" + std::string(44, 'A') + ":\r\n", "x")),
+  EXPECT_EQ(CodeOfProblem(Ask(port_, "POST", "/jobs?crs=%00", octets, "x")), "invalid-parameter");
+  EXPECT_EQ(CodeOfProblem(Ask(port_, "POST", "/jobs",
+                              octets + "Content-Digest: sha-256=:" + std::string(44, 'A') + ":\r\n",
+                              "x")),
             "digest-mismatch");
 }
 

@@ -14,7 +14,7 @@
 namespace farhorizon {
 namespace {
 
-std::vector<std::uint8_t> RandomBytes(std::mt19937& random) {
+std::vector<std::uint8_t> AnyBytes(std::mt19937& random) {
   std::vector<std::uint8_t> bytes(random() % 425);
   for (std::uint8_t& byte : bytes) byte = static_cast<std::uint8_t>(random());
   return bytes;
@@ -25,7 +25,7 @@ TEST(DemFromBytes, MakesADemWithinTheLimitsOfAnyBytes) {
   std::int32_t highest = 0;
   int holes = 0;
   for (int round = 0; round < Rounds(5'000); ++round) {
-    const Dem dem = DemFromBytes(RandomBytes(random));
+    const Dem dem = DemFromBytes(AnyBytes(random));
     ASSERT_TRUE(dem.columns >= 2 && dem.columns <= 9 && dem.rows >= 2 && dem.rows <= 9);
     ASSERT_EQ(dem.heights.size(), static_cast<std::size_t>(dem.columns * dem.rows));
     for (const std::int32_t h : dem.heights) {
@@ -48,7 +48,7 @@ TEST(DemFromBytes, ReadsMissingBytesAsZero) {
 TEST(HorizonFuzz, FindsNoOffenceOnRandomBytes) {
   std::mt19937 random(2);
   for (int round = 0; round < Rounds(400); ++round) {
-    const Dem dem = DemFromBytes(RandomBytes(random));
+    const Dem dem = DemFromBytes(AnyBytes(random));
     ASSERT_EQ(EngineOffence(dem, {.posts_by_definition = 20}), "") << DrawAscii(dem);
   }
 }

@@ -18,7 +18,7 @@ using oracle::Wide;
 
 std::vector<Edge> HorizonOf(const Dem& dem) { return HorizonByBruteForce(*Terrain::Build(dem)); }
 
-std::vector<Segment> SegmentsOf(const OracleMesh& mesh, const std::vector<Edge>& edges) {
+std::vector<Segment> SegmentsOfEdges(const OracleMesh& mesh, const std::vector<Edge>& edges) {
   std::vector<Segment> segments;
   for (const Edge e : edges) {
     segments.push_back(
@@ -88,7 +88,7 @@ std::vector<Segment> Reduce(const std::vector<Segment>& segments) {
   return kept;
 }
 
-std::vector<std::array<std::int32_t, 6>> Sorted(const std::vector<Segment>& segments) {
+std::vector<std::array<std::int32_t, 6>> SortedEdges(const std::vector<Segment>& segments) {
   std::vector<std::array<std::int32_t, 6>> rows;
   for (const Segment& s : segments) rows.push_back({s.a.x, s.a.y, s.a.z, s.b.x, s.b.y, s.b.z});
   std::sort(rows.begin(), rows.end());
@@ -171,7 +171,8 @@ TEST(BruteForce, ShortCutsGiveTheAnswerOfAllCellsOnTerrains) {
     for (const Edge e : creases) {
       std::vector<Edge> others = EdgesOf(mesh);
       std::erase(others, e);
-      if (LineOfSightByAllCells(SegmentsOf(mesh, {e})[0], SegmentsOf(mesh, others), Ties::kPass)) {
+      if (LineOfSightByAllCells(SegmentsOfEdges(mesh, {e})[0], SegmentsOfEdges(mesh, others),
+                                Ties::kPass)) {
         expected.push_back(e);
       }
     }
@@ -235,13 +236,13 @@ TEST(BruteForce, ReducingTwoPartsFirstChangesNothing) {
     const std::int32_t max_height = std::array{1, 2, 3, 9}[static_cast<std::size_t>(round) % 4];
     const Dem dem = RandomDem({.columns = 4, .rows = 4, .max_height = max_height}, random);
     const OracleMesh mesh = MeshOf(*Terrain::Build(dem));
-    const std::vector<Segment> all = SegmentsOf(mesh, EdgesOf(mesh));
+    const std::vector<Segment> all = SegmentsOfEdges(mesh, EdgesOf(mesh));
     std::vector<Segment> parts[2];
     for (const Segment& s : all) parts[random() % 2].push_back(s);
     std::vector<Segment> joined = Reduce(parts[0]);
     const std::vector<Segment> other = Reduce(parts[1]);
     joined.insert(joined.end(), other.begin(), other.end());
-    ASSERT_EQ(Sorted(Reduce(joined)), Sorted(Reduce(all))) << DrawAscii(dem);
+    ASSERT_EQ(SortedEdges(Reduce(joined)), SortedEdges(Reduce(all))) << DrawAscii(dem);
   }
 }
 

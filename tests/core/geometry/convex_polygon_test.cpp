@@ -18,7 +18,7 @@ std::vector<Point2i> RandomPoints(std::mt19937& random, int most, int size) {
   return points;
 }
 
-std::int64_t Turn(Point2i o, Point2i a, Point2i b) {
+std::int64_t TurnAt(Point2i o, Point2i a, Point2i b) {
   return std::int64_t{a.x - o.x} * (b.y - o.y) - std::int64_t{a.y - o.y} * (b.x - o.x);
 }
 
@@ -28,9 +28,9 @@ bool InHull(const std::vector<Point2i>& points, Point2i p) {
   for (const Point2i a : points) {
     for (const Point2i b : points) {
       for (const Point2i c : points) {
-        const std::int64_t u = Turn(a, b, p);
-        const std::int64_t v = Turn(b, c, p);
-        const std::int64_t w = Turn(c, a, p);
+        const std::int64_t u = TurnAt(a, b, p);
+        const std::int64_t v = TurnAt(b, c, p);
+        const std::int64_t w = TurnAt(c, a, p);
         if (!((u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0))) continue;
         const auto [x0, x1] = std::minmax({a.x, b.x, c.x});
         const auto [y0, y1] = std::minmax({a.y, b.y, c.y});
@@ -131,8 +131,8 @@ TEST(ConvexPolygon, IsBetweenTheTangentsOfItsSilhouette) {
     if (hull.corners().size() < 2 || hull.Contains(eye)) continue;
     const ConvexPolygon::Silhouette seen = hull.SilhouetteFrom(eye);
     for (const Point2i p : hull.corners()) {
-      ASSERT_GE(Turn(eye, seen.right, p), 0);
-      ASSERT_LE(Turn(eye, seen.left, p), 0);
+      ASSERT_GE(TurnAt(eye, seen.right, p), 0);
+      ASSERT_LE(TurnAt(eye, seen.left, p), 0);
     }
   }
 }

@@ -19,13 +19,13 @@ Horizon HorizonOf(const Terrain& terrain, int threads = 1) {
   return *FindHorizon(terrain, {.threads = threads}, {});
 }
 
-std::vector<Edge> EdgesOf(const Horizon& horizon) {
+std::vector<Edge> EdgesFound(const Horizon& horizon) {
   std::vector<Edge> edges;
   for (const HorizonEdge& e : horizon.edges) edges.push_back(e.edge);
   return edges;
 }
 
-std::vector<Edge> Find(const Terrain& terrain) { return EdgesOf(HorizonOf(terrain)); }
+std::vector<Edge> FindEdges(const Terrain& terrain) { return EdgesFound(HorizonOf(terrain)); }
 
 testing::AssertionResult EveryWitnessHolds(const Terrain& terrain, const Horizon& horizon) {
   const std::vector<Segment> all = SegmentsOf(terrain, terrain.Edges());
@@ -54,7 +54,7 @@ void ExpectTheDefinitionOnEvery(std::int32_t columns, std::int32_t rows, std::in
   std::int32_t count = 1;
   for (std::int32_t i = 0; i < columns * rows; ++i) count *= heights;
   for (std::int32_t n = 0; n < count; ++n) {
-    ASSERT_TRUE(MatchesBruteForce(NthDem(columns, rows, heights, n), Find)) << "number " << n;
+    ASSERT_TRUE(MatchesBruteForce(NthDem(columns, rows, heights, n), FindEdges)) << "number " << n;
   }
 }
 
@@ -63,22 +63,22 @@ void ExpectTheDefinitionOnRandomTerrains(std::int32_t min_side, std::int32_t max
   std::mt19937 random(seed);
   for (int round = 0; round < rounds; ++round) {
     const Dem dem = AnyRandomDem(min_side, max_side, random);
-    ASSERT_TRUE(MatchesBruteForce(dem, Find)) << "round " << round;
+    ASSERT_TRUE(MatchesBruteForce(dem, FindEdges)) << "round " << round;
   }
 }
 
 TEST(FindHorizon, FindsTheKnownHorizonsOfTheNamedTerrains) {
   for (const NamedTerrain& named : NamedTerrains()) {
-    EXPECT_TRUE(MatchesBruteForce(named.dem, Find)) << named.name;
+    EXPECT_TRUE(MatchesBruteForce(named.dem, FindEdges)) << named.name;
     if (named.horizon_edges < 0) continue;
-    EXPECT_EQ(static_cast<int>(Find(*Terrain::Build(named.dem)).size()), named.horizon_edges)
+    EXPECT_EQ(static_cast<int>(FindEdges(*Terrain::Build(named.dem)).size()), named.horizon_edges)
         << named.name;
   }
 }
 
 TEST(FindHorizon, FindsEveryAxisEdgeOfALargeDome) {
   const Dem dem = Paraboloid(65, -1);
-  EXPECT_EQ(Find(*Terrain::Build(dem)).size(), 8320U);
+  EXPECT_EQ(FindEdges(*Terrain::Build(dem)).size(), 8320U);
 }
 
 TEST(FindHorizon, IsTheDefinitionOnEvery3x3TerrainOfTwoHeights) {
@@ -120,7 +120,7 @@ TEST(FindHorizon, IsTheDefinitionOnNarrowTerrains) {
                              .rows = tall ? length : 2,
                              .max_height = round % 3 == 0 ? 1000 : 3,
                              .hole_percent = round % 5 == 0 ? 10 : 0};
-    ASSERT_TRUE(MatchesBruteForce(RandomDem(kind, random), Find)) << "round " << round;
+    ASSERT_TRUE(MatchesBruteForce(RandomDem(kind, random), FindEdges)) << "round " << round;
   }
 }
 
@@ -136,7 +136,7 @@ TEST(FindHorizon, IsTheDefinitionOnGreatHeightsAndCliffs) {
       const std::int32_t end = random() % 2 == 0 ? 0 : kCliff;
       return end + static_cast<std::int32_t>(random() % 3);
     });
-    ASSERT_TRUE(MatchesBruteForce(dem, Find)) << "round " << round;
+    ASSERT_TRUE(MatchesBruteForce(dem, FindEdges)) << "round " << round;
     const Terrain terrain = *Terrain::Build(dem);
     ASSERT_TRUE(EveryWitnessHolds(terrain, HorizonOf(terrain))) << DrawAscii(dem);
   }
@@ -146,7 +146,7 @@ TEST(FindHorizon, IsTheDefinitionOnFractalTerrains) {
   for (std::uint32_t seed = 1; seed <= static_cast<std::uint32_t>(Rounds(12)); ++seed) {
     const int roughness = seed % 3 == 0 ? 60 : (seed % 3 == 1 ? 100 : 140);
     const std::int32_t relief = seed % 2 == 0 ? 20 : 3000;
-    ASSERT_TRUE(MatchesBruteForce(FractalDem(17, relief, roughness, seed), Find)) << seed;
+    ASSERT_TRUE(MatchesBruteForce(FractalDem(17, relief, roughness, seed), FindEdges)) << seed;
   }
 }
 
@@ -167,7 +167,7 @@ TEST(FindHorizon, LeavesOutNoEdgeThatARandomLineFindsOnFractalTerrains) {
   for (const int roughness : {50, 100, 140}) {
     const Dem dem = FractalDem(65, 4000, roughness, static_cast<std::uint32_t>(roughness));
     const Terrain terrain = *Terrain::Build(dem);
-    EXPECT_TRUE(MaximiserIsIn(terrain, Find(terrain), Rounds(2'000), 6)) << roughness;
+    EXPECT_TRUE(MaximiserIsIn(terrain, FindEdges(terrain), Rounds(2'000), 6)) << roughness;
   }
 }
 
@@ -175,7 +175,7 @@ TEST(FindHorizon, LeavesOutNoEdgeThatARandomLineFindsOnWhiteNoise) {
   std::mt19937 random(7);
   const Dem dem = RandomDem({.columns = 65, .rows = 65, .max_height = 1000}, random);
   const Terrain terrain = *Terrain::Build(dem);
-  EXPECT_TRUE(MaximiserIsIn(terrain, Find(terrain), Rounds(2'000), 7));
+  EXPECT_TRUE(MaximiserIsIn(terrain, FindEdges(terrain), Rounds(2'000), 7));
 }
 
 TEST(FindHorizon, IsTheSameForAnyNumberOfThreads) {
@@ -184,7 +184,7 @@ TEST(FindHorizon, IsTheSameForAnyNumberOfThreads) {
     const Horizon one = HorizonOf(terrain, 1);
     for (const int threads : {2, 4, 7}) {
       const Horizon many = HorizonOf(terrain, threads);
-      ASSERT_EQ(EdgesOf(many), EdgesOf(one));
+      ASSERT_EQ(EdgesFound(many), EdgesFound(one));
       for (std::size_t i = 0; i < one.edges.size(); ++i) {
         ASSERT_EQ(many.edges[i].witness.t, one.edges[i].witness.t);
         ASSERT_EQ(many.edges[i].witness.dc, one.edges[i].witness.dc);
@@ -232,7 +232,7 @@ TEST(FindHorizon, EndsWithAnErrorWhereTheWorkBudgetDoesNotSuffice) {
   for (const int threads : {1, 3}) {
     Result<Horizon> enough = FindHorizon(terrain, {.threads = threads, .work_budget = needed}, {});
     ASSERT_TRUE(enough) << enough.error().message;
-    EXPECT_EQ(EdgesOf(*enough), EdgesOf(whole));
+    EXPECT_EQ(EdgesFound(*enough), EdgesFound(whole));
     EXPECT_EQ(enough->statistics.undecided, 0);
     Result<Horizon> scarce =
         FindHorizon(terrain, {.threads = threads, .work_budget = needed - 1}, {});
@@ -255,8 +255,8 @@ TEST(FindHorizon, KeepsAMarkedSupersetWhereItMayBeApproximate) {
     const std::int64_t budget = exact.statistics.predicates.Sum() / divisor;
     Result<Horizon> some = FindHorizon(terrain, {.work_budget = budget, .approximate = true}, {});
     ASSERT_TRUE(some);
-    const std::vector<Edge> kept = EdgesOf(*some);
-    const std::vector<Edge> wanted = EdgesOf(exact);
+    const std::vector<Edge> kept = EdgesFound(*some);
+    const std::vector<Edge> wanted = EdgesFound(exact);
     EXPECT_TRUE(std::includes(kept.begin(), kept.end(), wanted.begin(), wanted.end()));
     std::int64_t undecided = 0;
     for (const HorizonEdge& e : some->edges) {
@@ -302,7 +302,7 @@ TEST(FindHorizon, IsNoLessExactForBeingAllowedToApproximate) {
   const Terrain terrain = *Terrain::Build(dem);
   const Horizon plain = HorizonOf(terrain);
   const Horizon allowed = *FindHorizon(terrain, {.approximate = true}, {});
-  ASSERT_EQ(EdgesOf(allowed), EdgesOf(plain));
+  ASSERT_EQ(EdgesFound(allowed), EdgesFound(plain));
   EXPECT_EQ(allowed.statistics.undecided, 0);
   for (std::size_t i = 0; i < plain.edges.size(); ++i) {
     ASSERT_EQ(allowed.edges[i].witness.t, plain.edges[i].witness.t);

@@ -16,7 +16,7 @@ namespace {
 
 using Named = std::set<std::array<std::int32_t, 6>>;
 
-Named NamesOf(const std::vector<Segment>& segments) {
+Named PostNames(const std::vector<Segment>& segments) {
   Named names;
   for (const Segment& s : segments) names.insert({s.a.x, s.a.y, s.a.z, s.b.x, s.b.y, s.b.z});
   return names;
@@ -74,7 +74,7 @@ TEST(JoinHorizons, TheHorizonOfAWholeIsThatOfItsPartsHorizons) {
     const auto horizon = [](const std::vector<Segment>& set) {
       return *JoinHorizons(set, {}, 9, 9, {});
     };
-    EXPECT_EQ(NamesOf(*JoinHorizons(horizon(a), horizon(b), 9, 9, {})), NamesOf(horizon(whole)))
+    EXPECT_EQ(PostNames(*JoinHorizons(horizon(a), horizon(b), 9, 9, {})), PostNames(horizon(whole)))
         << "round " << round;
   }
 }
@@ -109,9 +109,9 @@ Named HorizonByTiles(const Dem& dem, std::int32_t n) {
     }
     joined = Join(joined, found, dem);
   }
-  const Named creases = NamesOf(SegmentsOfEdges(whole, CreasesOf(MeshOf(whole))));
+  const Named creases = PostNames(SegmentsOfEdges(whole, CreasesOf(MeshOf(whole))));
   Named kept;
-  for (const auto& name : NamesOf(joined)) {
+  for (const auto& name : PostNames(joined)) {
     if (creases.count(name) > 0) kept.insert(name);
   }
   return kept;
@@ -122,7 +122,7 @@ Named HorizonAtOnce(const Dem& dem) {
   std::vector<Edge> edges;
   const Horizon horizon = *FindHorizon(terrain, {}, {});
   for (const HorizonEdge& h : horizon.edges) edges.push_back(h.edge);
-  return NamesOf(SegmentsOfEdges(terrain, edges));
+  return PostNames(SegmentsOfEdges(terrain, edges));
 }
 
 TEST(JoinHorizons, TilesSweptApartGiveTheHorizonOfTheWhole) {

@@ -62,7 +62,7 @@ Dem WithoutHoles(Dem dem) {
   return dem;
 }
 
-std::int32_t HeightAt(const Dem& dem, std::int32_t c, std::int32_t r) {
+std::int32_t HeightWithin(const Dem& dem, std::int32_t c, std::int32_t r) {
   const VertexId v = r * dem.columns + c;
   return dem.heights[static_cast<std::size_t>(v)];
 }
@@ -113,7 +113,7 @@ TEST_P(Metamorphic, IsTheSameInAFrameWithoutData) {
     const std::int32_t top = round % 5;
     const Dem framed = MakeDem(dem.columns + 5, dem.rows + 5, [&](std::int32_t c, std::int32_t r) {
       const bool inside = c >= left && c < left + dem.columns && r >= top && r < top + dem.rows;
-      return inside ? HeightAt(dem, c - left, r - top) : kNoHeight;
+      return inside ? HeightWithin(dem, c - left, r - top) : kNoHeight;
     });
     std::vector<VertexId> image;
     for (VertexId v = 0; v < dem.columns * dem.rows; ++v) {
@@ -124,7 +124,7 @@ TEST_P(Metamorphic, IsTheSameInAFrameWithoutData) {
 }
 
 // The same surface on a grid `times` as fine, heights `times` as high so that they stay whole.
-Dem Refined(const Dem& dem, std::int32_t times) {
+Dem RefinedDem(const Dem& dem, std::int32_t times) {
   return MakeDem(
       (dem.columns - 1) * times + 1, (dem.rows - 1) * times + 1,
       [&](std::int32_t c, std::int32_t r) {
@@ -132,12 +132,12 @@ Dem Refined(const Dem& dem, std::int32_t times) {
         const std::int32_t row = std::min(r / times, dem.rows - 2);
         const std::int32_t x = c - column * times;
         const std::int32_t y = r - row * times;
-        const std::int32_t corner = HeightAt(dem, column, row);
-        const std::int32_t opposite = HeightAt(dem, column + 1, row + 1);
+        const std::int32_t corner = HeightWithin(dem, column, row);
+        const std::int32_t opposite = HeightWithin(dem, column + 1, row + 1);
         // Along two sides of the triangle that (x, y) is in, to the diagonal's far end.
-        return x >= y ? times * corner + (x - y) * (HeightAt(dem, column + 1, row) - corner) +
+        return x >= y ? times * corner + (x - y) * (HeightWithin(dem, column + 1, row) - corner) +
                             y * (opposite - corner)
-                      : times * corner + (y - x) * (HeightAt(dem, column, row + 1) - corner) +
+                      : times * corner + (y - x) * (HeightWithin(dem, column, row + 1) - corner) +
                             x * (opposite - corner);
       });
 }
@@ -172,7 +172,7 @@ TEST_P(Metamorphic, IsTheSameForTheSurfaceOnAFinerGrid) {
     const Dem dem = WithoutHoles(SomeDem(round, 8, random));
     const std::vector<Edge> edges = Find(dem);
     for (const std::int32_t times : {2, 3}) {
-      const Dem fine = Refined(dem, times);
+      const Dem fine = RefinedDem(dem, times);
       ASSERT_EQ(Coarse(Find(fine), fine, dem, times), edges) << DrawAscii(dem);
     }
   }

@@ -72,7 +72,7 @@ std::set<std::size_t> ZBuffer(const Terrain& terrain, const std::vector<Segment>
   return found;
 }
 
-std::vector<Edge> EdgesOf(const Horizon& horizon) {
+std::vector<Edge> SampledEdges(const Horizon& horizon) {
   std::vector<Edge> edges;
   for (const HorizonEdge& e : horizon.edges) edges.push_back(e.edge);
   return edges;
@@ -83,7 +83,7 @@ std::vector<Edge> EdgesOf(const Horizon& horizon) {
 TEST(ZBuffer, FindsOnlyEdgesOfTheHorizonAndMissesFewerWithMoreDirections) {
   const Dem dem = FractalDem(25, 600, 100, 21);
   const Terrain terrain = *Terrain::Build(dem);
-  const std::vector<Edge> horizon = EdgesOf(*FindHorizon(terrain, {}, {}));
+  const std::vector<Edge> horizon = SampledEdges(*FindHorizon(terrain, {}, {}));
   const std::vector<Edge> edges = terrain.Edges();
   const std::vector<Segment> segments = SegmentsOf(terrain, edges);
   double missed_before = 1;

@@ -31,7 +31,7 @@ std::uint32_t Number(const std::vector<std::uint8_t>& bytes, std::size_t at) {
          static_cast<std::uint32_t>(bytes[at + 3]) << 24U;
 }
 
-Json JsonOf(const std::vector<std::uint8_t>& glb) {
+Json JsonOfGlb(const std::vector<std::uint8_t>& glb) {
   return Json::parse(glb.begin() + 20, glb.begin() + 20 + Number(glb, 12));
 }
 
@@ -61,7 +61,7 @@ TEST(Glb, ChunksAreAlignedAndTheHeaderTellsTheLength) {
 
 TEST(Glb, DracoAccessorsHaveNoViewAndTellOfTheDecodedMesh) {
   const Encoded e = Encode(9, 8);
-  const Json gltf = JsonOf(WriteGlb(e.draco, e.decoded, {}));
+  const Json gltf = JsonOfGlb(WriteGlb(e.draco, e.decoded, {}));
   const Json& primitive = gltf["meshes"][0]["primitives"][0];
   const Json& position = gltf["accessors"][primitive["attributes"]["POSITION"].get<int>()];
   const Json& indices = gltf["accessors"][primitive["indices"].get<int>()];
@@ -89,7 +89,7 @@ TEST(Glb, DracoAccessorsHaveNoViewAndTellOfTheDecodedMesh) {
 
 TEST(Glb, TheNodePlacesLatticeNumbersAndTurnsZUpToYUp) {
   const Encoded e = Encode(30, 20);
-  const Json gltf = JsonOf(WriteGlb(e.draco, e.decoded, {}));
+  const Json gltf = JsonOfGlb(WriteGlb(e.draco, e.decoded, {}));
   const auto m = gltf["nodes"][0]["matrix"].get<std::vector<double>>();
   ASSERT_EQ(m.size(), 16U);
   draco::DecoderBuffer buffer;
@@ -114,16 +114,16 @@ TEST(Glb, TheNodePlacesLatticeNumbersAndTurnsZUpToYUp) {
 
 TEST(Glb, MoreVerticesThanShortsCanNameTakeLongIndices) {
   const Encoded e = Encode(300, 220);
-  EXPECT_EQ(JsonOf(WriteGlb(e.draco, e.decoded, {}))["accessors"][1]["componentType"], 5125);
+  EXPECT_EQ(JsonOfGlb(WriteGlb(e.draco, e.decoded, {}))["accessors"][1]["componentType"], 5125);
 }
 
 TEST(Glb, HorizonEdgesAreInTheExtensionAndOnlyThen) {
   const Encoded e = Encode(9, 8);
-  Json gltf = JsonOf(WriteGlb(e.draco, e.decoded, {}));
+  Json gltf = JsonOfGlb(WriteGlb(e.draco, e.decoded, {}));
   EXPECT_EQ(gltf["extensionsUsed"], Json::array({"KHR_draco_mesh_compression"}));
   const std::vector<std::uint8_t> glb =
       WriteGlb(e.draco, e.decoded, FlagEdges(e.decoded.mesh, SomeEdges(e.decoded.mesh)));
-  gltf = JsonOf(glb);
+  gltf = JsonOfGlb(glb);
   EXPECT_EQ(gltf["extensionsUsed"][1], "EXT_mesh_primitive_edge_visibility");
   const Json& edges =
       gltf["meshes"][0]["primitives"][0]["extensions"]["EXT_mesh_primitive_edge_visibility"];
@@ -171,7 +171,7 @@ TEST(Glb, TheSkirtIsASecondPrimitiveOfTheSameMeshAndMaterial) {
   const EncodedMesh skirt = {small.draco, small.decoded};
   const std::vector<std::uint8_t> glb =
       WriteGlb(e.draco, e.decoded, FlagEdges(e.decoded.mesh, SomeEdges(e.decoded.mesh)), &skirt);
-  const Json primitives = JsonOf(glb)["meshes"][0]["primitives"];
+  const Json primitives = JsonOfGlb(glb)["meshes"][0]["primitives"];
   ASSERT_EQ(primitives.size(), 2U);
   EXPECT_FALSE(primitives[0].contains("extras"));
   EXPECT_EQ(primitives[1]["extras"], Json({{"skirt", true}}));

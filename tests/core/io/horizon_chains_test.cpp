@@ -9,7 +9,7 @@ namespace {
 using ::testing::ElementsAre;
 using Post = std::array<std::int32_t, 2>;
 
-Geodetic PlaceOf(const Post& p, double first_lon) {
+Geodetic PlaceOfPoint(const Post& p, double first_lon) {
   double lon = first_lon + 0.001 * p[0];
   if (lon > 180) lon -= 360;
   return {lon, 46 - 0.001 * p[1], 500.0 + p[0]};
@@ -19,20 +19,20 @@ HorizonFeature EdgeOf(const Post& a, const Post& b, double first_lon = 7) {
   HorizonFeature f{};
   f.a = a;
   f.b = b;
-  f.from = PlaceOf(a, first_lon);
-  f.to = PlaceOf(b, first_lon);
+  f.from = PlaceOfPoint(a, first_lon);
+  f.to = PlaceOfPoint(b, first_lon);
   f.measures = {.azimuths = {{0, 1}}, .line_measure_m = 2, .skyline_drop_m = 0.5};
   return f;
 }
 
 // A cross at (1, 1) of a row and a column, and an edge aside.
-std::vector<HorizonFeature> Cross() {
+std::vector<HorizonFeature> CrossProduct() {
   return {EdgeOf({0, 1}, {1, 1}), EdgeOf({1, 0}, {1, 1}), EdgeOf({1, 1}, {2, 1}),
           EdgeOf({1, 1}, {1, 2}), EdgeOf({5, 5}, {6, 6})};
 }
 
 TEST(ChainsOf, StraightestEdgesAreJoined) {
-  const std::vector<HorizonChain> chains = ChainsOf(Cross());
+  const std::vector<HorizonChain> chains = ChainsOf(CrossProduct());
   ASSERT_EQ(chains.size(), 3U);
   EXPECT_THAT(chains[0].posts, ElementsAre(Post{0, 1}, Post{1, 1}, Post{2, 1}));
   EXPECT_THAT(chains[1].posts, ElementsAre(Post{1, 0}, Post{1, 1}, Post{1, 2}));
@@ -40,7 +40,7 @@ TEST(ChainsOf, StraightestEdgesAreJoined) {
 }
 
 TEST(ChainsOf, WeightsAreThoseOfAllEdges) {
-  std::vector<HorizonFeature> edges = Cross();
+  std::vector<HorizonFeature> edges = CrossProduct();
   edges[2].measures = {.azimuths = {{90, 91}}, .line_measure_m = 3, .skyline_drop_m = 4};
   edges[2].level_kept = 3;
   const HorizonChain chain = ChainsOf(edges).front();
@@ -63,7 +63,7 @@ TEST(ChainsOf, ARingIsOneChainAndEveryEdgeComesOnce) {
 }
 
 TEST(ChainsOf, UndecidedEdgesAreNotJoinedToOthers) {
-  std::vector<HorizonFeature> edges = Cross();
+  std::vector<HorizonFeature> edges = CrossProduct();
   edges[0].undecided = true;
   edges[0].measures = {.sights = Known::kNotAfforded, .drop = Known::kNotAfforded};
   std::size_t undecided = 0;
@@ -74,7 +74,7 @@ TEST(ChainsOf, UndecidedEdgesAreNotJoinedToOthers) {
 }
 
 TEST(HorizonChains, ReadsBackWhatItWrote) {
-  std::vector<HorizonFeature> edges = Cross();
+  std::vector<HorizonFeature> edges = CrossProduct();
   edges[0].level_kept = 11;
   edges[4].undecided = true;
   edges[3].measures.sights = Known::kNotAfforded;
@@ -121,7 +121,7 @@ TEST(HorizonChains, AreRoundedToAPartOfACell) {
 }
 
 TEST(HorizonChains, OtherTextIsAnErrorWithTheFeature) {
-  std::vector<HorizonFeature> edges = Cross();
+  std::vector<HorizonFeature> edges = CrossProduct();
   edges[0].level_kept = 3;
   const std::string text = WriteHorizonChains(ChainsOf(edges), 30);
   const auto changed = [&text](const std::string& what, const std::string& with) {

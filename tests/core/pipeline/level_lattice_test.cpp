@@ -87,7 +87,7 @@ TEST(StepsOfLevel, InsideFollowTheErrorOfTheLevel) {
 
 // The triangles of all cells of a grid, heights from `up`, in metres of one frame.
 template <typename Up>
-LocalMesh GridMeshOf(const Dem& dem, double cell_m, double east_m, Up up) {
+LocalMesh LatticeMesh(const Dem& dem, double cell_m, double east_m, Up up) {
   LocalMesh mesh;
   for (VertexId v = 0; v < dem.columns * dem.rows; ++v) {
     const double east = east_m + dem.Column(v) * cell_m;
@@ -116,8 +116,8 @@ TEST(RoundToLattice, SidesOfNeighboursDecodeToTheSamePlaces) {
     return 300 + 37.7 * std::sin(east / 71.3) + 23.1 * std::cos(north / 57.9);
   };
   constexpr double kCell = 30.0127;
-  LocalMesh west = GridMeshOf(dem, kCell, -16 * kCell, up);
-  LocalMesh east = GridMeshOf(dem, kCell, 0, up);
+  LocalMesh west = LatticeMesh(dem, kCell, -16 * kCell, up);
+  LocalMesh east = LatticeMesh(dem, kCell, 0, up);
   LatticeSteps west_steps = {0.5, 0.5};
   LatticeSteps east_steps = {0.5, 0.03125};
   const QuantizationLattice west_lattice = *RoundToLattice(dem, SomeFrame(), west_steps, west);
@@ -202,7 +202,7 @@ TEST(RoundToLattice, TilesCutFromOneDemMeetAtEveryLevel) {
 TEST(RoundToLattice, StepsGrowWhereTheBitsDoNotReach) {
   const Dem dem = DemOf(9, 9, [](int, int) { return 0; });
   const auto level = [](double, double) { return 100.0; };
-  LocalMesh mesh = GridMeshOf(dem, 5000, 0, level);
+  LocalMesh mesh = LatticeMesh(dem, 5000, 0, level);
   LatticeSteps steps = {0.015625, 0.0078125};
   const QuantizationLattice lattice = *RoundToLattice(dem, SomeFrame(), steps, mesh);
   EXPECT_EQ(lattice.step_m, 0.125);  // 320,000 steps; half of it would take 640,000
@@ -231,7 +231,7 @@ TEST(RoundToLattice, StepsShrinkUntilNoTriangleIsFlipped) {
 TEST(RoundToLattice, AMeshThatIsFlippedIsRefused) {
   const Dem dem = DemOf(3, 3, [](int, int) { return 0; });
   const auto level = [](double, double) { return 100.0; };
-  LocalMesh mesh = GridMeshOf(dem, 30, 0, level);
+  LocalMesh mesh = LatticeMesh(dem, 30, 0, level);
   std::swap(mesh.triangles[3][0], mesh.triangles[3][1]);
   LatticeSteps steps = {0.5, 0.5};
   const Result<QuantizationLattice> lattice = RoundToLattice(dem, SomeFrame(), steps, mesh);

@@ -33,7 +33,7 @@ LocalMesh GridMesh(const Dem& dem, std::int32_t first_row) {
 
 using Corners = std::array<std::uint32_t, 3>;  // posts
 
-std::multiset<Corners> TrianglesOf(const LocalMesh& mesh) {
+std::multiset<Corners> TrianglesOfParts(const LocalMesh& mesh) {
   std::multiset<Corners> triangles;
   for (const auto& [a, b, c] : mesh.triangles) {
     triangles.insert({mesh.posts[a], mesh.posts[b], mesh.posts[c]});
@@ -65,7 +65,7 @@ TEST(CutIntoParts, EachTriangleIsInThePartOfItsCellAndPartsJoinToTheWhole) {
   }
   const LocalMesh joined = JoinMeshes(meshes);
   EXPECT_EQ(joined.posts, whole.posts);  // each once, rising
-  EXPECT_EQ(TrianglesOf(joined), TrianglesOf(whole));
+  EXPECT_EQ(TrianglesOfParts(joined), TrianglesOfParts(whole));
 }
 
 TEST(JoinMeshes, VerticesThatDifferInAnythingStayApart) {

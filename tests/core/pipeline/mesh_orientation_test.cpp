@@ -8,7 +8,7 @@ namespace {
 // About a point at 60 degrees of latitude on the meridian of Greenwich.
 TangentFrame Frame() { return {{0, 60, 0}, {3197104.587, 0, 5500477.134}}; }
 
-LocalMesh MeshOf(const Enu& a, const Enu& b, const Enu& c) {
+LocalMesh MeshOfPlaces(const Enu& a, const Enu& b, const Enu& c) {
   LocalMesh mesh;
   mesh.positions = {a, b, c};
   mesh.triangles = {{0, 1, 2}};
@@ -16,9 +16,9 @@ LocalMesh MeshOf(const Enu& a, const Enu& b, const Enu& c) {
 }
 
 TEST(AllTurnLeft, TellsCounterClockwiseFromClockwiseAndFlat) {
-  EXPECT_TRUE(AllTurnLeft(MeshOf({0, 0, 5}, {10, 0, 5}, {0, 10, 90}), Frame()));
-  EXPECT_FALSE(AllTurnLeft(MeshOf({0, 0, 5}, {0, 10, 90}, {10, 0, 5}), Frame()));
-  EXPECT_FALSE(AllTurnLeft(MeshOf({0, 0, 5}, {10, 0, 5}, {20, 0, 5}), Frame()));
+  EXPECT_TRUE(AllTurnLeft(MeshOfPlaces({0, 0, 5}, {10, 0, 5}, {0, 10, 90}), Frame()));
+  EXPECT_FALSE(AllTurnLeft(MeshOfPlaces({0, 0, 5}, {0, 10, 90}, {10, 0, 5}), Frame()));
+  EXPECT_FALSE(AllTurnLeft(MeshOfPlaces({0, 0, 5}, {10, 0, 5}, {20, 0, 5}), Frame()));
 }
 
 TEST(AllTurnLeft, LooksAlongTheVerticalOfThePlace) {
@@ -27,8 +27,8 @@ TEST(AllTurnLeft, LooksAlongTheVerticalOfThePlace) {
   const Enu a = {0, 400000, -12500};
   const Enu b = {1000, 400000, -12500};
   const Enu c = {0, 400000 + 35, -12500 + 1000};
-  EXPECT_FALSE(AllTurnLeft(MeshOf(a, b, c), Frame()));
-  EXPECT_TRUE(AllTurnLeft(MeshOf(a, c, b), Frame()));
+  EXPECT_FALSE(AllTurnLeft(MeshOfPlaces(a, b, c), Frame()));
+  EXPECT_TRUE(AllTurnLeft(MeshOfPlaces(a, c, b), Frame()));
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ constexpr double kCellM = 30;
 
 // On UTM's central meridian, where grid north is north and the scale is within 0.04 % of 1.
 template <typename Height>
-Dem MakeDem(std::int32_t columns, std::int32_t rows, Height height) {
+Dem DemInCentimetres(std::int32_t columns, std::int32_t rows, Height height) {
   Dem dem;
   dem.columns = columns;
   dem.rows = rows;
@@ -68,7 +68,7 @@ UnitNormal OfSlope(double east, double north) {
 
 TEST(PostNormals, OnASlopeAreItsNormalAtHolesAndBordersToo) {
   // 0.3 a metre eastwards, 0.5 southwards; holes leave strips, corners and single triangles.
-  const Placed some(MakeDem(40, 30, [](std::int32_t c, std::int32_t r) {
+  const Placed some(DemInCentimetres(40, 30, [](std::int32_t c, std::int32_t r) {
     return (c * 7 + r * 5) % 11 == 0 || (c * c + 3 * r) % 7 == 0 ? kNoHeight : 900 * c + 1500 * r;
   }));
   const std::vector<UnitNormal> normals = NormalsOf(some);
@@ -80,7 +80,7 @@ TEST(PostNormals, OnHillsAreThoseOfTheHills) {
   const auto height_m = [](double c, double r) {
     return 300 * std::sin(c / 9) + 200 * std::cos(r / 7 + c / 20);
   };
-  const Placed some(MakeDem(60, 50, [&](std::int32_t c, std::int32_t r) {
+  const Placed some(DemInCentimetres(60, 50, [&](std::int32_t c, std::int32_t r) {
     return static_cast<std::int32_t>(std::lround(100 * height_m(c, r)));
   }));
   const std::vector<UnitNormal> normals = NormalsOf(some);
@@ -97,7 +97,7 @@ TEST(PostNormals, OnHillsAreThoseOfTheHills) {
 
 TEST(PostNormals, AreTheMeanOfTheFacesByArea) {
   std::mt19937 random(3);
-  const Placed some(MakeDem(23, 19, [&](std::int32_t, std::int32_t) {
+  const Placed some(DemInCentimetres(23, 19, [&](std::int32_t, std::int32_t) {
     return random() % 5 == 0 ? kNoHeight : static_cast<std::int32_t>(random() % 20000);
   }));
   // The slow twin adds every face's normal to its corners.
@@ -123,7 +123,8 @@ TEST(PostNormals, AreTheMeanOfTheFacesByArea) {
 }
 
 TEST(PostNormals, PointUpwardsWhicheverWayTheRowsRun) {
-  Dem dem = MakeDem(9, 9, [](std::int32_t c, std::int32_t r) { return 900 * c + 1500 * r; });
+  Dem dem =
+      DemInCentimetres(9, 9, [](std::int32_t c, std::int32_t r) { return 900 * c + 1500 * r; });
   dem.transform.step_y = kCellM;  // the first row is the southernmost
   const Placed some(dem);
   for (const UnitNormal& n : NormalsOf(some)) {
@@ -132,7 +133,7 @@ TEST(PostNormals, PointUpwardsWhicheverWayTheRowsRun) {
 }
 
 TEST(PostNormals, OfCliffsAreRaisedToTheLeastThatEncodingTakes) {
-  const Placed some(MakeDem(12, 12, [](std::int32_t c, std::int32_t r) {
+  const Placed some(DemInCentimetres(12, 12, [](std::int32_t c, std::int32_t r) {
     return (c + r) % 3 == 0 ? 900000 : 7 * c - 5 * r;
   }));
   double least = 1;
@@ -144,7 +145,7 @@ TEST(PostNormals, OfCliffsAreRaisedToTheLeastThatEncodingTakes) {
 }
 
 TEST(PostNormals, AreZeroWhereThereIsNoTerrain) {
-  const Placed some(MakeDem(9, 9, [](std::int32_t c, std::int32_t r) {
+  const Placed some(DemInCentimetres(9, 9, [](std::int32_t c, std::int32_t r) {
     return c > 3 && (c + r) % 2 == 0 ? kNoHeight : 10 * c;
   }));
   const PostNormals normals = *FindPostNormals(some.terrain, some.georeference);
@@ -156,7 +157,7 @@ TEST(PostNormals, AreZeroWhereThereIsNoTerrain) {
 
 // Rolling hills, and a mesh over every `step`th post of them, with the terrain's diagonals.
 Placed Hills(std::int32_t size) {
-  return Placed(MakeDem(size, size, [](std::int32_t c, std::int32_t r) {
+  return Placed(DemInCentimetres(size, size, [](std::int32_t c, std::int32_t r) {
     return static_cast<std::int32_t>(
         std::lround(9000 * std::sin(c / 6.0) * std::cos(r / 5.0) + 2500 * std::sin(c * r / 7.0)));
   }));
@@ -230,7 +231,7 @@ TEST(MeanNormals, WeighPostsByTheSquareOfTheirShare) {
 
 TEST(MeanNormals, OnASlopeAreItsNormal) {
   const Placed some(
-      MakeDem(25, 25, [](std::int32_t c, std::int32_t r) { return 900 * c + 1500 * r; }));
+      DemInCentimetres(25, 25, [](std::int32_t c, std::int32_t r) { return 900 * c + 1500 * r; }));
   const PostNormals posts = *FindPostNormals(some.terrain, some.georeference);
   for (const UnitNormal& n :
        MeanNormals(some.terrain, some.georeference.frame(), posts, EveryNth(25, 6))) {

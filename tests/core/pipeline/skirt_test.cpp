@@ -18,7 +18,7 @@ namespace {
 using Place = std::array<double, 3>;
 using Sides = std::multiset<std::pair<Place, Place>>;
 
-Place PlaceOf(const Enu& p) { return {p.east, p.north, p.up}; }
+Place PlaceOfPoint(const Enu& p) { return {p.east, p.north, p.up}; }
 
 // A grid with a slanted outline and a hole, on a lattice with room below.
 struct Ground {
@@ -39,11 +39,12 @@ struct Ground {
   }
 };
 
-Sides SidesOf(const LocalMesh& mesh) {
+Sides SidesOfSkirt(const LocalMesh& mesh) {
   Sides sides;
   for (const auto& t : mesh.triangles) {
     for (std::size_t k = 0; k < 3; ++k) {
-      sides.emplace(PlaceOf(mesh.positions[t[k]]), PlaceOf(mesh.positions[t[(k + 1) % 3]]));
+      sides.emplace(PlaceOfPoint(mesh.positions[t[k]]),
+                    PlaceOfPoint(mesh.positions[t[(k + 1) % 3]]));
     }
   }
   return sides;
@@ -58,10 +59,10 @@ std::size_t CountOpen(const Sides& sides) {
 // With its skirt the mesh is one surface, turned one way, that is open at the bottom alone.
 TEST(Skirt, ClosesEveryRimAndFacesOutwards) {
   const Ground ground;
-  Sides sides = SidesOf(ground.mesh);
+  Sides sides = SidesOfSkirt(ground.mesh);
   const std::size_t rim = CountOpen(sides);
   ASSERT_EQ(ground.skirt.triangles.size(), 2 * rim);
-  for (const auto& side : SidesOf(ground.skirt)) {
+  for (const auto& side : SidesOfSkirt(ground.skirt)) {
     EXPECT_EQ(sides.count(side), 0U) << "a side twice in one direction";
     sides.insert(side);
   }
@@ -75,13 +76,13 @@ TEST(Skirt, ClosesEveryRimAndFacesOutwards) {
 TEST(Skirt, HangsFromTheRimBitForBitAlongThePlumbLine) {
   const Ground ground;
   std::set<Place> places;
-  for (const Enu& p : ground.mesh.positions) places.insert(PlaceOf(p));
+  for (const Enu& p : ground.mesh.positions) places.insert(PlaceOfPoint(p));
   const std::size_t tops = ground.skirt.positions.size() / 2;
   for (std::size_t i = 0; i < tops; ++i) {
     const Enu& top = ground.skirt.positions[i];
     const Enu& bottom = ground.skirt.positions[tops + i];
-    EXPECT_TRUE(places.contains(PlaceOf(top)));
-    EXPECT_EQ(PlaceOf(SnapToLattice(bottom, ground.lattice)), PlaceOf(bottom));
+    EXPECT_TRUE(places.contains(PlaceOfPoint(top)));
+    EXPECT_EQ(PlaceOfPoint(SnapToLattice(bottom, ground.lattice)), PlaceOfPoint(bottom));
     const Enu up = EllipsoidNormal(top, ground.frame);
     const double share = Ground::kDepth / std::hypot(up.east, up.north, up.up);
     EXPECT_LE(std::abs(top.east - share * up.east - bottom.east), Ground::kStep / 2);
@@ -94,11 +95,11 @@ TEST(Skirt, IsLitAsTheRimIs) {
   const Ground ground;
   std::set<std::pair<Place, UnitNormal>> lit;
   for (std::size_t i = 0; i < ground.mesh.positions.size(); ++i) {
-    lit.emplace(PlaceOf(ground.mesh.positions[i]), ground.mesh.normals[i]);
+    lit.emplace(PlaceOfPoint(ground.mesh.positions[i]), ground.mesh.normals[i]);
   }
   const std::size_t tops = ground.skirt.positions.size() / 2;
   for (std::size_t i = 0; i < tops; ++i) {
-    EXPECT_TRUE(lit.contains({PlaceOf(ground.skirt.positions[i]), ground.skirt.normals[i]}));
+    EXPECT_TRUE(lit.contains({PlaceOfPoint(ground.skirt.positions[i]), ground.skirt.normals[i]}));
     EXPECT_EQ(ground.skirt.normals[i], ground.skirt.normals[tops + i]);
   }
 }

@@ -146,7 +146,7 @@ struct Shared {
   double greatest_m = 0;
 };
 template <typename OnSide>
-Shared Compare(const DecodedLevel& a, const DecodedLevel& b, OnSide on_side) {
+Shared CompareTiles(const DecodedLevel& a, const DecodedLevel& b, OnSide on_side) {
   Shared shared;
   for (const auto& [post, place] : a.places) {
     if (!on_side(post)) continue;
@@ -189,7 +189,7 @@ TEST_P(TilesMeet, PostsOfACommonSideAreEqualInOneFrame) {
     const auto& b = tiles[static_cast<std::size_t>(j)];
     const bool upright = j == i + 1;
     const Shared shared =
-        Compare(a, b, [&](const Post& p) { return upright ? p[0] == 21 : p[1] == 16; });
+        CompareTiles(a, b, [&](const Post& p) { return upright ? p[0] == 21 : p[1] == 16; });
     EXPECT_GE(shared.posts, 6U);
     EXPECT_EQ(shared.of_one, 0U);
     EXPECT_LT(shared.greatest_m, 1e-6) << i << " and " << j;
@@ -209,7 +209,7 @@ TEST(TilesMeetOfTheirOwnFrames, PostsOfACommonSideAreWithinAStep) {
   options.levels = 1;
   const DecodedLevel west = dem.Tile({0, 21}, {0, 30}, options).front();
   const DecodedLevel east = dem.Tile({21, 33}, {0, 30}, options).front();
-  const Shared shared = Compare(west, east, [](const Post& p) { return p[0] == 21; });
+  const Shared shared = CompareTiles(west, east, [](const Post& p) { return p[0] == 21; });
   EXPECT_GE(shared.posts, 6U);
   EXPECT_EQ(shared.of_one, 0U);
   EXPECT_GT(shared.greatest_m, 0);
@@ -314,7 +314,7 @@ TEST(TilesMeetAtOtherLevels, GapsAreWithinTheErrorsAndTheSkirts) {
   }
   for (const std::size_t level : {0U, 1U}) {
     const Shared shared =
-        Compare(west[level], east[level], [](const Post& p) { return p[0] == 32; });
+        CompareTiles(west[level], east[level], [](const Post& p) { return p[0] == 32; });
     EXPECT_GE(shared.posts, 3U);
     EXPECT_EQ(shared.of_one, 0U);
     EXPECT_LT(shared.greatest_m, 1e-6);

@@ -13,7 +13,7 @@
 namespace farhorizon {
 namespace {
 
-Dem MakeDem(std::int32_t columns, std::int32_t rows, std::vector<std::int32_t> heights) {
+Dem DemOfHeights(std::int32_t columns, std::int32_t rows, std::vector<std::int32_t> heights) {
   Dem dem;
   dem.columns = columns;
   dem.rows = rows;
@@ -26,7 +26,7 @@ Dem RandomDemWithHoles(std::int32_t columns, std::int32_t rows, std::mt19937& ra
   for (std::int32_t& h : heights) {
     h = random() % 4 == 0 ? kNoHeight : static_cast<std::int32_t>(random() % 10);
   }
-  return MakeDem(columns, rows, heights);
+  return DemOfHeights(columns, rows, heights);
 }
 
 // The slow twin: sides of triangles, gathered from the cells.
@@ -39,19 +39,19 @@ std::map<std::pair<VertexId, VertexId>, VertexId> SidesOfTriangles(const Terrain
 }
 
 TEST(Terrain, ACellOfFourPostsIsSplitFromItsFirstCornerToItsLast) {
-  const Dem dem = MakeDem(2, 2, {0, 0, 0, 0});
+  const Dem dem = DemOfHeights(2, 2, {0, 0, 0, 0});
   const Terrain terrain = *Terrain::Build(dem);
   EXPECT_EQ(terrain.Edges(), (std::vector<Edge>{{0, 1}, {0, 2}, {0, 3}, {1, 3}, {2, 3}}));
 }
 
 TEST(Terrain, ACellWithOnePostMissingKeepsTheTriangleOfTheOtherThree) {
-  const Dem dem = MakeDem(2, 2, {kNoHeight, 0, 0, 0});
+  const Dem dem = DemOfHeights(2, 2, {kNoHeight, 0, 0, 0});
   const Terrain terrain = *Terrain::Build(dem);
   EXPECT_EQ(terrain.Edges(), (std::vector<Edge>{{1, 2}, {1, 3}, {2, 3}}));
 }
 
 TEST(Terrain, TwoPostsMakeNoSurface) {
-  const Dem dem = MakeDem(2, 2, {kNoHeight, 0, 0, kNoHeight});
+  const Dem dem = DemOfHeights(2, 2, {kNoHeight, 0, 0, kNoHeight});
   Result<Terrain> terrain = Terrain::Build(dem);
   ASSERT_FALSE(terrain);
   EXPECT_EQ(terrain.error().kind, "no-surface");
@@ -88,7 +88,7 @@ TEST(Terrain, NeighboursEdgesAndFacesAreThoseOfTheTriangles) {
 }
 
 TEST(Terrain, TrianglesRunCounterClockwiseSeenFromAbove) {
-  const Dem dem = MakeDem(3, 3, {0, 1, 2, 3, kNoHeight, 5, 6, 7, 8});
+  const Dem dem = DemOfHeights(3, 3, {0, 1, 2, 3, kNoHeight, 5, 6, 7, 8});
   const Terrain terrain = *Terrain::Build(dem);
   for (const Triangle& t : terrain.Triangles()) {
     const Point3i a = terrain.Point(t[0]);

@@ -5,34 +5,34 @@
 namespace farhorizon {
 namespace {
 
-std::string ClientOf(const std::string& trusted, const std::string& peer,
-                     const std::vector<std::string>& fields) {
+std::string ClientSeen(const std::string& trusted, const std::string& peer,
+                       const std::vector<std::string>& fields) {
   HttpRequest request;
   for (const std::string& field : fields) request.headers.emplace_back("x-forwarded-for", field);
   return TrustedProxies::Read(trusted)->ClientOf(request, peer);
 }
 
 TEST(TrustedProxies, NobodyElseNamesAClient) {
-  EXPECT_EQ(ClientOf("", "192.0.2.1", {"198.51.100.7"}), "192.0.2.1");
-  EXPECT_EQ(ClientOf("127.0.0.1", "192.0.2.1", {"198.51.100.7"}), "192.0.2.1");
-  EXPECT_EQ(ClientOf("192.0.2.0/24", "192.0.3.1", {"198.51.100.7"}), "192.0.3.1");
+  EXPECT_EQ(ClientSeen("", "192.0.2.1", {"198.51.100.7"}), "192.0.2.1");
+  EXPECT_EQ(ClientSeen("127.0.0.1", "192.0.2.1", {"198.51.100.7"}), "192.0.2.1");
+  EXPECT_EQ(ClientSeen("192.0.2.0/24", "192.0.3.1", {"198.51.100.7"}), "192.0.3.1");
 }
 
 TEST(TrustedProxies, NameTheLastThatIsNone) {
-  EXPECT_EQ(ClientOf("127.0.0.1", "127.0.0.1", {"198.51.100.7"}), "198.51.100.7");
-  EXPECT_EQ(ClientOf("127.0.0.1", "127.0.0.1", {"6.6.6.6, 198.51.100.7"}), "198.51.100.7")
+  EXPECT_EQ(ClientSeen("127.0.0.1", "127.0.0.1", {"198.51.100.7"}), "198.51.100.7");
+  EXPECT_EQ(ClientSeen("127.0.0.1", "127.0.0.1", {"6.6.6.6, 198.51.100.7"}), "198.51.100.7")
       << "what stands before was sent by the client";
-  EXPECT_EQ(ClientOf("127.0.0.1,10.0.0.0/8", "127.0.0.1", {"6.6.6.6", "198.51.100.7, 10.1.2.3"}),
+  EXPECT_EQ(ClientSeen("127.0.0.1,10.0.0.0/8", "127.0.0.1", {"6.6.6.6", "198.51.100.7, 10.1.2.3"}),
             "198.51.100.7");
-  EXPECT_EQ(ClientOf("::1", "::1", {"2001:db8::7"}), "2001:db8::7");
-  EXPECT_EQ(ClientOf("127.0.0.1", "::ffff:127.0.0.1", {"198.51.100.7"}), "198.51.100.7");
+  EXPECT_EQ(ClientSeen("::1", "::1", {"2001:db8::7"}), "2001:db8::7");
+  EXPECT_EQ(ClientSeen("127.0.0.1", "::ffff:127.0.0.1", {"198.51.100.7"}), "198.51.100.7");
 }
 
 TEST(TrustedProxies, WithoutAnAddressTheClientIsThePeer) {
   for (const char* field : {"", "unknown", "1.2.3.4:80", "\x1b[31m", "127.0.0.1"}) {
-    EXPECT_EQ(ClientOf("127.0.0.1", "127.0.0.1", {field}), "127.0.0.1") << field;
+    EXPECT_EQ(ClientSeen("127.0.0.1", "127.0.0.1", {field}), "127.0.0.1") << field;
   }
-  EXPECT_EQ(ClientOf("127.0.0.1", "127.0.0.1", {}), "127.0.0.1");
+  EXPECT_EQ(ClientSeen("127.0.0.1", "127.0.0.1", {}), "127.0.0.1");
 }
 
 TEST(TrustedProxies, AreAddressesAndNetworks) {

@@ -22,7 +22,9 @@
 namespace farhorizon {
 namespace {
 
-std::vector<Edge> Find(const Terrain& terrain) { return (*FindHorizonKinetic(terrain, {})).edges; }
+std::vector<Edge> FindKinetically(const Terrain& terrain) {
+  return (*FindHorizonKinetic(terrain, {})).edges;
+}
 
 std::vector<Edge> FindAdaptively(const Terrain& terrain) {
   std::vector<Edge> edges;
@@ -45,7 +47,8 @@ void ExpectTheDefinitionOnEvery(std::int32_t columns, std::int32_t rows, std::in
   std::int32_t count = 1;
   for (std::int32_t i = 0; i < columns * rows; ++i) count *= levels;
   for (std::int32_t n = 0; n < count; n += step) {
-    ASSERT_TRUE(MatchesBruteForce(NthDem(columns, rows, levels, n), Find)) << "number " << n;
+    ASSERT_TRUE(MatchesBruteForce(NthDem(columns, rows, levels, n), FindKinetically))
+        << "number " << n;
   }
 }
 
@@ -53,7 +56,7 @@ void ExpectTheDefinitionOnRandomTerrains(std::int32_t min_side, std::int32_t max
                                          std::uint32_t seed) {
   std::mt19937 random(seed);
   for (int round = 0; round < rounds; ++round) {
-    ASSERT_TRUE(MatchesBruteForce(AnyRandomDem(min_side, max_side, random), Find))
+    ASSERT_TRUE(MatchesBruteForce(AnyRandomDem(min_side, max_side, random), FindKinetically))
         << "round " << round;
   }
 }
@@ -61,7 +64,7 @@ void ExpectTheDefinitionOnRandomTerrains(std::int32_t min_side, std::int32_t max
 void ExpectTheAdaptiveAnswer(const Dem& dem) {
   Result<Terrain> terrain = Terrain::Build(dem);
   if (!terrain) return;
-  EXPECT_EQ(Find(*terrain), FindAdaptively(*terrain));
+  EXPECT_EQ(FindKinetically(*terrain), FindAdaptively(*terrain));
 }
 
 /// The posts of `dem` in the middle, side x side at most.
@@ -85,16 +88,17 @@ void ExpectTheAdaptiveAnswerOn(const std::string& name, std::int32_t side) {
 
 TEST(FindHorizonKinetic, FindsTheKnownHorizonsOfTheNamedTerrains) {
   for (const NamedTerrain& named : NamedTerrains()) {
-    EXPECT_TRUE(MatchesBruteForce(named.dem, Find)) << named.name;
+    EXPECT_TRUE(MatchesBruteForce(named.dem, FindKinetically)) << named.name;
     if (named.horizon_edges < 0) continue;
-    EXPECT_EQ(static_cast<int>(Find(*Terrain::Build(named.dem)).size()), named.horizon_edges)
+    EXPECT_EQ(static_cast<int>(FindKinetically(*Terrain::Build(named.dem)).size()),
+              named.horizon_edges)
         << named.name;
   }
 }
 
 TEST(FindHorizonKinetic, FindsEveryAxisEdgeOfALargeDome) {
   const Dem dem = Paraboloid(65, -1);
-  EXPECT_EQ(Find(*Terrain::Build(dem)).size(), 8320U);
+  EXPECT_EQ(FindKinetically(*Terrain::Build(dem)).size(), 8320U);
 }
 
 TEST(FindHorizonKinetic, HoldsToTheDefinitionOnASampleOfAllTerrainsOfThreeByThreePosts) {
@@ -116,11 +120,11 @@ TEST(FindHorizonKinetic, DoesNotSeeLevelEdgesThroughAContactOfTwoHulls) {
       . 1
       0 0
       1 0)"),
-                                Find));
+                                FindKinetically));
   EXPECT_TRUE(MatchesBruteForce(AsciiDem(R"(
       1 0 1
       . 0 0)"),
-                                Find));
+                                FindKinetically));
 }
 
 /// Every way to keep tangents and hulls.
@@ -141,8 +145,9 @@ void CheckOnRandomTerrains(std::int32_t min_side, std::int32_t max_side, int rou
     if (!terrain) continue;
     SCOPED_TRACE(DrawAscii(dem));
     for (const KineticOptions& options : AllOptions()) {
-      ASSERT_NO_THROW(
-          { EXPECT_EQ(FindHorizonKineticChecked(*terrain, options)->edges, Find(*terrain)); });
+      ASSERT_NO_THROW({
+        EXPECT_EQ(FindHorizonKineticChecked(*terrain, options)->edges, FindKinetically(*terrain));
+      });
     }
   }
 }

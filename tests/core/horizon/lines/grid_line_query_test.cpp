@@ -16,7 +16,7 @@ namespace {
 
 // A line through a post or half way between two, inside the grid; often along rows, columns or
 // diagonals.
-PlanLine AnyLine(const Dem& dem, std::mt19937& random) {
+PlanLine AnyGridLine(const Dem& dem, std::mt19937& random) {
   const auto below = [&random](std::int32_t n) {
     return static_cast<std::int32_t>(random() % static_cast<std::uint32_t>(n));
   };
@@ -40,7 +40,7 @@ testing::AssertionResult AgreesWithTheDefinition(const Dem& dem, int lines, std:
   const GridLineQuery query(*terrain);
   const std::vector<Edge> edges = terrain->Edges();
   for (int i = 0; i < lines; ++i) {
-    const PlanLine line = AnyLine(dem, random);
+    const PlanLine line = AnyGridLine(dem, random);
     const Edge except = edges[random() % edges.size()];
     std::vector<Segment> others;
     for (const Edge e : edges) {

@@ -13,12 +13,14 @@ namespace {
 
 using boost::multiprecision::cpp_int;
 
-Number Exact(const Fraction& f) { return Number(cpp_int(f.numerator), cpp_int(f.denominator)); }
+Number ExactValue(const Fraction& f) {
+  return Number(cpp_int(f.numerator), cpp_int(f.denominator));
+}
 
-std::vector<SeenStretch> Exact(const std::vector<EnvelopePiece>& envelope) {
+std::vector<SeenStretch> ExactValue(const std::vector<EnvelopePiece>& envelope) {
   std::vector<SeenStretch> stretches;
   for (const EnvelopePiece& piece : envelope) {
-    stretches.push_back({piece.segment, Exact(piece.from), Exact(piece.to)});
+    stretches.push_back({piece.segment, ExactValue(piece.from), ExactValue(piece.to)});
   }
   return stretches;
 }
@@ -46,7 +48,8 @@ TEST(UpperEnvelope, IsTheSkylineByItsDefinition) {
     const auto step = [&] { return static_cast<std::int32_t>(random() % 7) - 3; };
     ViewDirection view{step(), step()};
     if (view.dc == 0 && view.dr == 0) view.dc = 1;
-    ASSERT_EQ(Exact(UpperEnvelope(segments, view)), SkylineByDefinition(segments, view)) << round;
+    ASSERT_EQ(ExactValue(UpperEnvelope(segments, view)), SkylineByDefinition(segments, view))
+        << round;
   }
 }
 
@@ -62,7 +65,8 @@ TEST(UpperEnvelope, IsExactAtTheLimits) {
       return static_cast<std::int32_t>(random() % (2UL * kMaxViewStep)) - kMaxViewStep;
     };
     const ViewDirection view{random() % 2 == 0 ? kMaxViewStep : step(), step()};
-    ASSERT_EQ(Exact(UpperEnvelope(segments, view)), SkylineByDefinition(segments, view)) << round;
+    ASSERT_EQ(ExactValue(UpperEnvelope(segments, view)), SkylineByDefinition(segments, view))
+        << round;
   }
 }
 

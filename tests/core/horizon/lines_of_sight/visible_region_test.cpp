@@ -45,7 +45,7 @@ WideDyadic FromLow(const Segment& s, const DyadicNumber& t) {
 }
 
 // The sign of the cross product of a curve's direction at t and `direction`.
-int Turn(const BoundaryCurve& curve, const WideDyadic& t, const WideVector& direction) {
+int TurnInPlan(const BoundaryCurve& curve, const WideDyadic& t, const WideVector& direction) {
   if (curve.kind == BoundaryCurve::Kind::kAlong) return 1;
   if (curve.kind == BoundaryCurve::Kind::kAgainst) return -1;
   return CrossSign(curve.v.At(t), direction);
@@ -62,7 +62,7 @@ bool Contains(const VisibleRegion& region, const Segment& edge, const DyadicNumb
   const WideDyadic at = FromLow(edge, t);
   return std::any_of(region.cells().begin(), region.cells().end(), [&](const StripCell& cell) {
     return Compare(cell.from.root, at) <= 0 && Compare(cell.to.root, at) >= 0 &&
-           Turn(cell.first, at, v) > 0 && Turn(cell.last, at, v) < 0;
+           TurnInPlan(cell.first, at, v) > 0 && TurnInPlan(cell.last, at, v) < 0;
   });
 }
 
@@ -208,7 +208,7 @@ TEST(VisibleRegion, IsTheDefinitionOnCliffs) {
   }
 }
 
-std::int64_t SideOf(const Point3i& p, const Segment& s) {
+std::int64_t SideOfLine(const Point3i& p, const Segment& s) {
   return std::int64_t{s.b.x - s.a.x} * (p.y - s.a.y) - std::int64_t{s.b.y - s.a.y} * (p.x - s.a.x);
 }
 
@@ -233,8 +233,8 @@ TEST(VisibleRegion, IsTheDefinitionBehindAnyTwoSegments) {
     while (others.size() < 2) {
       const Segment other = draw();
       // Not over the edge: on one side of its line, or across the line ahead of it or behind it.
-      const bool beside = SideOf(other.a, edge) * SideOf(other.b, edge) > 0;
-      const bool past = SideOf(edge.a, other) * SideOf(edge.b, other) > 0;
+      const bool beside = SideOfLine(other.a, edge) * SideOfLine(other.b, edge) > 0;
+      const bool past = SideOfLine(edge.a, other) * SideOfLine(edge.b, other) > 0;
       if (beside || past) others.push_back(other);
     }
     VisibleRegion region(TargetOf(edge));

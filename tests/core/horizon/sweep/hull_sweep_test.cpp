@@ -23,7 +23,7 @@ namespace {
 
 using Corners = std::vector<Point2i>;
 
-Corners Sorted(Corners corners) {
+Corners SortedHull(Corners corners) {
   std::sort(corners.begin(), corners.end());
   return corners;
 }
@@ -67,13 +67,13 @@ std::set<Corners> HullsByDefinition(const Terrain& terrain, std::int32_t height)
     i = 0;
   }
   std::set<Corners> all;
-  for (const ConvexPolygon& hull : hulls) all.insert(Sorted(hull.corners()));
+  for (const ConvexPolygon& hull : hulls) all.insert(SortedHull(hull.corners()));
   return all;
 }
 
 std::set<Corners> HullsOf(const HullScene& scene) {
   std::set<Corners> all;
-  for (const ConvexPolygon& hull : scene.hulls()) all.insert(Sorted(hull.corners()));
+  for (const ConvexPolygon& hull : scene.hulls()) all.insert(SortedHull(hull.corners()));
   return all;
 }
 

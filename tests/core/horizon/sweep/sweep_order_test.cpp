@@ -22,7 +22,7 @@ bool ComesBefore(const Dem& dem, VertexId a, VertexId b) {
   return height_a != height_b ? height_a > height_b : a < b;
 }
 
-void ExpectTheDefinition(const Terrain& terrain, const SweepOrder& order) {
+void ExpectTheOrder(const Terrain& terrain, const SweepOrder& order) {
   const Dem& dem = terrain.dem();
   std::vector<VertexId> vertices;
   for (VertexId v = 0; v < terrain.post_count(); ++v) {
@@ -67,7 +67,7 @@ TEST(OrderOfSweep, IsTheDefinitionAtAnyNumberOfThreads) {
     if (!terrain) continue;
     SCOPED_TRACE(DrawAscii(dem));
     for (const int threads : {1, 3}) {
-      ExpectTheDefinition(*terrain, *OrderOfSweep(*terrain, threads, {}));
+      ExpectTheOrder(*terrain, *OrderOfSweep(*terrain, threads, {}));
       if (HasFatalFailure()) return;
     }
   }
@@ -78,7 +78,7 @@ TEST(OrderOfSweep, ReadsRowsInManyBatches) {
   const Dem dem = AnyRandomDem(70, 90, random);
   const Result<Terrain> terrain = Terrain::Build(dem);
   ASSERT_TRUE(terrain);
-  ExpectTheDefinition(*terrain, *OrderOfSweep(*terrain, 4, {}));
+  ExpectTheOrder(*terrain, *OrderOfSweep(*terrain, 4, {}));
 }
 
 TEST(OrderOfSweep, StopsWhenAskedTo) {

@@ -14,7 +14,7 @@
 namespace farhorizon {
 namespace {
 
-double Turn(PlanPoint a, PlanPoint b, PlanPoint c) {
+double TurnOfTrace(PlanPoint a, PlanPoint b, PlanPoint c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
@@ -71,14 +71,14 @@ constexpr double kRounded = 1e-6;
 
 bool IsConvex(const std::vector<PlanPoint>& hull) {
   for (std::size_t i = 0; i + 2 < hull.size(); ++i) {
-    if (Turn(hull[i], hull[i + 1], hull[i + 2]) <= -kRounded) return false;
+    if (TurnOfTrace(hull[i], hull[i + 1], hull[i + 2]) <= -kRounded) return false;
   }
   return true;
 }
 
 bool IsIn(const std::vector<PlanPoint>& hull, PlanPoint p) {
   for (std::size_t i = 0; i < hull.size(); ++i) {
-    if (Turn(hull[i], hull[(i + 1) % hull.size()], p) < -kRounded) return false;
+    if (TurnOfTrace(hull[i], hull[(i + 1) % hull.size()], p) < -kRounded) return false;
   }
   return hull.size() > 2 || std::hypot(hull[0].x - p.x, hull[0].y - p.y) < 2;
 }

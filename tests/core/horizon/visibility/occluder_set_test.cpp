@@ -17,15 +17,15 @@ namespace {
 
 constexpr std::array<Ties, 2> kBothTies{Ties::kPass, Ties::kBlock};
 
-const char* NameOf(Ties ties) { return ties == Ties::kPass ? "kPass" : "kBlock"; }
+const char* TextOfCase(Ties ties) { return ties == Ties::kPass ? "kPass" : "kBlock"; }
 
 struct Extent {
   std::int32_t columns = 0;
   std::int32_t rows = 0;
 };
 
-std::optional<Witness> FindLineOfSight(Extent extent, const Segment& segment,
-                                       const std::vector<Segment>& set, Ties ties) {
+std::optional<Witness> FindItsLine(Extent extent, const Segment& segment,
+                                   const std::vector<Segment>& set, Ties ties) {
   OccluderSet occluders(extent.columns, extent.rows);
   for (const Segment& f : set) occluders.Insert(f);
   return occluders.FindLineOfSight({.segment = segment, .ties = ties}).witness;
@@ -37,15 +37,15 @@ std::optional<Witness> FindLineOfSight(Extent extent, const Segment& segment,
 testing::AssertionResult MatchesTheDefinition(Extent extent, const Segment& segment,
                                               const std::vector<Segment>& all, Ties ties) {
   const auto fails = [&](const std::vector<Segment>& set) {
-    const std::optional<Witness> witness = FindLineOfSight(extent, segment, set, ties);
+    const std::optional<Witness> witness = FindItsLine(extent, segment, set, ties);
     return witness.has_value() != LineOfSightByBruteForce(segment, set, ties).has_value() ||
            (witness && witness->exact && !LineOfSightIsClear(*witness, segment, set, Ties::kPass));
   };
   if (!fails(all)) return testing::AssertionSuccess();
   const std::vector<Segment> few = Shrink(all, fails);
-  const std::optional<Witness> witness = FindLineOfSight(extent, segment, few, ties);
+  const std::optional<Witness> witness = FindItsLine(extent, segment, few, ties);
   testing::AssertionResult failure = testing::AssertionFailure();
-  failure << NameOf(ties) << ", segment " << DrawSegments({segment}) << "occluders\n"
+  failure << TextOfCase(ties) << ", segment " << DrawSegments({segment}) << "occluders\n"
           << DrawSegments(few);
   if (!witness) return failure << "no line of sight is found, though there is one";
   if (!LineOfSightByBruteForce(segment, few, ties))
@@ -137,8 +137,8 @@ class SegmentSource {
   std::mt19937 random_;
 };
 
-void ExpectTheDefinition(std::int32_t side, std::int32_t max_height, int occluders, int rounds,
-                         std::uint32_t seed) {
+void ExpectTheOccluders(std::int32_t side, std::int32_t max_height, int occluders, int rounds,
+                        std::uint32_t seed) {
   SegmentSource source(side, max_height, seed);
   int visible = 0;
   for (int round = 0; round < rounds; ++round) {
@@ -155,15 +155,15 @@ void ExpectTheDefinition(std::int32_t side, std::int32_t max_height, int occlude
 }
 
 TEST(FindLineOfSight, IsTheDefinitionOnSegmentsThatCoincideInEveryWay) {
-  ExpectTheDefinition(4, 3, 14, Rounds(12'000), 1);
+  ExpectTheOccluders(4, 3, 14, Rounds(12'000), 1);
 }
 
 TEST(FindLineOfSight, IsTheDefinitionOnLongChordsThatCross) {
-  ExpectTheDefinition(30, 50, 40, Rounds(3'000), 2);
+  ExpectTheOccluders(30, 50, 40, Rounds(3'000), 2);
 }
 
 TEST(FindLineOfSight, IsTheDefinitionOnManySegments) {
-  ExpectTheDefinition(10, 6, 120, Rounds(500), 3);
+  ExpectTheOccluders(10, 6, 120, Rounds(500), 3);
 }
 
 TEST(FindLineOfSight, IsTheDefinitionInALargePlanAtTheLimitsOfHeight) {
@@ -226,14 +226,14 @@ TEST(FindLineOfSight, GroundAtTheSameHeightOccludesOnlyWhereTiesBlock) {
                                   {{6, 6, 2}, {0, 6, 2}},
                                   {{0, 6, 2}, {0, 0, 2}}};
   const Segment segment{{2, 3, 2}, {4, 3, 2}};
-  EXPECT_TRUE(FindLineOfSight({7, 7}, segment, ring, Ties::kPass));
-  EXPECT_FALSE(FindLineOfSight({7, 7}, segment, ring, Ties::kBlock));
+  EXPECT_TRUE(FindItsLine({7, 7}, segment, ring, Ties::kPass));
+  EXPECT_FALSE(FindItsLine({7, 7}, segment, ring, Ties::kBlock));
 }
 
 TEST(FindLineOfSight, ACopyOfTheSegmentOccludesItOnlyWhereTiesBlock) {
   const Segment segment{{0, 0, 2}, {3, 3, 7}};
-  EXPECT_TRUE(FindLineOfSight({4, 4}, segment, {segment}, Ties::kPass));
-  EXPECT_FALSE(FindLineOfSight({4, 4}, segment, {segment}, Ties::kBlock));
+  EXPECT_TRUE(FindItsLine({4, 4}, segment, {segment}, Ties::kPass));
+  EXPECT_FALSE(FindItsLine({4, 4}, segment, {segment}, Ties::kBlock));
 }
 
 TEST(FindLineOfSight, IgnoresTheMemberThatIsExcepted) {
@@ -251,7 +251,7 @@ TEST(FindLineOfSight, IgnoresTheMemberThatIsExcepted) {
       const VisibilityQuery query{.segment = set[asked], .ties = ties, .except = ids[asked]};
       ASSERT_EQ(occluders.FindLineOfSight(query).witness.has_value(),
                 LineOfSightByBruteForce(set[asked], others, ties).has_value())
-          << NameOf(ties) << ", number " << asked << " of\n"
+          << TextOfCase(ties) << ", number " << asked << " of\n"
           << DrawSegments(set);
     }
   }
@@ -276,7 +276,7 @@ TEST(FindLineOfSight, NamesMembersThatOccludeTheSegmentByThemselves) {
         few.push_back(members.at(id));
       }
       ASSERT_FALSE(LineOfSightByBruteForce(segment, few, ties))
-          << NameOf(ties) << ", segment " << DrawSegments({segment}) << "its occluders\n"
+          << TextOfCase(ties) << ", segment " << DrawSegments({segment}) << "its occluders\n"
           << DrawSegments(few);
     }
   }
@@ -310,7 +310,7 @@ TEST(OccluderSet, AnswersForItsPresentMembersAfterAnyHistory) {
       const Ties ties = kBothTies[static_cast<std::size_t>(step % 2)];
       const Visibility answer = occluders.FindLineOfSight({.segment = segment, .ties = ties});
       ASSERT_EQ(answer.witness.has_value(), LineOfSightByBruteForce(segment, set, ties).has_value())
-          << NameOf(ties) << ", segment " << DrawSegments({segment}) << "members\n"
+          << TextOfCase(ties) << ", segment " << DrawSegments({segment}) << "members\n"
           << DrawSegments(set);
     }
   }

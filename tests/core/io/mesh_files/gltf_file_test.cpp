@@ -27,7 +27,7 @@ Result<FileMesh> ReadGltfBytes(const std::string& bytes,
                   limits);
 }
 
-std::string Complaint(const TestGltf& gltf) {
+std::string ComplaintOfGltf(const TestGltf& gltf) {
   const Result<FileMesh> mesh = ReadGltfBytes(GlbBytes(gltf));
   return mesh ? "it is read" : mesh.error().message;
 }
@@ -75,7 +75,7 @@ TEST(ReadGltfBytes, TakesEveryPrimitiveOfTrianglesStripsAndFans) {
   const TrianglePoints second = {{{0, 0, 0}, {0, 1, 0}, {1, 1, 0}}};
   EXPECT_EQ(read(fan), (std::vector<TrianglePoints>{second, first}));
   primitives = Json::array({lines});
-  EXPECT_THAT(Complaint(gltf), HasSubstr("points and lines alone"));
+  EXPECT_THAT(ComplaintOfGltf(gltf), HasSubstr("points and lines alone"));
 }
 
 TEST(ReadGltfBytes, TakesNormalizedNumbers) {
@@ -115,11 +115,11 @@ TEST(ReadGltfBytes, ReadsBuffersBesideItAndNothingElse) {
 TEST(ReadGltfBytes, EndsWhereNodesRunInACircleOrAreReachedTwice) {
   TestGltf gltf = PlainGltf(SomeHills());
   gltf.json["nodes"] = Json::array({{{"children", {1}}}, {{"children", {0}}, {"mesh", 0}}});
-  EXPECT_THAT(Complaint(gltf), HasSubstr("node 0 is reached twice"));
+  EXPECT_THAT(ComplaintOfGltf(gltf), HasSubstr("node 0 is reached twice"));
   gltf.json["nodes"] = Json::array({{{"children", {1, 1}}}, {{"mesh", 0}}});
-  EXPECT_THAT(Complaint(gltf), HasSubstr("node 1 is reached twice"));
+  EXPECT_THAT(ComplaintOfGltf(gltf), HasSubstr("node 1 is reached twice"));
   gltf.json["nodes"] = Json::array({{{"children", {7}}}});
-  EXPECT_THAT(Complaint(gltf), HasSubstr("not as glTF 2.0 has it"));
+  EXPECT_THAT(ComplaintOfGltf(gltf), HasSubstr("not as glTF 2.0 has it"));
 }
 
 TEST(ReadGltfBytes, KeepsToTheLimitsWhereManyNodesShareAMesh) {
@@ -142,7 +142,7 @@ TEST(ReadGltfBytes, ChecksEveryNumber) {
   const auto with = [&](const std::string& pointer, const Json& value) {
     TestGltf gltf = sound;
     gltf.json[Json::json_pointer(pointer)] = value;
-    return Complaint(gltf);
+    return ComplaintOfGltf(gltf);
   };
   const Json numbers[] = {-1, 1e99, 0.5, "1", nullptr, 4294967296.0, Json::array(), 1 << 30};
   for (const Json& bad : numbers) {
@@ -171,7 +171,7 @@ TEST(ReadGltfBytes, ChecksWhatMeshoptIsToldToDecode) {
   const auto with = [&](int view, const std::string& name, const Json& value) {
     TestGltf gltf = sound;
     gltf.json["bufferViews"][view]["extensions"]["EXT_meshopt_compression"][name] = value;
-    return Complaint(gltf);
+    return ComplaintOfGltf(gltf);
   };
   for (const Json& bad : {Json(0), Json(3), Json(257), Json(1 << 30)}) {
     EXPECT_NE(with(0, "byteStride", bad), "it is read") << bad;

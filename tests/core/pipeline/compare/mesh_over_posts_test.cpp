@@ -24,7 +24,7 @@ GridMesh Sheet(double c0, double r0, double c1, double r1, double height = 5) {
           {{0, 2, 3}, {0, 3, 1}}};
 }
 
-std::vector<double> HeightsOf(const GridMesh& mesh, const Dem& dem) {
+std::vector<double> HeightsOver(const GridMesh& mesh, const Dem& dem) {
   return *HeightsOverPosts(mesh, dem);
 }
 
@@ -36,7 +36,7 @@ TEST(HeightsOverPosts, IsThePlaneOfTheTriangleAtEachPost) {
   const Dem dem = Level(9, 7);
   // 3 column - 2 row + 11 over a triangle between posts.
   GridMesh mesh{{{0.5, 0.5, 11.5}, {0.5, 5.5, 1.5}, {7.5, 5.5, 22.5}}, {{0, 1, 2}}};
-  const std::vector<double> heights = HeightsOf(mesh, dem);
+  const std::vector<double> heights = HeightsOver(mesh, dem);
   int inside = 0;
   for (int r = 0; r < dem.rows; ++r) {
     for (int c = 0; c < dem.columns; ++c) {
@@ -54,10 +54,10 @@ TEST(HeightsOverPosts, IsThePlaneOfTheTriangleAtEachPost) {
 
 TEST(HeightsOverPosts, CoversARimThatRoundingMoved) {
   const Dem dem = Level(5, 4);
-  EXPECT_EQ(Covered(HeightsOf(Sheet(0.01, 0.02, 3.99, 2.98), dem)), 20);
-  EXPECT_EQ(Covered(HeightsOf(Sheet(0.2, 0, 4, 3), dem)), 16);
-  EXPECT_EQ(Covered(HeightsOf(Sheet(-100, -100, 100, 100), dem)), 20);
-  EXPECT_EQ(Covered(HeightsOf(Sheet(10, 10, 20, 20), dem)), 0);
+  EXPECT_EQ(Covered(HeightsOver(Sheet(0.01, 0.02, 3.99, 2.98), dem)), 20);
+  EXPECT_EQ(Covered(HeightsOver(Sheet(0.2, 0, 4, 3), dem)), 16);
+  EXPECT_EQ(Covered(HeightsOver(Sheet(-100, -100, 100, 100), dem)), 20);
+  EXPECT_EQ(Covered(HeightsOver(Sheet(10, 10, 20, 20), dem)), 0);
 }
 
 TEST(HeightsOverPosts, RefusesWorkWithoutBound) {
@@ -108,11 +108,11 @@ TEST(PartUnder, IsTheCoveredBoxWithTheRestLeftOut) {
   Dem dem = Level(12, 10);
   dem.transform = {1000, 2000, 30, -30};
   for (std::size_t i = 0; i < dem.heights.size(); ++i) dem.heights[i] = static_cast<int>(i);
-  EXPECT_EQ(PartUnder(HeightsOf(Sheet(0, 0, 11, 9), dem), dem), std::nullopt);
-  EXPECT_EQ(PartUnder(HeightsOf(Sheet(0.3, 0.3, 10.7, 8.7), dem), dem), std::nullopt)
+  EXPECT_EQ(PartUnder(HeightsOver(Sheet(0, 0, 11, 9), dem), dem), std::nullopt);
+  EXPECT_EQ(PartUnder(HeightsOver(Sheet(0.3, 0.3, 10.7, 8.7), dem), dem), std::nullopt)
       << "a rim that has shrunk";
   GridMesh mesh = Sheet(3, 2, 8, 6);
-  const auto part = PartUnder(HeightsOf(mesh, dem), dem);
+  const auto part = PartUnder(HeightsOver(mesh, dem), dem);
   ASSERT_TRUE(part);
   EXPECT_EQ(part->dem.columns, 6);
   EXPECT_EQ(part->dem.rows, 5);
@@ -125,7 +125,7 @@ TEST(PartUnder, IsTheCoveredBoxWithTheRestLeftOut) {
   EXPECT_EQ(mesh.points.front().row, 0);
   // A triangle leaves out half of its box.
   mesh = {{{2, 2, 0}, {2, 8, 0}, {8, 8, 0}}, {{0, 1, 2}}};
-  const auto half = PartUnder(HeightsOf(mesh, dem), dem);
+  const auto half = PartUnder(HeightsOver(mesh, dem), dem);
   ASSERT_TRUE(half);
   EXPECT_EQ(std::ranges::count(half->dem.heights, kNoHeight), 21);
 }
@@ -133,7 +133,8 @@ TEST(PartUnder, IsTheCoveredBoxWithTheRestLeftOut) {
 TEST(PartUnder, HasTwoColumnsAndRowsAtLeast) {
   const Dem dem = Level(12, 10);
   for (const double at : {0.0, 5.0, 9.0}) {
-    const auto part = PartUnder(HeightsOf(Sheet(at - 0.2, at - 0.2, at + 0.2, at + 0.2), dem), dem);
+    const auto part =
+        PartUnder(HeightsOver(Sheet(at - 0.2, at - 0.2, at + 0.2, at + 0.2), dem), dem);
     ASSERT_TRUE(part);
     EXPECT_EQ(part->dem.columns, 2);
     EXPECT_EQ(part->dem.rows, 2);

@@ -24,8 +24,8 @@ float RiseOf(const SampledSkyline& skyline, const Place& a, const Place& b) {
 }
 
 // A place near the skyline's height, somewhere around (x, y).
-Place AnyPlace(const Workbench& bench, std::int32_t x, std::int32_t y, std::int32_t around,
-               std::mt19937& random) {
+Place AnyHullPlace(const Workbench& bench, std::int32_t x, std::int32_t y, std::int32_t around,
+                   std::mt19937& random) {
   const Ground& ground = bench.ground;
   const auto beside = [&](std::int32_t at, std::int32_t count) {
     const auto step = static_cast<std::int32_t>(random() % static_cast<unsigned>(2 * around + 1));
@@ -50,9 +50,9 @@ TEST(VisualHull, NoEdgeBelowItsLeastAroundRisesAboveASampledLine) {
       const auto x = static_cast<std::int32_t>(random() % static_cast<unsigned>(ground.columns()));
       const auto y = static_cast<std::int32_t>(random() % static_cast<unsigned>(ground.rows()));
       const auto reach = static_cast<std::int32_t>(1 + random() % 9);
-      const Place centre = AnyPlace(bench, x, y, 0, random);
+      const Place centre = AnyHullPlace(bench, x, y, 0, random);
       std::array<Place, 5> places;
-      for (Place& place : places) place = AnyPlace(bench, x, y, reach, random);
+      for (Place& place : places) place = AnyHullPlace(bench, x, y, reach, random);
       if (hull.MayRiseAround(centre, places.data(), 5)) continue;
       ++ruled_out;
       for (const Place& p : places) {
@@ -75,8 +75,8 @@ TEST(VisualHull, AnEdgeThatMayNotRiseHardlyEverRisesByMoreThanItDoesInHalfAStep)
     const SampledSkyline& skyline = bench.work.skyline;
     const VisualHull hull(ground, skyline.pencils(), skyline.dem());
     for (int k = 0; k < 60; ++k) {
-      const Place a = AnyPlace(bench, 0, 0, 14, random);
-      const Place b = AnyPlace(bench, a.x, a.y, 6, random);
+      const Place a = AnyHullPlace(bench, 0, 0, 14, random);
+      const Place b = AnyHullPlace(bench, a.x, a.y, 6, random);
       const int steps = std::max(std::abs(a.x - b.x), std::abs(a.y - b.y));
       if (steps == 0) continue;
       const float in_half_a_step = std::abs(a.plan - b.plan) / static_cast<float>(2 * steps);

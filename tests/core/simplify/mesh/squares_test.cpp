@@ -23,7 +23,7 @@ float AnyHeight(std::mt19937& random) {
 }
 
 // New heights for all vertices but knots and corners of the rim, which keep theirs.
-void Shake(HalfEdgeMesh& mesh, std::mt19937& random) {
+void ShakeHeights(HalfEdgeMesh& mesh, std::mt19937& random) {
   for (std::int32_t v = 0; v < mesh.vertices(); ++v) {
     if (!mesh.IsVertex(v) || mesh.IsKnotted(v)) continue;
     if (mesh.OnRim(v) && !RimIsStraight(mesh, v)) continue;
@@ -40,7 +40,7 @@ TEST(PostSquares, OfAllTrianglesAndTheRimHaveEveryPostOfTheDomainOnce) {
     const Ground ground(terrain, {round % 2 * 0.5, round % 3 * 0.25});
     HalfEdgeMesh mesh(ground);
     Rearrange(mesh, 150, random);
-    Shake(mesh, random);
+    ShakeHeights(mesh, random);
     const double weight = round % 4 * 0.25;
     mesh.measure().SetSlopeWeight(static_cast<float>(weight));
     const double wanted = SquaresByDefinition(mesh, weight);
@@ -105,7 +105,7 @@ TEST(PostSquares, AreInfiniteWhereAPostIsOffByMoreThanTheMost) {
     const Ground ground(terrain, {});
     HalfEdgeMesh mesh(ground);
     Rearrange(mesh, 80, random);
-    Shake(mesh, random);
+    ShakeHeights(mesh, random);
     const auto most = static_cast<float>(random() % 2000);
     const double greatest = GreatestErrorByDefinition(mesh);
     if (std::abs(greatest - static_cast<double>(most)) < kFloat * (1 + greatest)) continue;

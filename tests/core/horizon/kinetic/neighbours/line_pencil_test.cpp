@@ -21,7 +21,7 @@ struct Step {
   std::int64_t x = 0;
   std::int64_t y = 0;
 };
-std::int64_t Cross(Step a, Step b) { return a.x * b.y - a.y * b.x; }
+std::int64_t CrossProduct(Step a, Step b) { return a.x * b.y - a.y * b.x; }
 
 /// A triangle at the origin, and others around it; all paths have d = 1.
 class Triangles {
@@ -66,21 +66,23 @@ class Triangles {
       if (c == own_) continue;
       for (const PointId q : hulls_.corners(c)) {
         Step direction = from_p(q);
-        if (Cross(first, direction) < 0) direction = {-direction.x, -direction.y};
-        if (Cross(first, direction) > 0 && Cross(direction, last) > 0)
+        if (CrossProduct(first, direction) < 0) direction = {-direction.x, -direction.y};
+        if (CrossProduct(first, direction) > 0 && CrossProduct(direction, last) > 0)
           directions.push_back(direction);
       }
     }
-    std::sort(directions.begin(), directions.end(), [](Step a, Step b) { return Cross(a, b) > 0; });
+    std::sort(directions.begin(), directions.end(),
+              [](Step a, Step b) { return CrossProduct(a, b) > 0; });
     for (std::size_t i = 1; i < directions.size(); ++i) {
       const Step a = directions[i - 1];
       const Step b = directions[i];
       const Step between{a.x + b.x, a.y + b.y};
-      if (Cross(a, b) == 0) continue;
+      if (CrossProduct(a, b) == 0) continue;
       const bool meets = std::any_of(clusters_.begin(), clusters_.end(), [&](ClusterId c) {
         if (c == own_) return false;
         int sides = 0;
-        for (const PointId q : hulls_.corners(c)) sides |= Cross(between, from_p(q)) > 0 ? 1 : 2;
+        for (const PointId q : hulls_.corners(c))
+          sides |= CrossProduct(between, from_p(q)) > 0 ? 1 : 2;
         return sides == 3;
       });
       if (!meets) return true;
