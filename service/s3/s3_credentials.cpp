@@ -11,7 +11,7 @@ namespace farhorizon {
 
 namespace {
 
-constexpr std::uintmax_t kLargestFile = 1 << 20;
+constexpr std::uintmax_t kLargestCredentials = 1 << 20;
 
 constexpr const char* kBlanks = " \t\r";
 
@@ -69,7 +69,7 @@ Result<S3Keys> S3Credentials::Current() {
   const bool same =
       info.st_mtim.tv_sec == modified_.tv_sec && info.st_mtim.tv_nsec == modified_.tv_nsec;
   if (read_ && same) return *read_;
-  Result<std::string> text = ReadFile(file_, kLargestFile);
+  Result<std::string> text = ReadFile(file_, kLargestCredentials);
   if (!text) return NoKeys("the file of credentials " + file_.string() + " cannot be read");
   const std::string profile =
       environment_["AWS_PROFILE"].empty() ? "default" : environment_["AWS_PROFILE"];
