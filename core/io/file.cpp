@@ -7,6 +7,7 @@
 #include <cstring>
 #include <fcntl.h>
 #include <sys/stat.h>
+#include <system_error>
 #include <unistd.h>
 #include <utility>
 #include <vector>
@@ -64,6 +65,13 @@ Status FillAndSync(UniqueFd& file, const std::filesystem::path& path, std::strin
 }
 
 }  // namespace
+
+std::filesystem::path AbsolutePath(const std::filesystem::path& path) {
+  std::error_code failure;
+  const std::filesystem::path found = std::filesystem::absolute(path, failure);
+  const std::filesystem::path absolute = (failure ? path : found).lexically_normal();
+  return absolute.has_filename() ? absolute : absolute.parent_path();
+}
 
 Result<std::string> Sha256OfFile(const std::filesystem::path& path) {
   Sha256 sum;

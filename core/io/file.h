@@ -9,6 +9,10 @@
 
 namespace farhorizon {
 
+/// The path from the root, without dots and without a slash at its end. As it is where it is empty,
+/// or relative while the process's folder is gone: to open it then says why.
+std::filesystem::path AbsolutePath(const std::filesystem::path& path);
+
 /// Lower-case hexadecimal SHA-256 of a file's bytes, read in pieces. Errors: kNotFound, kIo.
 Result<std::string> Sha256OfFile(const std::filesystem::path& path);
 

@@ -14,6 +14,7 @@
 #include <ogrsf_frmts.h>
 
 #include "core/geo/reference_data.h"
+#include "core/io/file.h"
 
 namespace farhorizon {
 
@@ -93,8 +94,7 @@ void ForgetSealedFolders(std::string& text) {
 
 }  // namespace
 
-GdalSession::GdalSession(const std::filesystem::path& path)
-    : path_(std::filesystem::absolute(path).lexically_normal()) {
+GdalSession::GdalSession(const std::filesystem::path& path) : path_(AbsolutePath(path)) {
   RegisterDrivers();
   for (const auto& [key, value] : kSettings) CPLSetThreadLocalConfigOption(key, value);
   FindPackagedTables();

@@ -13,6 +13,7 @@
 #include <ogr_srs_api.h>
 
 #include "core/io/antimeridian.h"
+#include "core/io/file.h"
 #include "core/io/gdal_session.h"
 
 namespace farhorizon {
@@ -132,7 +133,7 @@ Status WriteHorizonVector(const std::vector<HorizonFeature>& features,
   std::filesystem::remove(path, ignored);
   // GeoPackage writes the date into its tables of contents: a fixed one keeps the bytes the same.
   CPLSetThreadLocalConfigOption("OGR_CURRENT_DATE", "1970-01-01T00:00:00.000Z");
-  const std::string absolute = std::filesystem::absolute(path).lexically_normal().string();
+  const std::string absolute = AbsolutePath(path).string();
   const bool written = WriteLayer(driver, absolute, features, session);
   CPLSetThreadLocalConfigOption("OGR_CURRENT_DATE", nullptr);
   // FlatGeobuf writes its file when the dataset is closed, so this failure may be the first.

@@ -137,7 +137,7 @@ Result<std::vector<ApiKey>> ReadKeys(const fs::path& file) {
 
 Status ChangeKeys(const fs::path& given,
                   const std::function<Status(std::vector<ApiKey>& keys)>& change) {
-  const fs::path file = fs::absolute(given);
+  const fs::path file = AbsolutePath(given);
   std::error_code failure;
   const bool made = fs::create_directories(file.parent_path(), failure);
   if (failure) return Unusable(file, "its folder cannot be made: " + failure.message());

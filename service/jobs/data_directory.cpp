@@ -8,6 +8,7 @@
 #include <unistd.h>
 #include <utility>
 
+#include "core/io/file.h"
 #include "service/jobs/end_mark.h"
 #include "service/jobs/storage_file.h"
 
@@ -68,7 +69,8 @@ Status CheckEntries(const fs::path& root, const fs::path& folder) {
 Status CheckAllPrivate(const fs::path& root) {
   Status checked = CheckPrivate(root, root);
   if (checked) checked = CheckEntries(root, root);
-  if (checked && fs::exists(root / "objects")) checked = CheckEntries(root, root / "objects");
+  std::error_code none;
+  if (checked && fs::exists(root / "objects", none)) checked = CheckEntries(root, root / "objects");
   return checked;
 }
 
@@ -77,13 +79,6 @@ bool SameFile(int fd, const fs::path& path) {
   struct stat named {};
   return ::fstat(fd, &held) == 0 && ::stat(path.c_str(), &named) == 0 &&
          held.st_dev == named.st_dev && held.st_ino == named.st_ino && held.st_nlink > 0;
-}
-
-fs::path Absolute(const fs::path& path) {
-  std::error_code failure;
-  fs::path root = fs::absolute(path, failure).lexically_normal();
-  if (!root.has_filename()) root = root.parent_path();
-  return root;
 }
 
 Result<DataDirectory> Lock(const fs::path& root) {
@@ -115,13 +110,14 @@ Status DataDirectory::CheckHeld() const {
 }
 
 Result<DataDirectory> LockDataDirectory(const fs::path& path) {
-  const fs::path root = Absolute(path);
-  if (!fs::is_directory(root)) return Unusable(root, "there is no such folder");
+  const fs::path root = AbsolutePath(path);
+  std::error_code none;
+  if (!fs::is_directory(root, none)) return Unusable(root, "there is no such folder");
   return Lock(root);
 }
 
 Result<DataDirectory> OpenDataDirectory(const fs::path& path) {
-  const fs::path root = Absolute(path);
+  const fs::path root = AbsolutePath(path);
   std::error_code failure;
   const bool made = fs::create_directories(root, failure);
   if (made) ::chmod(root.c_str(), 0700);

@@ -57,9 +57,8 @@ Error Invalid(const std::string& why) {
 
 std::filesystem::path Absolute(const std::filesystem::path& path) {
   std::error_code failure;
-  std::filesystem::path absolute = std::filesystem::weakly_canonical(path, failure);
-  if (failure) absolute = std::filesystem::absolute(path, failure).lexically_normal();
-  return absolute.has_filename() ? absolute : absolute.parent_path();
+  const std::filesystem::path canonical = std::filesystem::weakly_canonical(path, failure);
+  return AbsolutePath(failure ? path : canonical);
 }
 
 Result<std::unique_ptr<ObjectStore>> OpenObjects(const DataDirectory& directory,

@@ -18,14 +18,16 @@ import soak  # noqa: E402
 import storage  # noqa: E402
 import submit  # noqa: E402
 import tiles  # noqa: E402
+import upgrade  # noqa: E402
 
 LOADS = {"poll": poll.run, "submit": submit.run, "overload": overload.run, "slow": slow.run, "bodies": bodies.run,
          "tiles": tiles.run, "events": events.run, "machines": machines.run, "nodes": nodes.run,
-         "storage": storage.run, "soak": soak.run}
+         "upgrade": upgrade.run, "storage": storage.run, "soak": soak.run}
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--seconds", type=int, help="of each")
+    parser.add_argument("--older", metavar="PROGRAM", help="the farhorizon that upgrade begins with")
 
 
 if __name__ == "__main__":

@@ -29,6 +29,7 @@ class Client(threading.Thread):
         self.done = self.requests = self.retries = 0
         self.longest = 0.0
         self.failures: list[str] = []
+        self.manifests: dict[str, bytes] = {}  # of each job that has succeeded
 
     def ask(self, method: str, path: str, body: bytes | None = None, headers: dict | None = None) -> tuple[int, bytes]:
         begun = time.monotonic()
@@ -64,7 +65,7 @@ class Client(threading.Thread):
                 time.sleep(.2)
                 status, answer = self.ask("GET", f"/jobs/{job}")
                 info = json.loads(answer) if status == 200 else {"status": "failed", "message": f"{status} {answer!r}"}
-            status, answer = self.ask("GET", f"/jobs/{job}/results")
+            status, self.manifests[job] = self.ask("GET", f"/jobs/{job}/results/manifest.json")
             if info["status"] != "successful" or status != 200:
                 self.failures.append(f"{job}: {info['status']} {info.get('message')}, results {status}")
             self.done += 1

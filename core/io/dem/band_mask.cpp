@@ -10,6 +10,7 @@
 #include <gdal.h>
 
 #include "core/io/dem/complete_raster.h"
+#include "core/io/file.h"
 #include "core/io/raster/open_raster.h"
 
 namespace farhorizon {
@@ -76,8 +77,8 @@ Status ApplyMaskFile(GDALRasterBandH heights, const std::filesystem::path& path,
   if (!std::filesystem::is_regular_file(beside, failure)) return Ok{};
   const char* const drivers[] = {"GTiff", nullptr};
   const char* const options[] = {"OVERVIEW_LEVEL=NONE", "GEOREF_SOURCES=NONE", nullptr};
-  const RasterPtr mask(GDALOpenEx(std::filesystem::absolute(beside).lexically_normal().c_str(),
-                                  GDAL_OF_RASTER | GDAL_OF_READONLY, drivers, options, nullptr));
+  const RasterPtr mask(GDALOpenEx(AbsolutePath(beside).c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY,
+                                  drivers, options, nullptr));
   const bool fits = mask && GDALGetRasterCount(mask.get()) >= 1 &&
                     GDALGetRasterXSize(mask.get()) == GDALGetRasterBandXSize(heights) &&
                     GDALGetRasterYSize(mask.get()) == GDALGetRasterBandYSize(heights);

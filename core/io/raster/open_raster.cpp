@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/geo/named_files.h"
+#include "core/io/file.h"
 #include "core/io/file_kind/file_kind.h"
 #include "core/io/file_kind/hgt_name.h"
 #include "core/io/file_kind/unread_formats.h"
@@ -144,7 +145,7 @@ bool MayBeNumbersAlone(const std::string& filename) {
 Result<OpenedRaster> OpenRaster(const std::filesystem::path& path, const GridLimits& limits,
                                 GdalSession& session) {
   std::error_code failure;
-  const std::filesystem::path absolute = std::filesystem::absolute(path).lexically_normal();
+  const std::filesystem::path absolute = AbsolutePath(path);
   if (!std::filesystem::is_regular_file(path, failure)) return NoFile(path);
   if (absolute.string().starts_with("/vsi")) {
     return Error{ErrorCode::kInvalidArgument, "paths under /vsi are GDAL's, not files of ours",

@@ -13,6 +13,7 @@
 #include <cpl_vsi.h>
 
 #include "core/base/result.h"
+#include "core/io/file.h"
 
 namespace farhorizon {
 
@@ -91,7 +92,7 @@ SealedFolder::SealedFolder(const std::vector<Member>& members) {
   prefix_ = std::to_string(++listing.folders) + "/";
   for (const Member& member : members) {
     names_.push_back(prefix_ + member.name);
-    listing.files.insert_or_assign(names_.back(), std::filesystem::absolute(member.path));
+    listing.files.insert_or_assign(names_.back(), AbsolutePath(member.path));
   }
 }
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <system_error>
 #include <utility>
 
 #include "core/horizon/find_horizon.h"
@@ -158,7 +159,8 @@ Result<HorizonClaims> VerifyHorizonFiles(const TerrainInput& input, const Horizo
   HorizonClaims result;
   result.threads = measuring.threads;
   const fs::path path = artifacts.directory / "horizon.geojson";
-  const bool published = fs::exists(path);
+  std::error_code none;
+  const bool published = fs::exists(path, none);
   const bool drawn = std::ranges::any_of(artifacts.report.levels, [](const LevelReport& level) {
     return level.skyline_edges.bytes > 0;
   });

@@ -19,6 +19,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/io/file.h"
 #include "service/worker/spawner/fd_message.h"
 #include "service/worker/spawner/run_program.h"
 #include "service/worker/spawner/spawner_process.h"
@@ -172,7 +173,7 @@ Result<ChildProcess> Spawner::StartWorker(LaunchOrder order) {
   std::error_code failure;
   order.directory = fs::canonical(order.directory, failure);
   if (failure) return NotStarted("its folder is gone");
-  if (order.program != kThisProgram) order.program = fs::absolute(order.program);
+  if (order.program != kThisProgram) order.program = AbsolutePath(order.program);
   const std::lock_guard lock(mutex_);
   // Somebody may end the process again while it gets ready.
   Error last = NotStarted("");

@@ -17,6 +17,7 @@
 #include <sys/prctl.h>
 #include <sys/signalfd.h>
 #include <sys/wait.h>
+#include <system_error>
 #include <thread>
 #include <unistd.h>
 #include <utility>
@@ -77,7 +78,9 @@ class SpawnerLoop {
     const UniqueFd reading(ends[0]);
     UniqueFd writing(ends[1]);
     LaunchOrder order;
-    order.directory = fs::current_path();
+    std::error_code failure;
+    order.directory = fs::current_path(failure);
+    if (failure) return false;
     Result<ContainedChild> child = StartContained({.trial = true});
     if (!child || !GiveOrder(*child, order, writing.get())) return false;
     writing.Reset();

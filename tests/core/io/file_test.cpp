@@ -11,6 +11,13 @@
 namespace farhorizon {
 namespace {
 
+TEST(AbsolutePath, IsFromTheRootWhereThereIsAWay) {
+  EXPECT_EQ(AbsolutePath("/a/./b/../c/"), "/a/c");
+  EXPECT_EQ(AbsolutePath("/"), "/");
+  EXPECT_EQ(AbsolutePath("a"), std::filesystem::current_path() / "a");
+  EXPECT_EQ(AbsolutePath(""), "");
+}
+
 TEST(Sha256OfFile, IsThatOfItsBytesHoweverMany) {
   const TempDir dir;
   const std::string bytes(1'000'000, 'a');

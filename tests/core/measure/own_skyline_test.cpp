@@ -30,7 +30,7 @@ struct UniformLine {
 };
 
 // The greatest height of the pairs over a line; minus infinity where it meets none.
-double HeightOverLine(const GridMesh& mesh, const Pairs& pairs, const UniformLine& line) {
+double HeightOfSkyline(const GridMesh& mesh, const Pairs& pairs, const UniformLine& line) {
   double height = -std::numeric_limits<double>::infinity();
   for (const auto& [i, j] : pairs) {
     const GridPoint& a = mesh.points[static_cast<std::size_t>(i)];
@@ -58,10 +58,10 @@ double ShareOn(const GridMesh& mesh, const Pairs& pairs, double reach) {
   while (met < kLines) {
     const double t = std::numbers::pi * draw();
     const UniformLine line = {std::sin(t), std::cos(t), 1.5 * reach * (2 * draw() - 1)};
-    const double height = HeightOverLine(mesh, all, line);
+    const double height = HeightOfSkyline(mesh, all, line);
     if (std::isinf(height)) continue;
     ++met;
-    on += HeightOverLine(mesh, pairs, line) >= height - 2e-6 ? 1 : 0;
+    on += HeightOfSkyline(mesh, pairs, line) >= height - 2e-6 ? 1 : 0;
   }
   return static_cast<double>(on) / kLines;
 }

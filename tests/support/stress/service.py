@@ -32,8 +32,9 @@ class Service:
     """A service with a data folder below `folder`; it may be killed and started again, on another port each time."""
 
     def __init__(self, folder: str, workers: int = 2, config: dict | None = None, wrap: tuple[str, ...] = (),
-                 environment: dict | None = None, role: str = "serve"):
+                 environment: dict | None = None, role: str = "serve", program: str = PROGRAM):
         self.folder, self.workers, self.wrap, self.role = folder, workers, list(wrap), role
+        self.program = program
         self.environment = {**os.environ, **(environment or {})}
         self.data = os.path.join(folder, "data")
         self.log = os.path.join(folder, "log")
@@ -47,7 +48,7 @@ class Service:
     def start(self, seconds: float = 20) -> float:
         """Starts it and waits until it listens; the seconds that took."""
         begun = time.monotonic()
-        command = self.wrap + [PROGRAM, self.role, "--config", self.config, "--listen", "127.0.0.1:0", "--data",
+        command = self.wrap + [self.program, self.role, "--config", self.config, "--listen", "127.0.0.1:0", "--data",
                                self.data, "--workers", str(self.workers)]
         with open(self.log, "ab") as log:
             said = log.tell()
@@ -73,7 +74,7 @@ class Service:
         """The service's own process, below a wrapper."""
         assert self.process
         pid = self.process.pid
-        while os.path.realpath(f"/proc/{pid}/exe") != os.path.realpath(PROGRAM):
+        while os.path.realpath(f"/proc/{pid}/exe") != os.path.realpath(self.program):
             with open(f"/proc/{pid}/task/{pid}/children", encoding="ascii") as children:
                 pid = int(children.read().split()[0])
         return pid

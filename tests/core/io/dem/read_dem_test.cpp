@@ -181,6 +181,9 @@ TEST_F(DemReader, RefusesAMissingFile) {
   ASSERT_FALSE(dem);
   EXPECT_EQ(dem.error().code, ErrorCode::kNotFound);
   EXPECT_FALSE(ReadDem("/vsizip/x.zip/dem.tif", {}));
+  const Result<Dem> nameless = ReadDem("", {});
+  ASSERT_FALSE(nameless);
+  EXPECT_EQ(nameless.error().code, ErrorCode::kNotFound);
 }
 
 TEST_F(DemReader, RefusesWhatIsNoRaster) {
