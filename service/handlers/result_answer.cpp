@@ -47,7 +47,7 @@ std::vector<Output> Selected(std::vector<Artifact> artifacts, const ResultWishes
 }
 
 Result<std::string> BytesOf(JobService& jobs, const std::string& job, const std::string& name) {
-  Result<OpenArtifact> open = jobs.Open(job, name, Coding::kIdentity);
+  Result<OpenArtifact> open = jobs.Open(job, name);
   if (!open) return std::move(open.error());
   std::string bytes;
   const std::int64_t size = open->object->bytes();
@@ -175,8 +175,7 @@ HttpResponse Raw(const HandlerContext& context, const HttpRequest& request, cons
   if (referred && outputs.size() <= kMostLinks) return Links(context, job, outputs);
   if (referred) return Document(context, request, job, outputs);
   if (outputs.size() == 1) {
-    Result<OpenArtifact> open =
-        context.jobs.Open(job.id, outputs.front().artifact.name, Coding::kIdentity);
+    Result<OpenArtifact> open = context.jobs.Open(job.id, outputs.front().artifact.name);
     if (!open) return LostArtifact(request, job, open.error());
     return SendArtifact(request, *std::move(open));
   }

@@ -118,7 +118,7 @@ HttpResponse SendSource(const HttpRequest& request, SentSource sent) {
 
 Result<std::shared_ptr<BodySource>> OpenSource(JobService& jobs, const std::string& id,
                                                const std::string& name) {
-  Result<OpenArtifact> open = jobs.Open(id, name, Coding::kIdentity);
+  Result<OpenArtifact> open = jobs.Open(id, name);
   if (!open) return std::move(open.error());
   return std::shared_ptr<BodySource>(std::make_shared<ArtifactSource>(std::move(open->object)));
 }
@@ -136,9 +136,9 @@ HttpResponse SendArtifact(const HttpRequest& request, OpenArtifact open) {
   if (response.status >= 400) return response;
   response.Set("Vary", "Accept-Encoding");
   if (response.status == 304) return response;
-  if (open.coding == Coding::kGzip || IsStoredInGzip(open.artifact)) {
-    response.Set("Content-Encoding", "gzip");
-  }
+  const Coding coding = IsStoredInGzip(open.artifact) ? Coding::kGzip : open.coding;
+  if (coding != Coding::kIdentity)
+    response.Set("Content-Encoding", std::string(CodingName(coding)));
   if (page) {
     response.Set("Content-Security-Policy", kPagePolicy);
     // Its address may have a ticket.
@@ -167,8 +167,8 @@ namespace {
 HttpResponse GetArtifact(const HandlerContext& context, const HttpRequest& request) {
   Result<Job> job = FinishedJob(context, request);
   if (!job) return ProblemResponse(request, ProblemOf(job.error()));
-  const Coding coding = AcceptsGzip(request) ? Coding::kGzip : Coding::kIdentity;
-  Result<OpenArtifact> open = context.jobs.Open(job->id, request.parameters.at(1), coding);
+  Result<OpenArtifact> open =
+      context.jobs.Open(job->id, request.parameters.at(1), AcceptedCodings(request));
   if (!open) return LostArtifact(request, *job, open.error());
   HttpResponse response = SendArtifact(request, *std::move(open));
   response.job_id = job->id;

@@ -117,6 +117,7 @@ std::vector<std::string> ObjectsOf(const std::vector<Artifact>& artifacts) {
   for (const Artifact& artifact : artifacts) {
     names.push_back(artifact.sha256);
     if (artifact.gzip) names.push_back(artifact.gzip->sha256);
+    if (artifact.zstd) names.push_back(artifact.zstd->sha256);
   }
   return names;
 }

@@ -103,6 +103,7 @@ struct Artifact {
   std::int64_t bytes = 0;
   std::string sha256;
   std::optional<StoredObject> gzip = {};  ///< the same, compressed; where that pays
+  std::optional<StoredObject> zstd = {};
 };
 
 /// The objects of artifacts: the copies of some, too.

@@ -10,7 +10,7 @@
 #include "core/pipeline/progress_plan.h"
 #include "service/clock.h"
 #include "service/jobs/collect_artifacts.h"
-#include "service/jobs/gzip_copy.h"
+#include "service/jobs/compressed_copies.h"
 #include "service/log.h"
 #include "service/metrics.h"
 #include "service/worker/worker_protocol.h"
@@ -174,7 +174,7 @@ Status JobRunner::Publish(const Job& job, const WorkerOutcome& outcome, const fs
     if (!pin) return pin.error();
     Result<std::vector<Artifact>> artifacts = CollectArtifacts(directory / "out", objects_);
     if (!artifacts) return std::move(artifacts.error());
-    Status copied = AddGzipCopies(*artifacts, objects_, work_directory_);
+    Status copied = AddCompressedCopies(*artifacts, objects_, work_directory_);
     if (!copied) return copied;
     Result<bool> published = jobs_.Publish(job.id, job.run, *artifacts, outcome.timings, NowMs());
     if (!published) return std::move(published.error());

@@ -223,19 +223,18 @@ Result<std::shared_ptr<VerifiedObject>> JobService::OpenSound(const StoredObject
 }
 
 Result<OpenArtifact> JobService::Open(const std::string& id, const std::string& name,
-                                      Coding coding) {
+                                      std::span<const Coding> codings) {
   Result<std::vector<Artifact>> artifacts = jobs_->Artifacts(id);
   if (!artifacts) return std::move(artifacts.error());
   for (Artifact& artifact : *artifacts) {
     if (artifact.name != name) continue;
-    // A lost copy is no lost result.
-    if (coding == Coding::kGzip && artifact.gzip) {
-      const StoredObject copy = *artifact.gzip;
-      auto object = OpenSound(copy);
+    for (const Coding coding : codings) {
+      const auto copy = coding == Coding::kZstd ? artifact.zstd : artifact.gzip;
+      if (!copy) continue;
+      auto object = OpenSound(*copy);
       if (!object) return std::move(object.error());
-      if (*object) {
-        return OpenArtifact{std::move(artifact), Coding::kGzip, copy, *std::move(object)};
-      }
+      // A lost copy is no lost result.
+      if (*object) return OpenArtifact{std::move(artifact), coding, *copy, *std::move(object)};
     }
     const StoredObject own{artifact.sha256, artifact.bytes};
     auto object = OpenSound(own);

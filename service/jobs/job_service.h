@@ -6,11 +6,13 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "core/base/result.h"
 #include "core/pipeline/build_options.h"
+#include "service/jobs/coding.h"
 #include "service/jobs/data_directory.h"
 #include "service/jobs/housekeeper.h"
 #include "service/jobs/job_changes.h"
@@ -72,9 +74,6 @@ struct ReadinessCheck {
   Status status;
 };
 
-/// How the bytes of an artifact are coded on their way [RFC 9110, section 8.4].
-enum class Coding { kIdentity, kGzip };
-
 /// An artifact, open for reading: no wrong byte of it can be read.
 struct OpenArtifact {
   Artifact artifact;
@@ -128,9 +127,10 @@ class JobService {
   }
   Result<bool> RetryCallback(const DueCallback& callback, std::chrono::milliseconds delay);
   Result<std::vector<Artifact>> Artifacts(const std::string& id) { return jobs_->Artifacts(id); }
-  /// coding: in which the artifact is wanted; it is given as it is where there is no such copy.
+  /// codings: in which the artifact is wanted, best first; as it is where there is no such copy.
   /// Errors: kNotFound; kIo "result-corrupt" where the object is missing or damaged; "storage".
-  Result<OpenArtifact> Open(const std::string& id, const std::string& name, Coding coding);
+  Result<OpenArtifact> Open(const std::string& id, const std::string& name,
+                            std::span<const Coding> codings = {});
   /// Dismisses the job, stops its worker and removes its objects: soon, where results of another
   /// are just being stored. Errors: kNotFound.
   Result<Job> Dismiss(const std::string& id);

@@ -168,7 +168,12 @@ CREATE TRIGGER subscribers_are_called AFTER UPDATE OF state ON jobs
   FOR EACH ROW WHEN (NEW.state <> OLD.state AND NEW.state <> 'accepted')
   EXECUTE FUNCTION call_subscribers();
 )";
-constexpr std::array kVersions = {kVersion1, kVersion2, kVersion3};
+constexpr const char* kVersion4 = R"(
+ALTER TABLE artifacts ADD COLUMN zstd_sha256 TEXT COLLATE "C";
+ALTER TABLE artifacts ADD COLUMN zstd_bytes BIGINT;
+CREATE INDEX artifacts_by_zstd ON artifacts (zstd_sha256) WHERE zstd_sha256 IS NOT NULL;
+)";
+constexpr std::array kVersions = {kVersion1, kVersion2, kVersion3, kVersion4};
 constexpr auto kLatest = static_cast<std::int64_t>(kVersions.size());
 
 std::int64_t VersionOf(const PostgresDatabase& database) {

@@ -53,7 +53,8 @@ std::vector<std::string> TooMany(const SqlDatabase& database, std::int64_t jobs)
 // for each: the bound is kept, if not used up.
 std::vector<std::string> TooLarge(const SqlDatabase& database, std::int64_t bytes) {
   const std::string size =
-      "input_bytes + (SELECT coalesce(sum(bytes + coalesce(gzip_bytes, 0)), 0) FROM artifacts "
+      "input_bytes + (SELECT coalesce(sum(bytes + coalesce(gzip_bytes, 0) + coalesce(zstd_bytes, "
+      "0)), 0) FROM artifacts "
       "WHERE job_id = jobs.id)";
   Statement total(database, "SELECT coalesce(sum(" + size + "), 0) FROM jobs WHERE " + kFinished);
   total.Step();
@@ -116,8 +117,10 @@ bool IsReferenced(const SqlDatabase& database, const std::string& sha256) {
   Statement row(database,
                 "SELECT 1 FROM jobs WHERE input_sha256 = ? UNION ALL "
                 "SELECT 1 FROM artifacts WHERE sha256 = ? UNION ALL "
-                "SELECT 1 FROM artifacts WHERE gzip_sha256 = ? LIMIT 1");
-  return row.Bind(sha256).Bind(sha256).Bind(sha256).Step() || IsOfUpload(database, sha256);
+                "SELECT 1 FROM artifacts WHERE gzip_sha256 = ? UNION ALL "
+                "SELECT 1 FROM artifacts WHERE zstd_sha256 = ? LIMIT 1");
+  return row.Bind(sha256).Bind(sha256).Bind(sha256).Bind(sha256).Step() ||
+         IsOfUpload(database, sha256);
 }
 
 std::vector<std::string> SelectGarbage(const SqlDatabase& database) {

@@ -213,27 +213,32 @@ StoreIdentity SelectIdentity(const SqlDatabase& database) {
 
 std::vector<Artifact> SelectArtifacts(const SqlDatabase& database, const std::string& id) {
   Statement rows(database,
-                 "SELECT name, media_type, bytes, sha256, gzip_sha256, gzip_bytes FROM artifacts "
-                 "WHERE job_id = ? ORDER BY name");
+                 "SELECT name, media_type, bytes, sha256, gzip_sha256, gzip_bytes, zstd_sha256, "
+                 "zstd_bytes FROM artifacts WHERE job_id = ? ORDER BY name");
   rows.Bind(id);
   std::vector<Artifact> artifacts;
   while (rows.Step()) {
     artifacts.push_back({rows.Text(0), rows.Text(1), rows.Integer(2), rows.Text(3)});
     if (!rows.IsNull(4)) artifacts.back().gzip = StoredObject{rows.Text(4), rows.Integer(5)};
+    if (!rows.IsNull(6)) artifacts.back().zstd = StoredObject{rows.Text(6), rows.Integer(7)};
   }
   return artifacts;
 }
 
 void InsertArtifact(const SqlDatabase& database, const std::string& id, const Artifact& artifact) {
-  const std::string columns = "job_id, name, media_type, bytes, sha256";
-  Statement insert(
-      database, artifact.gzip ? "INSERT INTO artifacts (" + columns +
-                                    ", gzip_sha256, gzip_bytes) "
-                                    "VALUES (?, ?, ?, ?, ?, ?, ?)"
-                              : "INSERT INTO artifacts (" + columns + ") VALUES (?, ?, ?, ?, ?)");
+  std::string columns = "job_id, name, media_type, bytes, sha256";
+  std::string values = "?, ?, ?, ?, ?";
+  if (artifact.gzip) columns += ", gzip_sha256, gzip_bytes";
+  if (artifact.zstd) columns += ", zstd_sha256, zstd_bytes";
+  for (const auto* copy : {&artifact.gzip, &artifact.zstd}) {
+    if (*copy) values += ", ?, ?";
+  }
+  Statement insert(database, "INSERT INTO artifacts (" + columns + ") VALUES (" + values + ")");
   insert.Bind(id).Bind(artifact.name).Bind(artifact.media_type);
   insert.Bind(artifact.bytes).Bind(artifact.sha256);
-  if (artifact.gzip) insert.Bind(artifact.gzip->sha256).Bind(artifact.gzip->bytes);
+  for (const auto* copy : {&artifact.gzip, &artifact.zstd}) {
+    if (*copy) insert.Bind((*copy)->sha256).Bind((*copy)->bytes);
+  }
   insert.Run();
 }
 

@@ -166,8 +166,13 @@ BEGIN
     AND (state = 'armed' OR (state = 'due' AND event = 'in-progress'));
 END;
 )";
+constexpr const char* kVersion10 = R"(
+ALTER TABLE artifacts ADD COLUMN zstd_sha256 TEXT;
+ALTER TABLE artifacts ADD COLUMN zstd_bytes INTEGER;
+CREATE INDEX artifacts_by_zstd ON artifacts (zstd_sha256) WHERE zstd_sha256 IS NOT NULL;
+)";
 constexpr std::array kVersions = {kVersion1, kVersion2, kVersion3, kVersion4, kVersion5,
-                                  kVersion6, kVersion7, kVersion8, kVersion9};
+                                  kVersion6, kVersion7, kVersion8, kVersion9, kVersion10};
 
 std::int64_t CountOfTables(Database& database) {
   Statement count(database, "SELECT count(*) FROM sqlite_schema");

@@ -14,6 +14,7 @@
 #include "tests/support/gunzip.h"
 #include "tests/support/json_schema.h"
 #include "tests/support/service_fixture.h"
+#include "tests/support/unzstd.h"
 
 namespace farhorizon {
 namespace {
@@ -162,6 +163,22 @@ TEST_F(ServiceE2e, SendsInGzipWhatThatMakesSmaller) {
   EXPECT_EQ(small.body.substr(0, 100) + rest.body, small.body);
   const RawAnswer mesh = Ask(port_, "GET", job + "/results/lod0.drc", "Accept-Encoding: gzip\r\n");
   EXPECT_EQ(mesh.head.find("Content-Encoding"), std::string::npos);
+}
+
+TEST_F(ServiceE2e, SendsInZstdWhatThatMakesSmallerStill) {
+  StartStandIn();
+  const std::string job = Submit("numbers.asc");
+  ASSERT_EQ(WaitForEnd(job), "successful");
+  const std::string numbers = job + "/results/report.json";
+  const RawAnswer plain = Ask(port_, "GET", numbers);
+  const RawAnswer gzip = Ask(port_, "GET", numbers, "Accept-Encoding: gzip\r\n");
+  const RawAnswer zstd = Ask(port_, "GET", numbers, "Accept-Encoding: gzip, deflate, zstd\r\n");
+  EXPECT_THAT(zstd.head, testing::HasSubstr("Content-Encoding: zstd\r\n"));
+  EXPECT_THAT(zstd.head, testing::HasSubstr("Vary: Accept-Encoding\r\n"));
+  EXPECT_THAT(zstd.head, testing::HasSubstr("ETag: \"" + Sha256Hex(zstd.body) + "\"\r\n"));
+  EXPECT_LT(zstd.body.size(), gzip.body.size());
+  EXPECT_EQ(Unzstd(zstd.body), plain.body);
+  EXPECT_EQ(Ask(port_, "DELETE", job).status, 200);
 }
 
 // Their files are in gzip: a client that is not told so cannot read them.

@@ -103,6 +103,7 @@ def check_objects(history: History, server: database.Database, there: set[str]) 
     named = {row[0] for row in server.query(
         "SELECT input_sha256 FROM farhorizon.jobs UNION SELECT sha256 FROM farhorizon.artifacts UNION "
         "SELECT gzip_sha256 FROM farhorizon.artifacts WHERE gzip_sha256 IS NOT NULL UNION "
+        "SELECT zstd_sha256 FROM farhorizon.artifacts WHERE zstd_sha256 IS NOT NULL UNION "
         "SELECT sha256 FROM farhorizon.upload_parts UNION "
         "SELECT sha256 FROM farhorizon.uploads WHERE sha256 IS NOT NULL")}
     if named - there or there - named:

@@ -128,6 +128,13 @@ int Misbehave(const WorkerTask& task) {
       std::this_thread::sleep_for(std::chrono::milliseconds(100));
     }
   }
+  if (Named(task, "numbers")) {
+    std::string text = "[0";
+    for (int i = 1; i < 30'000; ++i) text += ", " + std::to_string(i * 7919);
+    WriteOne(task.output, text + "]");
+    Send(WriteMessage(WorkerDone{}));
+    return 0;
+  }
   WriteOne(task.output, "{\"descriptors\": " + std::to_string(::access("/proc/self/fd/4", F_OK)) +
                             ", \"environment\": " +
                             (std::getenv("SECRET") != nullptr ? "\"open\"" : "\"closed\"") + "}");

@@ -36,6 +36,7 @@ std::vector<std::string> NamedObjects(const fs::path& database_file) {
   Statement rows(database,
                  "SELECT input_sha256 FROM jobs UNION SELECT sha256 FROM artifacts "
                  "UNION SELECT gzip_sha256 FROM artifacts WHERE gzip_sha256 IS NOT NULL "
+                 "UNION SELECT zstd_sha256 FROM artifacts WHERE zstd_sha256 IS NOT NULL "
                  "UNION SELECT sha256 FROM upload_parts "
                  "UNION SELECT sha256 FROM uploads WHERE sha256 IS NOT NULL");
   std::vector<std::string> names;

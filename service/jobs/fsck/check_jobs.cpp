@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "service/clock.h"
+#include "service/jobs/coding.h"
 #include "service/jobs/fsck/check_objects.h"
 #include "service/jobs/sql_removal.h"
 #include "service/jobs/sql_rows.h"
@@ -59,17 +60,18 @@ bool IsGood(const FsckRun& run, const StoredObject& object) {
 }
 
 // A result whose compressed copy is lost is sent as it is.
-void CheckCopy(FsckRun& run, Database& database, const std::string& id, const Artifact& artifact) {
-  if (!artifact.gzip || IsGood(run, *artifact.gzip)) return;
+void CheckCopy(FsckRun& run, Database& database, const std::string& id, const std::string& name,
+               Coding coding, const std::optional<StoredObject>& copy) {
+  if (!copy || IsGood(run, *copy)) return;
   if (run.options.repair) {
-    Statement(database,
-              "UPDATE artifacts SET gzip_sha256 = NULL, gzip_bytes = NULL "
-              "WHERE job_id = ? AND name = ?")
+    const std::string column(CodingName(coding));
+    Statement(database, "UPDATE artifacts SET " + column + "_sha256 = NULL, " + column +
+                            "_bytes = NULL WHERE job_id = ? AND name = ?")
         .Bind(id)
-        .Bind(artifact.name)
+        .Bind(name)
         .Run();
   }
-  run.Fault("job " + id + ": the compressed copy of " + artifact.name + " is lost or damaged",
+  run.Fault("job " + id + ": the compressed copy of " + name + " is lost or damaged",
             run.options.repair);
 }
 
@@ -82,7 +84,8 @@ void CheckJob(FsckRun& run, Database& database, const Job& job) {
   if (job.state != JobState::kSuccessful) return;
   for (const Artifact& artifact : SelectArtifacts(database, job.id)) {
     if (IsGood(run, {artifact.sha256, artifact.bytes})) {
-      CheckCopy(run, database, job.id, artifact);
+      CheckCopy(run, database, job.id, artifact.name, Coding::kGzip, artifact.gzip);
+      CheckCopy(run, database, job.id, artifact.name, Coding::kZstd, artifact.zstd);
       continue;
     }
     return MendJob(run, database, job,

@@ -126,7 +126,8 @@ TEST_P(JobStoreConformance, PublishesArtifactsWithTheState) {
   EXPECT_TRUE(store_->Artifacts(job.id)->empty());
   const std::vector<Artifact> artifacts = {
       {"b", "x/y", 1, std::string(64, 'b')},
-      {"a", "x/z", 2, std::string(64, 'c'), StoredObject{std::string(64, 'd'), 1}}};
+      {"a", "x/z", 2, std::string(64, 'c'), StoredObject{std::string(64, 'd'), 1},
+       StoredObject{std::string(64, 'e'), 1}}};
   ASSERT_TRUE(*store_->Publish(job.id, job.run, artifacts, {{"sweep", 1.5}}, ++time_));
   const auto found = store_->Find(job.id);
   EXPECT_EQ(found->state, JobState::kSuccessful);
@@ -139,13 +140,16 @@ TEST_P(JobStoreConformance, PublishesArtifactsWithTheState) {
   ASSERT_TRUE(stored->at(0).gzip);
   EXPECT_EQ(stored->at(0).gzip->sha256, std::string(64, 'd'));
   EXPECT_EQ(stored->at(0).gzip->bytes, 1);
+  ASSERT_TRUE(stored->at(0).zstd);
+  EXPECT_EQ(stored->at(0).zstd->sha256, std::string(64, 'e'));
   EXPECT_EQ(stored->at(1).sha256, std::string(64, 'b'));
   EXPECT_FALSE(stored->at(1).gzip);
+  EXPECT_FALSE(stored->at(1).zstd);
   for (const std::string& object : ObjectsOf(*stored)) {
     EXPECT_TRUE(*store_->IsReferenced(object));
   }
   ASSERT_TRUE(store_->Dismiss(job.id, ++time_));
-  EXPECT_EQ(store_->Garbage()->size(), 4U) << "the upload, two artifacts and a copy";
+  EXPECT_EQ(store_->Garbage()->size(), 5U) << "the upload, two artifacts and two copies";
 }
 
 TEST_P(JobStoreConformance, KeepsTheFailure) {

@@ -205,6 +205,7 @@ Result<bool> Simulation::Publish(const Worker& worker) {
   for (std::uint32_t i = 0; i <= Draw(2); ++i) {
     artifacts.push_back({"artifact" + std::to_string(i), "a/b", 5, DrawObject()});
     if (Draw(3) == 0) artifacts.back().gzip = StoredObject{DrawObject(), 3};
+    if (Draw(3) == 0) artifacts.back().zstd = StoredObject{DrawObject(), 2};
   }
   for (const std::string& name : ObjectsOf(artifacts)) objects_.Put(name);
   Result<bool> done = jobs_->Publish(worker.id, worker.run, artifacts, {}, Now());

@@ -125,7 +125,8 @@ class History:
         database = sqlite3.connect(f"file:{service.data}/jobs.sqlite?mode=ro", uri=True)
         named = {row[0] for row in database.execute(
             "SELECT input_sha256 FROM jobs UNION SELECT sha256 FROM artifacts UNION "
-            "SELECT gzip_sha256 FROM artifacts WHERE gzip_sha256 IS NOT NULL UNION SELECT sha256 FROM upload_parts "
+            "SELECT gzip_sha256 FROM artifacts WHERE gzip_sha256 IS NOT NULL UNION "
+            "SELECT zstd_sha256 FROM artifacts WHERE zstd_sha256 IS NOT NULL UNION SELECT sha256 FROM upload_parts "
             "UNION SELECT sha256 FROM uploads WHERE sha256 IS NOT NULL")}
         database.close()
         there, left = set(), []

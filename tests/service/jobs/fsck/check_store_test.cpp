@@ -39,8 +39,11 @@ class CheckStoreTest : public testing::Test {
     result_ = (*objects)->PutFile(folder_ / "result")->sha256;
     SpillFile(folder_ / "copy", "a copy");
     copy_ = *(*objects)->PutFile(folder_ / "copy");
-    ASSERT_TRUE(*(*jobs)->Publish(done_.id, (*job)->run, {{"r", "a/b", 8, result_, copy_}}, {}, 2));
-    (*objects)->Keep({result_, copy_.sha256});
+    SpillFile(folder_ / "small", "cop");
+    small_ = *(*objects)->PutFile(folder_ / "small");
+    ASSERT_TRUE(
+        *(*jobs)->Publish(done_.id, (*job)->run, {{"r", "a/b", 8, result_, copy_, small_}}, {}, 2));
+    (*objects)->Keep({result_, copy_.sha256, small_.sha256});
   }
   static std::unique_ptr<JobService> OpenService(const fs::path& data) {
     JobServiceOptions options;
@@ -86,7 +89,8 @@ class CheckStoreTest : public testing::Test {
   Job done_;
   Job waiting_;
   std::string result_;
-  StoredObject copy_;  ///< of the result, compressed as it were
+  StoredObject copy_;   ///< of the result, in gzip as it were
+  StoredObject small_;  ///< and in zstd
   std::vector<std::string> lines_;
 };
 
@@ -94,8 +98,8 @@ TEST_F(CheckStoreTest, FindsNothingInASoundStore) {
   const FsckSum sum = Check();
   EXPECT_THAT(lines_, IsEmpty());
   EXPECT_EQ(sum.jobs, 3);
-  EXPECT_EQ(sum.objects, 5);
-  EXPECT_EQ(sum.bytes, 4 + 7 + 9 + 8 + 6);
+  EXPECT_EQ(sum.objects, 6);
+  EXPECT_EQ(sum.bytes, 4 + 7 + 9 + 8 + 6 + 3);
   EXPECT_EQ(sum.faults, 0);
 }
 
@@ -110,13 +114,17 @@ TEST_F(CheckStoreTest, RunsAJobAgainWhoseResultIsDamaged) {
 }
 
 TEST_F(CheckStoreTest, SendsAResultAsItIsWhereItsCopyIsLost) {
+  const std::vector<Coding> both = {Coding::kZstd, Coding::kGzip};
+  EXPECT_EQ(OpenService(data_)->Open(done_.id, "r", both)->coding, Coding::kZstd);
+  Damage(ObjectFile(small_.sha256));
+  EXPECT_EQ(OpenService(data_)->Open(done_.id, "r", both)->coding, Coding::kGzip);
   Damage(ObjectFile(copy_.sha256));
-  for (const Coding coding : {Coding::kGzip, Coding::kIdentity}) {
-    const auto artifact = OpenService(data_)->Open(done_.id, "r", coding);
+  for (const std::vector<Coding>& codings : {both, {}}) {
+    const auto artifact = OpenService(data_)->Open(done_.id, "r", codings);
     ASSERT_TRUE(artifact);
     EXPECT_EQ(artifact->coding, Coding::kIdentity);
   }
-  ExpectMended(2);
+  ExpectMended(4);
   EXPECT_EQ(OpenService(data_)->Find(done_.id)->state, JobState::kSuccessful);
 }
 
@@ -242,10 +250,12 @@ TEST_F(CheckStoreTest, ACopyOfARunningStoreRestores) {
   ASSERT_NE(restored, nullptr);
   EXPECT_EQ(restored->List({{}, {}, 10})->jobs.size(), 4U);
   EXPECT_TRUE(restored->Find(late.id));
-  const auto artifact = restored->Open(done_.id, "r", Coding::kIdentity);
+  const auto artifact = restored->Open(done_.id, "r");
   ASSERT_TRUE(artifact);
   EXPECT_EQ(*artifact->object->Read(0, 8), "a result");
-  EXPECT_EQ(restored->Open(done_.id, "r", Coding::kGzip)->coding, Coding::kGzip);
+  for (const Coding coding : {Coding::kGzip, Coding::kZstd}) {
+    EXPECT_EQ(restored->Open(done_.id, "r", std::vector{coding})->coding, coding);
+  }
   EXPECT_FALSE(BackUpStore({data_, false, {}}, copy)) << "it is there already";
 }
 

@@ -1,4 +1,4 @@
-#include "service/jobs/gzip_copy.h"
+#include "service/jobs/compressed_copies.h"
 
 #include <filesystem>
 #include <memory>
@@ -11,6 +11,7 @@
 #include "service/jobs/local_object_store.h"
 #include "tests/support/gunzip.h"
 #include "tests/support/temp_dir.h"
+#include "tests/support/unzstd.h"
 
 namespace farhorizon {
 namespace {
@@ -30,7 +31,7 @@ std::string Numbers(int count) {
   return text;
 }
 
-class GzipCopyTest : public testing::Test {
+class CompressedCopiesTest : public testing::Test {
  protected:
   void SetUp() override {
     fs::create_directory(folder_ / "spool");
@@ -41,7 +42,7 @@ class GzipCopyTest : public testing::Test {
     SpillFile(folder_ / "file", bytes);
     const StoredObject stored = *store_->PutFile(folder_ / "file");
     std::vector<Artifact> artifacts = {{"a", "x/y", stored.bytes, stored.sha256}};
-    const Status done = AddGzipCopies(artifacts, *store_, folder_ / "spool");
+    const Status done = AddCompressedCopies(artifacts, *store_, folder_ / "spool");
     EXPECT_TRUE(done) << done.error().message;
     EXPECT_TRUE(fs::is_empty(folder_ / "spool"));
     return artifacts.at(0);
@@ -58,7 +59,7 @@ class GzipCopyTest : public testing::Test {
   std::unique_ptr<ObjectStore> store_;
 };
 
-TEST_F(GzipCopyTest, HoldsTheSameBytesInFewer) {
+TEST_F(CompressedCopiesTest, HoldTheSameBytesInFewer) {
   // One piece, and several: the first one's look must not show in the bytes.
   for (const int count : {1000, 200'000}) {
     const std::string text = Numbers(count);
@@ -70,7 +71,29 @@ TEST_F(GzipCopyTest, HoldsTheSameBytesInFewer) {
   }
 }
 
-TEST_F(GzipCopyTest, IsNotMadeWhereItSavesLittle) {
+TEST_F(CompressedCopiesTest, AreInZstdWhereThatSavesATenthOfGzip) {
+  // One piece, and several: the first one's look must not show in the bytes.
+  for (const int count : {20'000, 200'000}) {
+    const std::string text = Numbers(count);
+    const Artifact artifact = Copied(text);
+    ASSERT_TRUE(artifact.gzip && artifact.zstd) << count;
+    EXPECT_LE(artifact.zstd->bytes, artifact.gzip->bytes - artifact.gzip->bytes / 10);
+    EXPECT_EQ(Unzstd(Stored(*artifact.zstd)), text);
+    EXPECT_EQ(Copied(text).zstd->sha256, artifact.zstd->sha256) << "same bytes, same copy";
+  }
+  const Artifact artifact = Copied(Numbers(1000));
+  EXPECT_TRUE(artifact.gzip);
+  EXPECT_FALSE(artifact.zstd) << "less than a block";
+}
+
+// Some 8 s of zstd a job are enough.
+TEST_F(CompressedCopiesTest, AreNotInZstdWhereThereIsTooMuch) {
+  const Artifact artifact = Copied(std::string(std::size_t{33} << 20U, 'a'));
+  EXPECT_TRUE(artifact.gzip);
+  EXPECT_FALSE(artifact.zstd);
+}
+
+TEST_F(CompressedCopiesTest, AreNotMadeWhereTheySaveLittle) {
   EXPECT_FALSE(Copied("").gzip);
   EXPECT_FALSE(Copied(std::string(4100, ' ')).gzip) << "less than a block";
   EXPECT_FALSE(Copied(Noise(100'000)).gzip);
@@ -79,9 +102,9 @@ TEST_F(GzipCopyTest, IsNotMadeWhereItSavesLittle) {
   EXPECT_EQ(store_->List(ObjectList::kAll)->size(), 5U) << "nothing but the artifacts";
 }
 
-TEST_F(GzipCopyTest, TellsOfAnObjectThatIsGone) {
+TEST_F(CompressedCopiesTest, TellOfAnObjectThatIsGone) {
   std::vector<Artifact> artifacts = {{"a", "x/y", 10'000, std::string(64, 'a')}};
-  EXPECT_EQ(AddGzipCopies(artifacts, *store_, folder_ / "spool").error().code,
+  EXPECT_EQ(AddCompressedCopies(artifacts, *store_, folder_ / "spool").error().code,
             ErrorCode::kNotFound);
 }
 
