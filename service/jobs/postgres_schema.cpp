@@ -9,7 +9,9 @@ namespace farhorizon {
 namespace {
 
 // What makes version i + 1 of the tables out of version i. None is ever changed, because databases
-// exist that have gone through it. Ids and clients are compared as bytes, as SQLite does it.
+// exist that have gone through it. Each only adds, and what it adds may be left out of a row:
+// programs of the version before go on with the tables while processes are replaced one after the
+// other (tests/load/run upgrade). Ids and clients are compared as bytes, as SQLite does it.
 //
 // Beside what SQLite's tables have: whose a run is, until when, and how many runs of the job were
 // lost; and when each client was served, which no process knows alone. Of each change but a lease
