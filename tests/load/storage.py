@@ -24,7 +24,7 @@ def rate(folder: str, count: int, tiles: int, verdict: Verdict, in_bucket: bool)
     for process in processes:
         process.start()
     door = processes[0]
-    dems = [small_dem(seed, 130, 110) for seed in range(tiles)]
+    dems = [small_dem(seed, 90, 70) for seed in range(tiles)]
     begun = time.monotonic()
     jobs = [door.submit(dem, QUERY.replace("levels=1", "levels=5"))[1]["jobID"] for dem in dems]
     ends = [door.wait(job, 600)["status"] for job in jobs]
@@ -44,7 +44,7 @@ def run(folder: str, verdict: Verdict, options) -> None:
     if not database.is_installed():
         verdict.say("storage: left out, for postgresql-15 is not installed")
         return
-    tiles = 6 if options.quick else 60
+    tiles = 6 if options.quick else 30
     for count in range(1, 1 + len(PROCESSES)):
         rates = {kind: round(rate(os.path.join(folder, f"{kind}-{count}"), count, tiles, verdict, kind == "bucket"), 1)
                  for kind in ("folder", "bucket")}
