@@ -29,7 +29,7 @@ def rate(folder: str, count: int, tiles: int, verdict: Verdict, in_bucket: bool)
     jobs = [door.submit(dem, QUERY.replace("levels=1", "levels=5"))[1]["jobID"] for dem in dems]
     ends = [door.wait(job, 600)["status"] for job in jobs]
     took = time.monotonic() - begun
-    verdict.ask(f"{tiles} tiles by {count} in a {'bucket' if objects else 'folder'}", set(ends) == {"successful"}, ends)
+    verdict.ask(f"{tiles} tiles by {count} in a {'bucket' if objects else 'folder'}", set(ends) == {"successful"}, set(ends))
     for process in processes:
         process.stop()
     if objects:
