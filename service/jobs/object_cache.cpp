@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <sys/stat.h>
 #include <system_error>
+#include <thread>
 #include <unistd.h>
 #include <utility>
 #include <vector>
 
 #include "core/io/sha256.h"
 #include "service/jobs/storage_file.h"
+#include "service/random.h"
 
 namespace farhorizon {
 
@@ -16,7 +18,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMostFetches = 3;
+constexpr int kLeastFetches = 3;
+constexpr std::chrono::milliseconds kFirstPause{100};
+constexpr std::chrono::seconds kLongestPause{2};
 
 Error NotThere() { return {ErrorCode::kNotFound, "no such copy"}; }
 
@@ -43,8 +47,9 @@ void NoteUse(int fd) {
 
 Result<std::unique_ptr<ObjectCache>> ObjectCache::Make(const fs::path& folder,
                                                        std::int64_t most_bytes,
-                                                       std::int64_t least_free) {
-  std::unique_ptr<ObjectCache> cache(new ObjectCache(folder, most_bytes, least_free));
+                                                       std::int64_t least_free,
+                                                       std::chrono::milliseconds patience) {
+  std::unique_ptr<ObjectCache> cache(new ObjectCache(folder, most_bytes, least_free, patience));
   std::error_code failure;
   fs::remove_all(cache->temp_, failure);
   if (!failure) fs::create_directories(cache->temp_, failure);
@@ -146,7 +151,9 @@ Result<OpenObject> ObjectCache::TakeChecked(const std::string& sha256) {
 }
 
 Result<OpenObject> ObjectCache::Bring(const std::string& sha256, const Fetch& fetch) {
-  for (int fetches = 0; fetches < kMostFetches; ++fetches) {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point begun = Clock::now();
+  for (int fetches = 1;; ++fetches) {
     Result<SpoolFile> file = NewFile();
     if (!file) return std::move(file.error());
     Status fetched = fetch(file->fd());
@@ -155,11 +162,16 @@ Result<OpenObject> ObjectCache::Bring(const std::string& sha256, const Fetch& fe
     if (!object) return object;
     Result<std::string> sum = SumOf(object->fd.get());
     if (!sum) return std::move(sum.error());
-    if (*sum != sha256) continue;
-    Keep(*file, {sha256, object->bytes});
-    return object;
+    if (*sum == sha256) {
+      Keep(*file, {sha256, object->bytes});
+      return object;
+    }
+    if (fetches >= kLeastFetches && Clock::now() - begun > patience_) {
+      return Error{ErrorCode::kIo, "the stored object is damaged; send its DEM again",
+                   "input-corrupt"};
+    }
+    std::this_thread::sleep_for(RandomDelay(kFirstPause, kLongestPause, fetches - 1));
   }
-  return Error{ErrorCode::kIo, "the stored object is damaged; send its DEM again", "input-corrupt"};
 }
 
 void ObjectCache::Keep(const SpoolFile& file, const StoredObject& object) {

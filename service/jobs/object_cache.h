@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <filesystem>
@@ -28,14 +29,16 @@ class ObjectCache {
   using Fetch = std::function<Status(int fd)>;
 
   /// most_bytes: of all files, but the one that was used last stays whatever its size.
-  /// least_free: room on the disk that is left, too. Requires: no other process uses the folder.
+  /// least_free: room on the disk that is left, too. patience: how long other bytes than the object's
+  /// are taken for a fault of the way, which passes. Requires: no other process uses the folder.
   /// Errors: kIo "storage" where the folder cannot be made or read.
   static Result<std::unique_ptr<ObjectCache>> Make(const std::filesystem::path& folder,
-                                                   std::int64_t most_bytes,
-                                                   std::int64_t least_free);
+                                                   std::int64_t most_bytes, std::int64_t least_free,
+                                                   std::chrono::milliseconds patience);
 
   /// Opens the object, which `fetch` gets where it is not there.
-  /// Errors: those of fetch; kIo "input-corrupt" where it gets other bytes three times.
+  /// Errors: those of fetch; kIo "input-corrupt" where it gets other bytes, three times at least and
+  ///   as long as the patience lasts.
   Result<OpenObject> Get(const std::string& sha256, const Fetch& fetch);
   /// A file that Keep may take.
   Result<SpoolFile> NewFile() { return SpoolFile::Create(temp_); }
@@ -55,17 +58,19 @@ class ObjectCache {
     Status status = Ok{};
   };
 
-  ObjectCache(std::filesystem::path folder, std::int64_t most_bytes, std::int64_t least_free)
+  ObjectCache(std::filesystem::path folder, std::int64_t most_bytes, std::int64_t least_free,
+              std::chrono::milliseconds patience)
       : folder_(std::move(folder)),
         temp_(folder_ / "temp"),
         most_bytes_(most_bytes),
-        least_free_(least_free) {}
+        least_free_(least_free),
+        patience_(patience) {}
   Status ReadFolder();
   /// The file, if it is there and sound; kNotFound. Requires: mutex_ is held.
   Result<OpenObject> Take(const std::string& sha256);
   /// The file of an earlier process, if it is there and turns out to be sound; kNotFound.
   Result<OpenObject> TakeChecked(const std::string& sha256);
-  /// Gets the object, at most three times. Requires: no other thread does, of this object.
+  /// Gets the object. Requires: no other thread does, of this object.
   Result<OpenObject> Bring(const std::string& sha256, const Fetch& fetch);
   void Land(const std::string& sha256, const Status& status);
   /// Requires, all three: mutex_ is held.
@@ -77,6 +82,7 @@ class ObjectCache {
   const std::filesystem::path temp_;
   const std::int64_t most_bytes_;
   const std::int64_t least_free_;
+  const std::chrono::milliseconds patience_;
   std::mutex mutex_;
   std::condition_variable landed_;
   std::map<std::string, Entry> entries_;

@@ -172,8 +172,8 @@ Result<DiskRoom> S3ObjectStore::Room() {
 }  // namespace
 
 Result<std::unique_ptr<ObjectStore>> OpenS3ObjectStore(const S3StoreOptions& options) {
-  Result<std::unique_ptr<ObjectCache>> cache =
-      ObjectCache::Make(options.cache, options.cache_bytes, options.least_free_bytes);
+  Result<std::unique_ptr<ObjectCache>> cache = ObjectCache::Make(
+      options.cache, options.cache_bytes, options.least_free_bytes, options.patience);
   if (!cache) return std::move(cache.error());
   auto store = std::make_unique<S3ObjectStore>(options, *std::move(cache));
   Result<std::string> label = store->Label();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -17,7 +18,8 @@ struct S3StoreOptions {
   std::filesystem::path credentials;  ///< as S3Credentials has it
   std::filesystem::path cache;        ///< a folder of this process alone
   std::int64_t cache_bytes = 0;
-  std::int64_t least_free_bytes = 0;  ///< that copies leave on the disk
+  std::int64_t least_free_bytes = 0;                              ///< that copies leave on the disk
+  std::chrono::milliseconds patience = std::chrono::seconds(10);  ///< as ObjectCache::Make has it
 };
 
 /// Objects in a bucket of S3-compatible storage, which any number of processes share:

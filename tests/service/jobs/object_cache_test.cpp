@@ -1,5 +1,7 @@
 #include "service/jobs/object_cache.h"
 
+#include <chrono>
+
 #include <gtest/gtest.h>
 
 #include "core/io/posix_file.h"
@@ -12,7 +14,7 @@ namespace {
 class ObjectCacheTest : public testing::Test {
  protected:
   std::unique_ptr<ObjectCache> Make(std::int64_t most_bytes, std::int64_t least_free = 0) {
-    auto cache = ObjectCache::Make(folder_ / "cache", most_bytes, least_free);
+    auto cache = ObjectCache::Make(folder_ / "cache", most_bytes, least_free, patience_);
     EXPECT_TRUE(cache);
     return *std::move(cache);
   }
@@ -38,6 +40,7 @@ class ObjectCacheTest : public testing::Test {
   }
 
   TempDir folder_;
+  std::chrono::milliseconds patience_{300};
   int fetches_ = 0;
 };
 
@@ -108,6 +111,19 @@ TEST_F(ObjectCacheTest, GivesOutNoWrongBytes) {
   });
   EXPECT_EQ(wrong.error().kind, "input-corrupt");
   EXPECT_EQ(Files(), 1U);
+}
+
+// All that a server or the way to it sends may be wrong for seconds, and the object be sound.
+TEST_F(ObjectCacheTest, TakesOtherBytesForAFaultThatPassesAsLongAsItsPatienceLasts) {
+  patience_ = std::chrono::seconds(60);
+  const auto cache = Make(100);
+  int fetches = 0;
+  const auto object = cache->Get(Sha256Hex("aaaa"), [&](int fd) -> Status {
+    EXPECT_TRUE(WriteAll(fd, ++fetches < 5 ? "aaab" : "aaaa"));
+    return Ok{};
+  });
+  EXPECT_TRUE(object);
+  EXPECT_EQ(fetches, 5);
 }
 
 }  // namespace

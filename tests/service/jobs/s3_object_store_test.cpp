@@ -29,6 +29,7 @@ using std::chrono::steady_clock;
 using testing::HasSubstr;
 
 constexpr std::int64_t kCacheBytes = std::int64_t{1} << 30U;
+constexpr std::chrono::milliseconds kPatience{300};
 
 // One for all tests: each has a prefix of its own.
 S3Server& Server() {
@@ -56,8 +57,12 @@ class S3Storage : public ObjectStorage {
   explicit S3Storage(std::filesystem::path folder) : folder_(std::move(folder)) {}
   Result<std::unique_ptr<ObjectStore>> Open() override {
     // Of another machine: without copies.
-    return OpenS3ObjectStore(
-        {LocationOf(url_), {}, folder_ / ("cache" + std::to_string(caches_++)), kCacheBytes, 0});
+    return OpenS3ObjectStore({LocationOf(url_),
+                              {},
+                              folder_ / ("cache" + std::to_string(caches_++)),
+                              kCacheBytes,
+                              0,
+                              kPatience});
   }
   void Damage(const std::string& sha256, const std::string& bytes) override {
     S3Credentials credentials({}, AwsEnvironment());
@@ -85,7 +90,7 @@ class S3ObjectStoreTest : public testing::Test {
   void TearDown() override { Server().SetFaults("{}"); }
   std::unique_ptr<ObjectStore> OpenStore(const std::string& cache,
                                          std::int64_t bytes = kCacheBytes) {
-    auto opened = OpenS3ObjectStore({LocationOf(url_), {}, folder_ / cache, bytes, 0});
+    auto opened = OpenS3ObjectStore({LocationOf(url_), {}, folder_ / cache, bytes, 0, kPatience});
     EXPECT_TRUE(opened) << opened.error().message;
     return *std::move(opened);
   }
