@@ -29,16 +29,17 @@ class ObjectCache {
   using Fetch = std::function<Status(int fd)>;
 
   /// most_bytes: of all files, but the one that was used last stays whatever its size.
-  /// least_free: room on the disk that is left, too. patience: how long other bytes than the object's
-  /// are taken for a fault of the way, which passes. Requires: no other process uses the folder.
+  /// least_free: room on the disk that is left, too.
+  /// patience: how long other bytes than the object's are taken for a fault that passes.
+  /// Requires: no other process uses the folder.
   /// Errors: kIo "storage" where the folder cannot be made or read.
   static Result<std::unique_ptr<ObjectCache>> Make(const std::filesystem::path& folder,
                                                    std::int64_t most_bytes, std::int64_t least_free,
                                                    std::chrono::milliseconds patience);
 
   /// Opens the object, which `fetch` gets where it is not there.
-  /// Errors: those of fetch; kIo "input-corrupt" where it gets other bytes, three times at least and
-  ///   as long as the patience lasts.
+  /// Errors: those of fetch; kIo "input-corrupt" where it gets other bytes, three times at least
+  ///   and as long as the patience lasts.
   Result<OpenObject> Get(const std::string& sha256, const Fetch& fetch);
   /// A file that Keep may take.
   Result<SpoolFile> NewFile() { return SpoolFile::Create(temp_); }
