@@ -1,14 +1,17 @@
 #include "service/cli/remote_job.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <set>
 #include <string_view>
 #include <system_error>
+#include <unistd.h>
 #include <utility>
 #include <vector>
 
 #include "core/io/file.h"
 #include "core/io/manifest.h"
+#include "core/io/posix_file.h"
 #include "core/io/sha256.h"
 #include "service/clock.h"
 #include "service/jobs/collect_artifacts.h"
@@ -199,6 +202,17 @@ Status SuccessOf(const json& status) {
                ErrorKind::FromName(code).value_or(ErrorKind())};
 }
 
+Status MakeFolder(const fs::path& directory) {
+  std::error_code failure;
+  fs::create_directories(directory, failure);
+  if (failure) {
+    return Error{ErrorCode::kIo,
+                 "cannot make the folder " + directory.string() + ": " + failure.message()};
+  }
+  if (::access(directory.c_str(), W_OK | X_OK) == 0) return Ok{};
+  return ErrorFromErrno("write to the folder " + directory.string(), errno);
+}
+
 Status FetchArtifacts(const JobClient& client, const std::string& id, const fs::path& directory,
                       const std::function<void(double share)>& heard) {
   const std::string results = "/jobs/" + id + "/results";
@@ -209,12 +223,7 @@ Status FetchArtifacts(const JobClient& client, const std::string& id, const fs::
   if (manifest->status != 200) return ErrorOfProblem(*manifest);
   const Result<std::vector<ManifestEntry>> entries = ReadTheirManifest(manifest->body);
   if (!entries) return entries.error();
-  std::error_code failure;
-  fs::create_directories(directory, failure);
-  if (failure) {
-    return Error{ErrorCode::kIo,
-                 "cannot make the folder " + directory.string() + ": " + failure.message()};
-  }
+  if (Status made = MakeFolder(directory); !made) return made;
   double fetched = 0;
   for (const ManifestEntry& entry : *entries) {
     heard(fetched++ / static_cast<double>(entries->size()));

@@ -41,6 +41,10 @@ void ShowProgress(const nlohmann::json& status, Reporter& reporter);
 /// Errors: why it failed; kUnsupportedData where it was dismissed.
 Status SuccessOf(const nlohmann::json& status);
 
+/// Makes the folder for artifacts where it is missing, and finds out whether it can be written.
+/// Errors: kIo.
+Status MakeFolder(const std::filesystem::path& directory);
+
 /// Fetches a job's artifacts to `directory`, which is made if missing: what is there already is
 /// not fetched again, what is there in part is gone on with. Each file is written beside its name,
 /// compared with the manifest and renamed; manifest.json is the last. Where that is there, all are.

@@ -49,8 +49,15 @@ class AssumptionsSaid {
   std::set<std::string> said_;
 };
 
+// The error, with the name by which the job, which is there, can be asked for.
+Error OfJob(const std::string& id, Error error) {
+  if (error.code != ErrorCode::kCancelled) error.message += "; the job is /jobs/" + id;
+  return error;
+}
+
 // Sends one DEM, waits for the end and fetches the artifacts.
 Status SubmitOne(const JobClient& client, const SubmitArguments& arguments, const DemRun& run) {
+  if (Status made = MakeFolder(arguments.directory); !made) return made;
   AssumptionsSaid assumptions(run.control);
   const Result<json> sent =
       SendDem(client, {arguments.words.at(0), arguments.dem.flags.parameters, ToHex(RandomBytes()),
@@ -62,10 +69,12 @@ Status SubmitOne(const JobClient& client, const SubmitArguments& arguments, cons
     assumptions.Hear(status);
     ShowProgress(status, run.reporter);
   });
-  if (!end) return end.error();
+  if (!end) return OfJob(id, end.error());
   if (Status success = SuccessOf(*end); !success) return success;
-  return FetchArtifacts(client, id, arguments.directory,
-                        [&](double share) { run.reporter.Show("download", share, 100); });
+  const Status fetched = FetchArtifacts(client, id, arguments.directory, [&](double share) {
+    run.reporter.Show("download", share, 100);
+  });
+  return fetched ? fetched : OfJob(id, fetched.error());
 }
 
 int Run(const SubmitArguments& arguments) {

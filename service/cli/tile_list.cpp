@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -27,15 +28,32 @@ bool IsOfADem(const std::string& file) {
                                             [&](auto ending) { return name.ends_with(ending); });
 }
 
+// A folder of tiles has other files, too; but who expects one to be sent is told that it is not.
+void SayWhatIsLeftOut(const std::string& folder, int files, int folders) {
+  if (files + folders == 0) return;
+  std::string endings;
+  for (const std::string_view ending : kEndings) endings.append(" ").append(ending);
+  std::fprintf(stderr,
+               "farhorizon: of the folder %s, %d files and %d folders are left out: DEMs are taken "
+               "to end in%s; name others themselves, or in --list\n",
+               folder.c_str(), files, folders, endings.c_str());
+}
+
 Status AddFolder(const std::string& folder, std::vector<std::string>& tiles) {
   std::error_code failure;
   std::vector<std::string> found;
+  int files = 0;
+  int folders = 0;
   for (const auto& entry : fs::directory_iterator(folder, failure)) {
     std::error_code none;
-    if (entry.is_regular_file(none) && IsOfADem(entry.path().filename().string())) {
+    const std::string name = entry.path().filename().string();
+    if (entry.is_regular_file(none) && IsOfADem(name)) {
       found.push_back(entry.path().string());
+    } else if (name.front() != '.') {
+      ++(entry.is_directory(none) ? folders : files);
     }
   }
+  SayWhatIsLeftOut(folder, files, folders);
   if (failure) return Error{ErrorCode::kIo, "cannot read " + folder + ": " + failure.message()};
   std::sort(found.begin(), found.end());
   tiles.insert(tiles.end(), found.begin(), found.end());

@@ -12,6 +12,7 @@
 
 #include "core/io/base64.h"
 #include "service/clock.h"
+#include "service/handlers/asked_outputs.h"
 #include "service/handlers/content_digest.h"
 #include "service/handlers/echo_inputs.h"
 #include "service/handlers/execute_request.h"
@@ -179,6 +180,9 @@ Result<Job> ExecuteExchange::SubmitTerrain(const ExecuteRequest& asked) {
   }
   Result<Wishes> wishes = ReadWishes(*std::move(parameters), context_.terms);
   if (!wishes) return std::move(wishes.error());
+  if (Status made = CheckOutputsOf(asked.wishes, wishes->options); !made) {
+    return std::move(made.error());
+  }
   Submission submission{.filename = SafeFilename(filename),
                         .parameters = std::move(wishes->parameters),
                         .idempotency_key = std::move(key_),

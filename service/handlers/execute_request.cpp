@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "service/handlers/asked_outputs.h"
 #include "service/handlers/problem.h"
 #include "service/handlers/processes.h"
 #include "service/handlers/subscriber.h"
@@ -63,33 +64,7 @@ Result<std::optional<bool>> RawOf(const json& body) {
   return InvalidParameter("response must be raw or document");
 }
 
-// The transmissions that are asked for by name, unset where none is; nullopt for all outputs.
-using Asked = std::optional<std::map<std::string, std::optional<Transmission>>>;
-
-Result<Asked> AskedOutputs(const json& body, const std::string& process) {
-  if (!body.contains("outputs")) return Asked();
-  if (!body["outputs"].is_object()) return InvalidParameter("outputs must be an object");
-  Asked asked;
-  asked.emplace();
-  for (const auto& [name, how] : body["outputs"].items()) {
-    if (!MayHaveOutput(process, name)) {
-      return InvalidParameter("the process has no output \"" + name.substr(0, 100) +
-                              "\"; its description lists all");
-    }
-    if (!how.is_object())
-      return InvalidParameter("an output is asked for by an object, which may be empty");
-    std::optional<Transmission>& mode = (*asked)[name];
-    if (!how.contains("transmissionMode")) continue;
-    const json& word = how["transmissionMode"];
-    if (word != "value" && word != "reference") {
-      return InvalidParameter("transmissionMode must be value or reference");
-    }
-    mode = word == "value" ? Transmission::kValue : Transmission::kReference;
-  }
-  return asked;
-}
-
-ResultWishes WishesOf(const std::string& process, std::optional<bool> raw, Asked asked) {
+ResultWishes WishesOf(const std::string& process, std::optional<bool> raw, AskedOutputs asked) {
   const bool echo = process == kEchoProcess;
   if (!asked && echo) {
     asked.emplace();
@@ -151,7 +126,7 @@ Result<ExecuteRequest> ReadExecuteRequest(const HandlerContext& context, const s
   if (!named) return std::move(named.error());
   Result<std::optional<bool>> raw = RawOf(*body);
   if (!raw) return std::move(raw.error());
-  Result<Asked> asked = AskedOutputs(*body, *named);
+  Result<AskedOutputs> asked = ReadAskedOutputs(*body, *named);
   if (!asked) return std::move(asked.error());
   Result<Subscriber> subscriber = ReadSubscriber(context, *body);
   if (!subscriber) return std::move(subscriber.error());

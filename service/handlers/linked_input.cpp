@@ -10,17 +10,31 @@
 
 namespace farhorizon {
 
+namespace {
+
+// To `error`, of a link that may not be: what to write where an upload was meant.
+Error WithRemedy(Error error, const InputLink& link) {
+  if (link.href.find("uploads") != std::string::npos) {
+    error.message += "; an upload to this service is linked to as /uploads/ID";
+  }
+  return error;
+}
+
+}  // namespace
+
 Result<Job> SubmitLinked(const HandlerContext& context, const HttpRequest& request,
                          const InputLink& link, SpoolFile& spool, Submission submission) {
   if (!context.fetcher) {
-    return Error{ErrorCode::kInvalidArgument,
-                 "the input dem is a link to elsewhere, and this service fetches nothing: send the "
-                 "value itself, link to an upload of this service (POST /uploads), or let "
-                 "fetch.allow of its configuration name how the link begins",
-                 "href-not-allowed"};
+    return WithRemedy(
+        {ErrorCode::kInvalidArgument,
+         "the input dem is a link to elsewhere, and this service fetches nothing: send the value "
+         "itself, link to an upload of this service (POST /uploads), or let fetch.allow of its "
+         "configuration name how the link begins",
+         "href-not-allowed"},
+        link);
   }
   const Result<OutgoingUrl> url = context.fetcher->Check(link.href);
-  if (!url) return url.error();
+  if (!url) return WithRemedy(url.error(), link);
   if (submission.filename == kNoFilename) submission.filename = SafeFilename(url->path);
   // Not the link itself: one that is signed is a secret.
   submission.source = Sha256Hex(url->text);

@@ -22,6 +22,7 @@ constexpr std::pair<const char*, const char*> kArtifacts[] = {
     {"tileset.json", "3D Tiles 1.1: a tile for each level, coarsest at the root"},
     {"horizon.geojson", "The horizon edges of the DEM"},
     {"horizon.fgb", "The same as FlatGeobuf, with flatgeobuf among the formats"},
+    {"horizon.gpkg", "The same as a GeoPackage, with geopackage among the formats"},
     {"layer.json",
      "The list of terrain tiles, with quantized-mesh among the formats; the tiles are "
      "outputs beside it, terrain-Z-X-Y.terrain"},

@@ -46,6 +46,16 @@ std::vector<Output> Selected(std::vector<Artifact> artifacts, const ResultWishes
   return outputs;
 }
 
+// The first of them, as a text for people.
+std::string NamesOf(const std::vector<Artifact>& artifacts) {
+  constexpr std::size_t kMost = 30;
+  std::string names;
+  for (std::size_t i = 0; i < std::min(artifacts.size(), kMost); ++i) {
+    names += (i == 0 ? "" : ", ") + artifacts[i].name;
+  }
+  return names + (artifacts.size() > kMost ? " and others" : "");
+}
+
 Result<std::string> BytesOf(JobService& jobs, const std::string& job, const std::string& name) {
   Result<OpenArtifact> open = jobs.Open(job, name);
   if (!open) return std::move(open.error());
@@ -192,7 +202,15 @@ HttpResponse AnswerResults(const HandlerContext& context, const HttpRequest& req
   Result<std::vector<Artifact>> artifacts = context.jobs.Artifacts(job.id);
   if (!artifacts) return ProblemResponse(request, ProblemOf(artifacts.error()));
   const ResultWishes wishes = ReadResultWishes(job.answer);
+  const std::string there = NamesOf(*artifacts);
   std::vector<Output> outputs = Selected(*std::move(artifacts), wishes);
+  // An echo of nothing has none.
+  const bool asked = wishes.outputs && !wishes.outputs->empty();
+  if (outputs.empty() && asked && job.process == kTerrainProcess) {
+    return ProblemResponse(
+        request,
+        {"no-such-output", "the job has none of the outputs that were asked for; it has " + there});
+  }
   if (wishes.raw) return Raw(context, request, job, std::move(outputs));
   if (Status read = ReadValues(context.jobs, job.id, outputs); !read) {
     return LostArtifact(request, job, read.error());

@@ -15,6 +15,7 @@
 #include "service/http/request_ids.h"
 #include "service/http/request_log.h"
 #include "service/http/response_head.h"
+#include "service/log.h"
 #include "service/metrics.h"
 
 namespace farhorizon {
@@ -242,7 +243,8 @@ asio::awaitable<bool> Session::Send(const HttpRequest& request, const HttpRespon
   if (sent && has_body && response.events) {
     sent = co_await SendEvents(*response.events, request.version != 10);
   }
-  if (sent && has_body && response.file) sent = co_await SendFile(*response.file);
+  if (sent && has_body && response.file)
+    sent = co_await SendFile(*response.file, request.request_id);
   co_return sent;
 }
 
@@ -258,14 +260,19 @@ asio::awaitable<bool> Session::SendText(std::string_view text) {
   co_return true;
 }
 
-asio::awaitable<bool> Session::SendFile(const FileBody& file) {
+asio::awaitable<bool> Session::SendFile(const FileBody& file, const std::string& request_id) {
   for (std::int64_t sent = 0; sent < file.bytes;) {
     const std::int64_t most =
         std::min<std::int64_t>(file.bytes - sent, static_cast<std::int64_t>(kBodyPieceBytes));
     const Result<std::string_view> piece = co_await RunOn(context_.threads, WaitsFor::kStore, [&] {
       return file.source->Read(file.offset + sent, most);
     });
-    if (!piece) co_return false;
+    if (!piece) {
+      // The head has been sent: all that is left is to end the connection.
+      Log(LogLevel::kWarning, "answer cut off",
+          {{"request_id", request_id}, {"bytes", sent}, {"error", piece.error().message}});
+      co_return false;
+    }
     const bool taken = co_await SendText(*piece);
     if (!taken) co_return false;
     sent += static_cast<std::int64_t>(piece->size());

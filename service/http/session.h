@@ -73,7 +73,7 @@ class Session : public std::enable_shared_from_this<Session> {
   asio::awaitable<void> SendLast(const Problem& problem);
   asio::awaitable<bool> Send(const HttpRequest& request, const HttpResponse& response,
                              bool keep_alive);
-  asio::awaitable<bool> SendFile(const FileBody& file);
+  asio::awaitable<bool> SendFile(const FileBody& file, const std::string& request_id);
   asio::awaitable<bool> SendEvents(EventSource& events, bool chunked);
   asio::awaitable<bool> SendText(std::string_view text);
   /// Reads on for a moment: to close while the client still sends would reset the connection, and

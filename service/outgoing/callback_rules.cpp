@@ -28,7 +28,7 @@ Result<OutgoingUrl> CallbackRules::Check(const std::string& url) const {
   const std::string why =
       read ? "no beginning of URLs in callbacks.allow of the service's configuration is that of "
              "the call to " +
-                 read->scheme + "://" + read->host
+                 read->Origin()
            : read.error().message;
   return Error{ErrorCode::kInvalidArgument, why, "callback-not-allowed"};
 }

@@ -58,7 +58,7 @@ Result<OutgoingUrl> Fetcher::Check(const std::string& href) const {
   return Error{ErrorCode::kInvalidArgument,
                "no beginning of URLs in fetch.allow of the service's configuration is that of the "
                "link to " +
-                   url->scheme + "://" + url->host + "; send the value itself",
+                   url->Origin() + "; send the value itself",
                "href-not-allowed"};
 }
 

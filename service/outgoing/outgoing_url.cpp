@@ -41,10 +41,16 @@ bool IsAmbiguous(const std::string& path) {
   for (const char* encoded : {"%2e", "%2f", "%5c", "%25", "%0", "%1", "%7f"}) {
     if (lower.find(encoded) != std::string::npos) return true;
   }
+  for (std::size_t at = path.find('%'); at != std::string::npos; at = path.find('%', at + 1)) {
+    const std::size_t other = path.find_first_not_of("0123456789abcdefABCDEF", at + 1);
+    if (at + 2 >= path.size() || other < at + 3) return true;  // an escape that is none
+  }
   for (std::size_t begin = 1; begin <= path.size();) {
     const std::size_t end = std::min(path.find('/', begin), path.size());
     const std::string_view segment = std::string_view(path).substr(begin, end - begin);
-    if (segment == "." || segment == "..") return true;
+    // With parameters after a semicolon, too, which some servers take off first.
+    const std::string_view name = segment.substr(0, segment.find(';'));
+    if (name == "." || name == "..") return true;
     begin = end + 1;
   }
   return false;
@@ -87,13 +93,16 @@ Result<OutgoingUrl> ReadOutgoingUrl(const std::string& text) {
   const bool canonical = text == authority + url.path + url.query ||
                          (url.path == "/" && text == authority + url.query);
   if (!canonical || url.host.ends_with('.') || Lower(url.host) != url.host) {
-    return Refused("the URL has its host or port in another form than the usual one, which is " +
-                   authority);
+    std::string host = Lower(url.host);
+    while (host.ends_with('.')) host.pop_back();
+    return Refused(
+        "the URL has its scheme, host or port in another form than the usual one, which is " +
+        url.scheme + "://" + host + (port ? ":" + *port : ""));
   }
   if (IsAmbiguous(url.path)) {
     return Refused(
-        "the path of the URL has dots as a segment, or an encoded dot, slash, percent "
-        "sign or control character");
+        "the path of the URL has dots as a segment, a broken escape, or an encoded dot, slash, "
+        "percent sign or control character");
   }
   return url;
 }

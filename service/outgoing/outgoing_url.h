@@ -17,13 +17,16 @@ struct OutgoingUrl {
   std::string port;    ///< also where the text has none
   std::string path;    ///< begins with a slash; still percent-encoded
   std::string query;   ///< with its question mark; empty without
+
+  /// The part before the path, for people.
+  [[nodiscard]] std::string Origin() const { return scheme + "://" + host + ":" + port; }
 };
 
 /// Reads a URL strictly [RFC 3986]. Refused are other schemes, user names, fragments, hosts that
 /// are written otherwise than in lower-case ASCII without a dot at their end, addresses in odd
 /// forms (0x7f.1, 2130706433), ports that go without saying, and paths that a server could resolve
-/// to another: with "." or ".." as a segment, a backslash, or an encoded dot, slash, backslash,
-/// percent sign or control character.
+/// to another: with "." or ".." as a segment, also before a semicolon, a backslash, an escape that
+/// is none, or an encoded dot, slash, backslash, percent sign or control character.
 /// Errors: kInvalidArgument "href-not-allowed": what is wrong with it.
 Result<OutgoingUrl> ReadOutgoingUrl(const std::string& text);
 

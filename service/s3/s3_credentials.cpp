@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uintmax_t kLargestCredentials = 1 << 20;
 
-constexpr const char* kBlanks = " \t\r";
+constexpr const char* kSpaces = " \t\r";
 
 Error NoKeys(const std::string& why) {
   return {ErrorCode::kInvalidArgument,
@@ -28,12 +28,12 @@ S3Keys KeysOf(const std::string& text, const std::string& profile) {
   std::istringstream lines(text);
   bool inside = false;
   for (std::string line; std::getline(lines, line);) {
-    line = Trimmed(line, kBlanks);
+    line = Trimmed(line, kSpaces);
     if (!line.empty() && line.front() == '[') inside = line == "[" + profile + "]";
     const std::size_t equals = line.find('=');
     if (!inside || equals == std::string::npos) continue;
-    const std::string_view name = Trimmed(std::string_view(line).substr(0, equals), kBlanks);
-    const std::string_view value = Trimmed(std::string_view(line).substr(equals + 1), kBlanks);
+    const std::string_view name = Trimmed(std::string_view(line).substr(0, equals), kSpaces);
+    const std::string_view value = Trimmed(std::string_view(line).substr(equals + 1), kSpaces);
     if (name == "aws_access_key_id") keys.id = value;
     if (name == "aws_secret_access_key") keys.secret = value;
     if (name == "aws_session_token") keys.token = value;

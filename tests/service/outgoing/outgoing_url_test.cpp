@@ -78,9 +78,15 @@ TEST(OutgoingUrl, IsRefusedWhereItCouldBeReadInTwoWays) {
         "https://tiles.example.org/tiles/%252e%252e/secret", "https://tiles.example.org/tiles%2fa",
         "https://tiles.example.org/tiles/a%00.tif", "https://tiles.example.org/tiles/a%0d%0aX: y",
         "https://tiles.example.org/tiles/a\r\nX: y", "https://tiles.example.org/tiles/a b",
-        "https://tiles.example.org/tiles/a\tb"}) {
+        "https://tiles.example.org/tiles/a\tb", "https://tiles.example.org/tiles/..;/secret",
+        "https://tiles.example.org/tiles/.;x=1/a", "https://tiles.example.org/tiles/%",
+        "https://tiles.example.org/tiles/%4", "https://tiles.example.org/tiles/%zz",
+        "https://tiles.example.org/tiles/%4g"}) {
     const std::string answer = Allowed(url);
     EXPECT_TRUE(answer != "yes" && answer != "no") << url << ": " << answer;
+  }
+  for (const char* odd : {"HTTP://store:9000/x", "http://STORE:9000/x", "http://store.:9000/x"}) {
+    EXPECT_THAT(Allowed(odd), testing::EndsWith("which is http://store:9000")) << odd;
   }
   EXPECT_THAT(Allowed("http://store:9000/" + std::string(5000, 'a')), testing::HasSubstr("4096"));
   EXPECT_THAT(Allowed(std::string("http://store:9000/a\0b", 21)), testing::HasSubstr("blank"));
