@@ -88,7 +88,6 @@ export const checkJobs = async (run) => {
         'report.json': { transmissionMode: 'value' },
         'lod0.drc': { transmissionMode: 'value' },
         'lod1.drc': {},
-        'lod7.drc': {},
       },
     });
     const { json } = await get(`${location}/results`);
@@ -98,6 +97,8 @@ export const checkJobs = async (run) => {
     const bytes = Buffer.from(json['lod0.drc'].value, json['lod0.drc'].encoding);
     same(createHash('sha256').update(bytes).digest('hex'), plain['lod0.drc'].sha256, 'hash');
     same(json['lod1.drc'].sha256, plain['lod1.drc'].sha256, 'the link');
+    const beyond = await postJson(`${base}/jobs`, { inputs, outputs: { 'lod7.drc': {} } });
+    same(beyond.status, 400, 'a level that was not asked for');
   });
   await claim('jobs: raw, all by reference', async () => {
     const location = await run1({ inputs, response: 'raw' });
