@@ -53,7 +53,7 @@ class CallbackSenderTest : public HandlersTest {
     return id;
   }
   std::vector<std::string> Requests(std::size_t count) {
-    for (int i = 0; i < 600 && receiver_.requests().size() < count; ++i)
+    for (int i = 0; i < 3000 && receiver_.requests().size() < count; ++i)
       Pause(milliseconds(10), {});
     return receiver_.requests();
   }
