@@ -5,7 +5,6 @@
 #include <cstdio>
 #include <map>
 #include <mutex>
-#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -162,12 +161,7 @@ class TilesRun {
 
 Result<int> SubmitTiles(const JobClient& client, const TileSubmission& submission,
                         Reporter& reporter) {
-  std::error_code failure;
-  fs::create_directories(submission.directory, failure);
-  if (failure) {
-    return Error{ErrorCode::kIo, "cannot make the folder " + submission.directory.string() + ": " +
-                                     failure.message()};
-  }
+  if (Status made = MakeFolder(submission.directory); !made) return std::move(made.error());
   return TilesRun(client, submission, reporter).Run();
 }
 

@@ -202,15 +202,17 @@ HttpResponse AnswerResults(const HandlerContext& context, const HttpRequest& req
   Result<std::vector<Artifact>> artifacts = context.jobs.Artifacts(job.id);
   if (!artifacts) return ProblemResponse(request, ProblemOf(artifacts.error()));
   const ResultWishes wishes = ReadResultWishes(job.answer);
-  const std::string there = NamesOf(*artifacts);
-  std::vector<Output> outputs = Selected(*std::move(artifacts), wishes);
   // An echo of nothing has none.
-  const bool asked = wishes.outputs && !wishes.outputs->empty();
-  if (outputs.empty() && asked && job.process == kTerrainProcess) {
+  const bool asked = wishes.outputs && !wishes.outputs->empty() && job.process == kTerrainProcess;
+  const auto is_asked = [&wishes](const Artifact& artifact) {
+    return wishes.outputs->contains(artifact.name);
+  };
+  if (asked && std::none_of(artifacts->begin(), artifacts->end(), is_asked)) {
     return ProblemResponse(
-        request,
-        {"no-such-output", "the job has none of the outputs that were asked for; it has " + there});
+        request, {"no-such-output", "the job has none of the outputs that were asked for; it has " +
+                                        NamesOf(*artifacts)});
   }
+  std::vector<Output> outputs = Selected(*std::move(artifacts), wishes);
   if (wishes.raw) return Raw(context, request, job, std::move(outputs));
   if (Status read = ReadValues(context.jobs, job.id, outputs); !read) {
     return LostArtifact(request, job, read.error());

@@ -9,6 +9,7 @@
 
 #include "core/base/lower.h"
 #include "service/text_list.h"
+#include "service/url_query.h"
 
 namespace farhorizon {
 
@@ -41,10 +42,7 @@ bool IsAmbiguous(const std::string& path) {
   for (const char* encoded : {"%2e", "%2f", "%5c", "%25", "%0", "%1", "%7f"}) {
     if (lower.find(encoded) != std::string::npos) return true;
   }
-  for (std::size_t at = path.find('%'); at != std::string::npos; at = path.find('%', at + 1)) {
-    const std::size_t other = path.find_first_not_of("0123456789abcdefABCDEF", at + 1);
-    if (at + 2 >= path.size() || other < at + 3) return true;  // an escape that is none
-  }
+  if (!PercentDecode(path)) return true;  // an escape that is none
   for (std::size_t begin = 1; begin <= path.size();) {
     const std::size_t end = std::min(path.find('/', begin), path.size());
     const std::string_view segment = std::string_view(path).substr(begin, end - begin);
